@@ -1,0 +1,120 @@
+# Lays the host out in the build tree: a symlink per source file, a mended copy in place of a link where a mend applies,
+# and the generated style_*.h lists that let LIGGGHTS know our styles. The source itself is never written to.
+# Sets HOST_STAGE (folder) and HOST_FILES (the .cpp files to compile).
+
+set(HOST_STAGE "${CMAKE_BINARY_DIR}/host")
+file(MAKE_DIRECTORY "${HOST_STAGE}")
+file(GLOB staged RELATIVE "${HOST_SOURCE}" "${HOST_SOURCE}/*.h" "${HOST_SOURCE}/*.cpp")
+list(FILTER staged EXCLUDE REGEX "^(style_|version_liggghts\\.h|main\\.cpp$)")
+if(NOT GRAINSCOPE_VTK)
+  list(FILTER staged EXCLUDE REGEX "^dump_.*vt[km]\\.(h|cpp)$")
+endif()
+
+# One mend: `old` becomes `new` in `file`, only where `old` stands. What was mended is told at the end of the configure run.
+set(HOST_MENDS "")
+function(mend file old new why)
+  if(NOT EXISTS "${HOST_SOURCE}/${file}")
+    return()
+  endif()
+  if(file IN_LIST MENDED_FILES)
+    set(from "${CMAKE_BINARY_DIR}/mends/${file}")
+  else()
+    set(from "${HOST_SOURCE}/${file}")
+  endif()
+  file(READ "${from}" text)
+  string(FIND "${text}" "${old}" at)
+  if(at EQUAL -1)
+    return()
+  endif()
+  string(REPLACE "${old}" "${new}" text "${text}")
+  file(WRITE "${CMAKE_BINARY_DIR}/mends/${file}" "${text}")
+  set(MENDED_FILES ${MENDED_FILES} ${file} PARENT_SCOPE)
+  set(HOST_MENDS ${HOST_MENDS} "${file}: ${why}" PARENT_SCOPE)
+endfunction()
+
+mend(utils.h "return static_cast< std::ostringstream & >(( std::ostringstream() << std::dec << a ) ).str();"
+     "std::ostringstream text; text << std::dec << a; return text.str();" "an ostringstream cast that does not compile")
+mend(finish.cpp "neighbor->lists[m]->numneigh > 0" "neighbor->lists[m]->inum > 0" "a pointer compared with 0")
+mend(domain.cpp "prd_lamda[0] = prd_lamda[1] = prd_lamda[2] = 0.0;" "prd_lamda[0] = prd_lamda[1] = prd_lamda[2] = 1.0;"
+     "prd_lamda of 0 loses atoms of triclinic boxes")
+mend(domain.cpp "prd_half_lamda[0] = prd_half_lamda[1] = prd_half_lamda[2] = 0.0;"
+     "prd_half_lamda[0] = prd_half_lamda[1] = prd_half_lamda[2] = 0.5;" "prd_half_lamda of 0, likewise")
+
+foreach(name IN LISTS staged)
+  if(name IN_LIST MENDED_FILES)
+    if(IS_SYMLINK "${HOST_STAGE}/${name}")
+      file(REMOVE "${HOST_STAGE}/${name}")
+    endif()
+    configure_file("${CMAKE_BINARY_DIR}/mends/${name}" "${HOST_STAGE}/${name}" COPYONLY)
+  else()
+    file(CREATE_LINK "${HOST_SOURCE}/${name}" "${HOST_STAGE}/${name}" SYMBOLIC)
+  endif()
+endforeach()
+
+# Rewrites a file only when its content changes, so that a second configure rebuilds nothing.
+function(write_if_changed file text)
+  if(EXISTS "${file}")
+    file(READ "${file}" previous)
+    if(previous STREQUAL text)
+      return()
+    endif()
+  endif()
+  file(WRITE "${file}" "${text}")
+endfunction()
+
+# style_<list>.h: every header named <prefix>*.h, the host's or ours, that carries <marker>.
+file(GLOB our_headers "${CMAKE_SOURCE_DIR}/src/PAIR/*.h" "${CMAKE_SOURCE_DIR}/src/FIX/*.h" "${CMAKE_SOURCE_DIR}/src/COMPUTE/*.h")
+set(marked "")
+foreach(name IN LISTS staged)
+  if(name MATCHES "\\.h$")
+    list(APPEND marked "${HOST_STAGE}/${name}")
+  endif()
+endforeach()
+foreach(header IN LISTS marked our_headers)
+  file(STRINGS "${header}" markers REGEX "[A-Z]_CLASS|_MODEL\\(|SPH_KERNEL")
+  get_filename_component(name "${header}" NAME)
+  set(markers_of_${name} "${markers}")
+endforeach()
+foreach(entry
+    "ANGLE_CLASS angle_ angle" "ATOM_CLASS atom_vec_ atom" "BODY_CLASS body_ body" "BOND_CLASS bond_ bond" "COMMAND_CLASS - command"
+    "COMPUTE_CLASS compute_ compute" "DIHEDRAL_CLASS dihedral_ dihedral" "DUMP_CLASS dump_ dump" "FIX_CLASS fix_ fix"
+    "IMPROPER_CLASS improper_ improper" "INTEGRATE_CLASS - integrate" "KSPACE_CLASS - kspace" "MINIMIZE_CLASS min_ minimize"
+    "PAIR_CLASS pair_ pair" "SURFACE_MODEL surface_model_ surface_model" "NORMAL_MODEL normal_model_ normal_model"
+    "TANGENTIAL_MODEL tangential_model_ tangential_model" "COHESION_MODEL cohesion_model_ cohesion_model"
+    "ROLLING_MODEL rolling_model_ rolling_model" "READER_CLASS reader_ reader" "REGION_CLASS region_ region"
+    "CFD_DATACOUPLING_CLASS cfd_datacoupling_ cfd_datacoupling" "CFD_REGIONMODEL_CLASS cfd_regionmodel_ cfd_regionmodel" "LB_CLASS - lb"
+    "SPH_KERNEL_CLASS sph_kernel_ sph_kernel" "MESHMODULE_CLASS mesh_module_ mesh_module" "MESHMOVER_CLASS mesh_mover_ mesh_mover")
+  string(REPLACE " " ";" entry "${entry}")
+  list(GET entry 0 marker)
+  list(GET entry 1 prefix)
+  list(GET entry 2 list)
+  string(REPLACE "-" "" prefix "${prefix}")
+  set(text "")
+  foreach(header IN LISTS marked our_headers)
+    get_filename_component(name "${header}" NAME)
+    if(name MATCHES "^${prefix}" AND "${markers_of_${name}}" MATCHES "${marker}")
+      string(APPEND text "#include \"${name}\"\n")
+    endif()
+  endforeach()
+  write_if_changed("${HOST_STAGE}/style_${list}.h" "${text}")
+endforeach()
+
+file(STRINGS "${CMAKE_SOURCE_DIR}/cmake/contact_models.whitelist" combinations REGEX "^GRAN_MODEL\\(")
+set(GRAINSCOPE_WHITELIST "" CACHE FILEPATH "A file of further GRAN_MODEL(...) lines to compile")
+if(GRAINSCOPE_WHITELIST)
+  if(NOT EXISTS "${GRAINSCOPE_WHITELIST}")
+    message(FATAL_ERROR "GRAINSCOPE_WHITELIST must name a file of GRAN_MODEL(...) lines, got '${GRAINSCOPE_WHITELIST}'")
+  endif()
+  file(STRINGS "${GRAINSCOPE_WHITELIST}" extra REGEX "^GRAN_MODEL\\(")
+  list(APPEND combinations ${extra})
+  list(REMOVE_DUPLICATES combinations)
+endif()
+string(REPLACE ";" "\n" combinations "${combinations}\n")
+write_if_changed("${HOST_STAGE}/style_contact_model.h" "${combinations}")
+file(STRINGS "${HOST_SOURCE}/version_liggghts.txt" host_version LIMIT_COUNT 1)
+write_if_changed("${HOST_STAGE}/version_liggghts.h"
+                 "#define LIGGGHTS_VERSION \"LIGGGHTS-PUBLIC ${host_version} with grainscope ${PROJECT_VERSION}\"\n")
+
+set(HOST_FILES ${staged})
+list(FILTER HOST_FILES INCLUDE REGEX "\\.cpp$")
+list(TRANSFORM HOST_FILES PREPEND "${HOST_STAGE}/")

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_CONTACT_SINK_H
+#define GRAINSCOPE_CONTACT_SINK_H
+
+namespace grainscope {
+
+struct Contact;
+
+/** Whoever wants to see contacts. A source (pair_style gran/insitu) asks each sink before a force evaluation whether it wants it,
+ *  then hands it every contact once per owner. Sink and source may be destroyed in either order. */
+class ContactSink {
+ public:
+  class Source {
+   public:
+    virtual void remove(ContactSink *sink) = 0;
+   protected:
+    ~Source() {}
+  };
+
+  ContactSink() : source_(nullptr) {}
+  virtual ~ContactSink() { if (source_) source_->remove(this); }
+  ContactSink(const ContactSink &) = delete;
+  ContactSink &operator=(const ContactSink &) = delete;
+
+  /** True if the coming evaluation is wanted; called once, before it, on every rank alike. */
+  virtual bool wants_contacts() = 0;
+  /** The evaluation begins: forget the last one. */
+  virtual void begin_contacts() = 0;
+  virtual void add_contact(const Contact &contact) = 0;
+  /** True if image shifts of ghosts must be known during the evaluation. */
+  virtual bool needs_images() const { return false; }
+
+  void set_source(Source *source) { source_ = source; }
+
+ private:
+  Source *source_;
+};
+
+}
+
+#endif

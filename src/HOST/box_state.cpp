@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "box_state.h"
+#include "domain.h"
+#include "lammps.h"
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+namespace grainscope {
+
+namespace {
+
+Eigen::Matrix3d upper_triangular(const double *h) {
+  Eigen::Matrix3d m;
+  m << h[0], h[5], h[4], 0.0, h[1], h[3], 0.0, 0.0, h[2];
+  return m;
+}
+
+}
+
+BoxState::BoxState(LAMMPS_NS::LAMMPS *lmp) {
+  const LAMMPS_NS::Domain *domain = lmp->domain;
+  const double h[6] = {domain->xprd, domain->yprd, domain->zprd, domain->triclinic ? domain->yz : 0.0,
+                       domain->triclinic ? domain->xz : 0.0, domain->triclinic ? domain->xy : 0.0};
+  edges = upper_triangular(h);
+  velocity_gradient = upper_triangular(domain->h_rate) * edges.inverse();
+  centre = Eigen::Map<const Eigen::Vector3d>(domain->boxlo) + 0.5 * edges.rowwise().sum();
+  volume = h[0] * h[1] * h[2];
+}
+
+double BoxState::height(int k) const {
+  return volume / edges.col((k + 1) % 3).cross(edges.col((k + 2) % 3)).norm();
+}
+
+}

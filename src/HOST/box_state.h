@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_BOX_STATE_H
+#define GRAINSCOPE_BOX_STATE_H
+
+#include <Eigen/Core>
+
+namespace LAMMPS_NS { class LAMMPS; }
+
+namespace grainscope {
+
+/** The simulation box at one moment: H holds the edge vectors in its columns, the velocity gradient is dH/dt H^-1 and includes
+ *  the motion of a box edge that is being moved. A box that does not deform has a gradient of zero. */
+struct BoxState {
+  Eigen::Matrix3d edges = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d velocity_gradient = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double volume = 1.0;
+
+  BoxState() = default;
+  explicit BoxState(LAMMPS_NS::LAMMPS *lmp);
+
+  /** Distance between the two faces that cut edge k, k = 0, 1, 2. */
+  double height(int k) const;
+  /** Mean velocity of the affine flow at x; zero at the box centre. */
+  Eigen::Vector3d flow(const Eigen::Vector3d &x) const { return velocity_gradient * (x - centre); }
+};
+
+}
+
+#endif

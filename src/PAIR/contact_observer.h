@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_CONTACT_OBSERVER_H
+#define GRAINSCOPE_CONTACT_OBSERVER_H
+
+#include "box_state.h"
+#include "contact.h"
+#include "contact_sink.h"
+#include "contact_interface.h"
+#include "pair_gran.h"
+#include "pointers.h"
+#include <vector>
+
+namespace grainscope {
+
+/** Between the host's contact model and the sinks: turns the model's working data into one Contact and deals it out.
+ *  Inactive (no sink wants the step, or the host re-evaluates for its own output) it costs one branch per contact. */
+class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers {
+ public:
+  enum class TangentialLaw { off, no_history, history, other };
+
+  explicit ContactObserver(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
+  ~ContactObserver();
+
+  void add(ContactSink *sink);
+  void remove(ContactSink *sink) override;
+  void remove_all();
+
+  void set_law(TangentialLaw law, int spring_offset) { law_ = law; spring_offset_ = spring_offset; }
+  void set_friction(double **coefficients) { friction_ = coefficients; }
+  TangentialLaw law() const { return law_; }
+
+  /** Asks the sinks, before a force evaluation. Returns true if one of them needs image shifts. */
+  bool begin();
+  void end() { active_ = false; }
+  bool active() const { return active_; }
+  /** The box as it was in the evaluation that was observed last. */
+  const BoxState &box() const { return box_; }
+
+  /** Image shift of atom j, three integers as doubles: x_j = x_owner + H . shift. Valid when a sink asked for images. */
+  const double *image_shift(int j) const { return &image_shifts_[3 * j]; }
+  std::vector<double> &image_shifts() { return image_shifts_; }
+
+  using Sides = LIGGGHTS::ContactModels::SurfacesIntersectData;
+  void remember_spring(const Sides &s) {
+    if (law_ != TangentialLaw::history) return;
+    const double *spring = s.contact_history + spring_offset_;
+    for (int k = 0; k < 3; k++) spring_[k] = spring[k];
+  }
+  void observe(const Sides &s, const LIGGGHTS::ContactModels::ForceData &force_on_i);
+
+ private:
+  std::vector<ContactSink *> sinks_, listening_;
+  bool active_ = false;
+  TangentialLaw law_ = TangentialLaw::other;
+  int spring_offset_ = 0;
+  double spring_[3] = {0.0, 0.0, 0.0};
+  double **friction_ = nullptr;
+  BoxState box_;
+  std::vector<double> image_shifts_;
+
+  void judge_sliding(const Sides &s, Contact &contact) const;
+};
+
+}
+
+#endif

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_GRAN_INSITU_MODELS_H
+#define GRAINSCOPE_GRAN_INSITU_MODELS_H
+
+#include "granular_pair_style.h"
+
+namespace grainscope {
+
+/** The observed pair loop for the contact-model combination `hash`: compiled for every combination of the whitelist, the host's
+ *  dynamic path for all others. */
+LIGGGHTS::PairStyles::IGranularPairStyle *create_observed_loop(int64_t hash, LAMMPS_NS::LAMMPS *lmp, LAMMPS_NS::PairGran *pair);
+
+}
+
+#endif

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "pair_gran_insitu.h"
+#include "contact_observer.h"
+#include "gran_insitu_models.h"
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_contact_history.h"
+#include "force.h"
+#include "global_properties.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+#include "update.h"
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using grainscope::BoxState;
+using grainscope::ContactObserver;
+
+struct PairGranInsitu::Impl {
+  explicit Impl(LAMMPS *lmp) : observer(lmp) {}
+  ContactObserver observer;
+  std::unique_ptr<LIGGGHTS::PairStyles::IGranularPairStyle> loop;
+  double **friction = nullptr;
+  bool warned_of_stale_springs = false;
+  bool sending_images = false;
+  bigint images_of_build = -1;
+};
+
+PairGranInsitu::PairGranInsitu(LAMMPS *lmp) : PairGranProxy(lmp), impl_(new Impl(lmp)) {
+  comm_forward = 3;  // the image shifts of ghosts
+}
+
+PairGranInsitu::~PairGranInsitu() {}
+
+ContactObserver &PairGranInsitu::observer() { return impl_->observer; }
+
+PairGranInsitu *PairGranInsitu::required_by(LAMMPS *lmp, const char *who) {
+  PairGranInsitu *pair = dynamic_cast<PairGranInsitu *>(lmp->force->pair);
+  if (!pair) {
+    const std::string message = std::string(who) + " requires pair_style gran/insitu, got '" +
+        (lmp->force->pair ? lmp->force->pair_style : "no pair style") + "'";
+    lmp->error->all(FLERR, message.c_str());
+  }
+  return pair;
+}
+
+void PairGranInsitu::settings(int narg, char **arg) {
+  if (force->pair != this)
+    error->all(FLERR, "pair_style gran/insitu cannot be a sub-style of hybrid: contact history works with one granular style only; "
+                      "use it alone");
+  const int64_t hash = LIGGGHTS::PairStyles::Factory::instance().selectVariant("gran", narg, arg, force->custom_contact_models);
+  if (hash == -1)
+    error->all(FLERR, "pair_style gran/insitu: invalid contact model (check for typos, and enable at least one model)");
+  history_arg.clear();
+  dnum_pairgran = 0;
+  impl_->loop.reset(grainscope::create_observed_loop(hash, lmp, this));
+  impl_->loop->settings(narg, arg, this);
+
+  // fix contacthistory and fix check/timestep/gran look for a style of exactly this name; restart files carry it too.
+  delete[] force->pair_style;
+  force->pair_style = new char[5];
+  strcpy(force->pair_style, "gran");
+}
+
+void PairGranInsitu::init_style() {
+  impl_->observer.remove_all();
+  impl_->images_of_build = -1;
+  PairGranProxy::init_style();
+  warn_of_stale_springs();
+}
+
+void PairGranInsitu::init_granular() {
+  using Law = ContactObserver::TangentialLaw;
+  impl_->loop->init_granular();
+  Law law = Law::other;
+  if (contact_match("tangential", "off")) law = Law::off;
+  else if (contact_match("tangential", "no_history")) law = Law::no_history;
+  else if (contact_match("tangential", "history")) law = Law::history;
+  int spring = 0;
+  if (law == Law::history)
+    while (history_arg[spring].name != "shearx") spring++;
+  impl_->observer.set_law(law, spring);
+
+  impl_->friction = nullptr;
+  if (law == Law::no_history || law == Law::history) {
+    force->registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
+    force->registry.connect("coeffFrict", impl_->friction, "pair_style gran/insitu");
+  }
+  impl_->observer.set_friction(impl_->friction);
+}
+
+void PairGranInsitu::warn_of_stale_springs() {
+  if (impl_->warned_of_stale_springs || impl_->observer.law() != ContactObserver::TangentialLaw::history) return;
+  if (neighbor->contactDistanceFactor > 1.0) return;
+  int spheres = atom->sphere_flag;
+  if (atom->superquadric_flag)
+    for (int i = 0; i < atom->nlocal && !spheres; i++)
+      spheres = atom->shape[i][0] == atom->shape[i][1] && atom->shape[i][1] == atom->shape[i][2];
+  int any = 0;
+  MPI_Allreduce(&spheres, &any, 1, MPI_INT, MPI_MAX, world);
+  if (!any) return;
+  impl_->warned_of_stale_springs = true;
+  if (comm->me == 0)
+    error->warning(FLERR, "spheres at contact distance factor 1.0 keep the tangential spring of a contact that has opened, until the "
+                          "next neighbour list: add the line 'neigh_modify contact_distance_factor 1.05'");
+}
+
+/** Contact history is keyed by grain ID: with two images of one grain within reach of another it is ambiguous. */
+void PairGranInsitu::require_box_large_enough() {
+  const BoxState box(lmp);
+  const double needed = 2.0 * neighbor->cutneighmax;
+  const int periodic[3] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
+  for (int k = 0; k < 3; k++)
+    if (periodic[k] && box.height(k) < needed) {
+      char message[256];
+      snprintf(message, sizeof message, "pair_style gran/insitu: the periodic box must be at least 2 x (largest diameter + skin) = %g "
+               "high along %c, got %g: two images of one grain could touch the same neighbour", needed, "xyz"[k], box.height(k));
+      error->all(FLERR, message);
+    }
+}
+
+void PairGranInsitu::compute(int eflag, int vflag) {
+  if (neighbor->ago == 0 && history) require_box_large_enough();
+  if (impl_->observer.begin()) update_image_shifts();
+  PairGran::compute(eflag, vflag);
+  impl_->observer.end();
+}
+
+/** The host re-evaluates all contacts for compute pair/gran/local, and its surface model writes to the contact history while at it:
+ *  the history is put back, so that output never changes the trajectory. */
+void PairGranInsitu::compute_pgl(int eflag, int vflag) {
+  if (!listgranhistory) {
+    PairGran::compute_pgl(eflag, vflag);
+    return;
+  }
+  std::vector<double> values;
+  std::vector<int> flags;
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii];
+    const int n = list->numneigh[i];
+    values.insert(values.end(), listgranhistory->firstdouble[i], listgranhistory->firstdouble[i] + n * dnum());
+    flags.insert(flags.end(), listgranhistory->firstneigh[i], listgranhistory->firstneigh[i] + n);
+  }
+  PairGran::compute_pgl(eflag, vflag);
+  auto value = values.begin();
+  auto flag = flags.begin();
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii];
+    const int n = list->numneigh[i];
+    std::copy(value, value + n * dnum(), listgranhistory->firstdouble[i]);
+    std::copy(flag, flag + n, listgranhistory->firstneigh[i]);
+    value += n * dnum();
+    flag += n;
+  }
+}
+
+void PairGranInsitu::compute_force(int eflag, int vflag, int addflag) { impl_->loop->compute_force(this, eflag, vflag, addflag); }
+
+void PairGranInsitu::write_restart_settings(FILE *file) { impl_->loop->write_restart_settings(file); }
+
+void PairGranInsitu::read_restart_settings(FILE *, const int, const int) {
+  error->all(FLERR, "restart files name this style 'gran': re-issue pair_style gran/insitu after read_restart");
+}
+
+int PairGranInsitu::get_history_offset(const std::string name) { return impl_->loop->get_history_offset(name); }
+double PairGranInsitu::stressStrainExponent() { return impl_->loop->stressStrainExponent(); }
+int64_t PairGranInsitu::hashcode() { return impl_->loop->hashcode(); }
+bool PairGranInsitu::contact_match(const std::string kind, const std::string model) {
+  return impl_->loop->contact_match(kind, model);
+}
+
+/** Which periodic image each ghost is, in whole box edges. The swaps know it exactly; positions do not, because grains drift out of
+ *  the box between two neighbour lists. Once per neighbour list that is observed. */
+void PairGranInsitu::update_image_shifts() {
+  if (impl_->images_of_build == neighbor->lastcall) return;
+  impl_->images_of_build = neighbor->lastcall;
+  impl_->observer.image_shifts().assign(3 * (atom->nlocal + atom->nghost), 0.0);
+  impl_->sending_images = true;
+  comm->forward_comm_pair(this);
+  impl_->sending_images = false;
+}
+
+int PairGranInsitu::pack_comm(int n, int *list, double *buf, int pbc_flag, int *pbc) {
+  if (!impl_->sending_images) return PairGran::pack_comm(n, list, buf, pbc_flag, pbc);
+  for (int k = 0; k < n; k++)
+    for (int d = 0; d < 3; d++) buf[3 * k + d] = impl_->observer.image_shifts()[3 * list[k] + d] + (pbc_flag ? pbc[d] : 0);
+  return 3;
+}
+
+void PairGranInsitu::unpack_comm(int n, int first, double *buf) {
+  if (!impl_->sending_images) return PairGran::unpack_comm(n, first, buf);
+  std::copy(buf, buf + 3 * n, impl_->observer.image_shifts().begin() + 3 * first);
+}

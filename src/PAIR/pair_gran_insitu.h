@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifdef PAIR_CLASS
+
+PairStyle(gran/insitu,PairGranInsitu)
+
+#else
+
+#ifndef LMP_PAIR_GRAN_INSITU_H
+#define LMP_PAIR_GRAN_INSITU_H
+
+#include "pair_gran_proxy.h"
+#include <memory>
+
+namespace grainscope { class ContactObserver; class ContactSink; }
+
+namespace LAMMPS_NS {
+
+/** pair_style gran, with every contact of a force evaluation offered to the computes and fixes that ask for it.
+ *  Same arguments, same loop, same trajectory to the last bit; see doc/pair_gran_insitu.md. */
+class PairGranInsitu : public PairGranProxy {
+ public:
+  explicit PairGranInsitu(LAMMPS *lmp);
+  ~PairGranInsitu();
+
+  /** The one in use, or an error that names `who` and what is in use instead. */
+  static PairGranInsitu *required_by(LAMMPS *lmp, const char *who);
+
+  void settings(int narg, char **arg);
+  void init_style();
+  void init_granular();
+  void compute(int eflag, int vflag);
+  void compute_pgl(int eflag, int vflag);
+  void compute_force(int eflag, int vflag, int addflag);
+  void write_restart_settings(FILE *file);
+  void read_restart_settings(FILE *file, const int major, const int minor);
+  int get_history_offset(const std::string name);
+  double stressStrainExponent();
+  bool contact_match(const std::string kind, const std::string model);
+  int64_t hashcode();
+  int pack_comm(int n, int *list, double *buf, int pbc_flag, int *pbc);
+  void unpack_comm(int n, int first, double *buf);
+
+  grainscope::ContactObserver &observer();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+
+  void require_box_large_enough();
+  void warn_of_stale_springs();
+  void update_image_shifts();
+};
+
+}
+
+#endif
+#endif
