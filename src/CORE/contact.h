@@ -29,6 +29,7 @@ struct Contact {
   double normal_stiffness;               // secant k_n: elastic force / overlap
   double tangential_stiffness;           // k_t
   double damping_coefficient;            // gamma_n: damping force / normal velocity
+  double tangential_damping;             // gamma_t, acting while the contact does not slide
 };
 
 }

@@ -8,10 +8,12 @@ namespace LAMMPS_NS { class LAMMPS; }
 
 namespace grainscope {
 
-/** The simulation box at one moment: H holds the edge vectors in its columns, the velocity gradient is dH/dt H^-1 and includes
+/** The simulation box at one moment: H holds the edge vectors in its columns, dH/dt
+ *  their velocities; the velocity gradient is dH/dt H^-1 and includes
  *  the motion of a box edge that is being moved. A box that does not deform has a gradient of zero. */
 struct BoxState {
   Eigen::Matrix3d edges = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d edge_velocities = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d velocity_gradient = Eigen::Matrix3d::Zero();
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double volume = 1.0;

@@ -90,6 +90,7 @@ void ContactObserver::observe(const Sides &s, const LIGGGHTS::ContactModels::For
   c.normal_stiffness = s.kn;
   c.tangential_stiffness = s.kt;
   c.damping_coefficient = s.gamman;
+  c.tangential_damping = law_ == TangentialLaw::off ? 0.0 : s.gammat;
   c.normal_velocity = s.vn;
   // `limitForce` sets a negative total to exactly 0: the damping part is then what cancels the elastic one.
   c.normal_damping = s.Fn == 0.0 ? -s.kn * s.deltan : -s.gamman * s.vn;

@@ -39,6 +39,10 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   /** Image shift of atom j, three integers as doubles: x_j = x_owner + H . shift. Valid when a sink asked for images. */
   const double *image_shift(int j) const { return &image_shifts_[3 * j]; }
   std::vector<double> &image_shifts() { return image_shifts_; }
+  /** Velocity of ghost j less its owner's, dH/dt . shift, where the box deforms with `remap v`. */
+  Eigen::Vector3d image_velocity(int j) const {
+    return box_.edge_velocities * Eigen::Map<const Eigen::Vector3d>(image_shift(j));
+  }
 
   using Sides = LIGGGHTS::ContactModels::SurfacesIntersectData;
   void remember_spring(const Sides &s) {

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifdef COMPUTE_CLASS
+
+ComputeStyle(contact/local,ComputeContactLocal)
+
+#else
+
+#ifndef LMP_COMPUTE_CONTACT_LOCAL_H
+#define LMP_COMPUTE_CONTACT_LOCAL_H
+
+#include "contact_compute.h"
+#include <memory>
+
+namespace LAMMPS_NS {
+
+/** One row per contact between grains of the group, straight from the force evaluation that drove the step, each contact once over
+ *  all ranks; for dump local. Per grain the forces of the rows sum to f. Columns by keyword; all of them by default, in the order of the
+ *  table in doc/compute_contact_local.md. */
+class ComputeContactLocal : public grainscope::ContactCompute {
+ public:
+  ComputeContactLocal(class LAMMPS *lmp, int &iarg, int narg, char **arg);
+  ~ComputeContactLocal();
+  void compute_local();
+  double memory_usage();
+
+  void begin_contacts();
+  void add_contact(const grainscope::Contact &contact);
+  bool needs_images() const { return true; }
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+
+  bool is_mine(const grainscope::Contact &contact) const;
+};
+
+}
+
+#endif
+#endif

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "compute_dissipation.h"
+#include "arguments.h"
+#include "contact_observer.h"
+#include "grain_power.h"
+#include "atom.h"
+#include "domain.h"
+#include "update.h"
+
+using namespace LAMMPS_NS;
+using Eigen::Map;
+using Eigen::Vector3d;
+using grainscope::Contact;
+
+struct ComputeDissipation::Impl {
+  enum class Mode { instantaneous, step } mode = Mode::step;
+  double normal = 0.0, friction = 0.0, tangential_damping = 0.0, contacts = 0.0, sliding = 0.0;
+  grainscope::GrainPower normal_damping_forces, tangential_damping_forces;
+};
+
+ComputeDissipation::ComputeDissipation(LAMMPS *lmp, int &iarg, int narg, char **arg)
+    : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
+  grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
+  while (!arguments.done()) {
+    const std::string keyword = arguments.word("a keyword");
+    if (keyword != "mode") arguments.fail("the only keyword is 'mode', got '" + keyword + "'");
+    impl_->mode = arguments.choice(keyword, {"instantaneous", "step"}) == "step" ? Impl::Mode::step : Impl::Mode::instantaneous;
+  }
+  scalar_flag = vector_flag = 1;
+  extscalar = 1;
+  extvector = 1;
+  size_vector = 5;
+  vector = new double[size_vector]();
+}
+
+ComputeDissipation::~ComputeDissipation() { delete[] vector; }
+
+void ComputeDissipation::init() {
+  ContactCompute::init();
+  if (observer_->law() == grainscope::ContactObserver::TangentialLaw::other)
+    grainscope::Arguments(lmp, name_, 0, 0, nullptr).fail("knows the friction of 'tangential' off, no_history and history only");
+}
+
+bool ComputeDissipation::needs_images() const { return impl_->mode == Impl::Mode::step; }
+
+void ComputeDissipation::begin_contacts() {
+  impl_->normal = impl_->friction = impl_->tangential_damping = impl_->contacts = impl_->sliding = 0.0;
+  if (impl_->mode == Impl::Mode::instantaneous) return;
+  impl_->normal_damping_forces.reset(atom->nlocal);
+  impl_->tangential_damping_forces.reset(atom->nlocal);
+}
+
+void ComputeDissipation::add_contact(const Contact &c) {
+  if (!both_in_group(c.i, c.j)) return;
+  Impl &sums = *impl_;
+  sums.contacts += c.weight;
+  if (c.sliding) sums.sliding += c.weight;
+  const bool damped = !c.sliding && c.tangential_damping > 0.0;
+
+  if (sums.mode == Impl::Mode::instantaneous) {
+    sums.normal -= c.weight * c.normal_damping * c.normal_velocity;
+    if (c.sliding) sums.friction -= c.weight * c.tangential_force.dot(c.tangential_velocity);
+    if (damped) sums.tangential_damping += c.weight * c.tangential_damping * c.tangential_velocity.squaredNorm();
+    return;
+  }
+  if (c.sliding) sums.friction += c.weight * c.tangential_force.norm() * c.slip / update->dt;
+  const Vector3d lever_i = c.point - Map<const Vector3d>(atom->x[c.i]);
+  const Vector3d lever_j = lever_i + c.branch;
+  Vector3d image_velocity = Vector3d::Zero();
+  if (c.ghost && domain->deform_vremap && (atom->mask[c.j] & domain->deform_groupbit))
+    image_velocity = observer_->image_velocity(c.j);
+  sums.normal_damping_forces.add(c, c.normal_damping * c.normal, lever_i, lever_j, image_velocity);
+  if (damped)
+    sums.tangential_damping_forces.add(c, -c.tangential_damping * c.tangential_velocity, lever_i, lever_j, image_velocity);
+}
+
+void ComputeDissipation::compute_vector() {
+  require_tally();
+  invoked_vector = update->ntimestep;
+  const Impl &sums = *impl_;
+  double normal = sums.normal, tangential_damping = sums.tangential_damping;
+  if (sums.mode == Impl::Mode::step) {
+    normal = -sums.normal_damping_forces.power(atom->v, atom->omega);
+    tangential_damping = -sums.tangential_damping_forces.power(atom->v, atom->omega);
+  }
+  const double values[5] = {normal, sums.friction, tangential_damping, sums.contacts, sums.sliding};
+  std::copy(values, values + 5, vector);
+  sum_over_ranks(vector, 5);
+  scalar = vector[0] + vector[1] + vector[2];
+}
+
+double ComputeDissipation::compute_scalar() {
+  invoked_scalar = update->ntimestep;
+  if (invoked_vector != update->ntimestep) compute_vector();
+  return scalar;
+}

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "compute_nematic.h"
+#include "arguments.h"
+#include "atom.h"
+#include "error.h"
+#include "nematic.h"
+#include "update.h"
+#include <Eigen/Geometry>
+
+using namespace LAMMPS_NS;
+using Eigen::Vector3d;
+
+ComputeNematic::ComputeNematic(LAMMPS *lmp, int &iarg, int narg, char **arg) : Compute(lmp, iarg, narg, arg) {
+  grainscope::Arguments arguments(lmp, "compute nematic", iarg, narg, arg);
+  if (!arguments.done()) arguments.fail("takes no keywords, got '" + arguments.word("nothing") + "'");
+  if (!atom->superquadric_flag && !atom->sphere_flag) arguments.fail("needs atom_style superquadric or sphere");
+  scalar_flag = vector_flag = 1;
+  extscalar = 0;
+  extvector = 0;
+  size_vector = 20;
+  vector = new double[size_vector]();
+}
+
+ComputeNematic::~ComputeNematic() { delete[] vector; }
+
+void ComputeNematic::init() {}
+
+void ComputeNematic::compute_vector() {
+  invoked_vector = update->ntimestep;
+  grainscope::NematicSums sums;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    sums.add_spin(Eigen::Map<const Vector3d>(atom->omega[i]));
+    if (!atom->superquadric_flag) continue;
+    const grainscope::SymmetryAxis axis = grainscope::symmetry_axis(atom->shape[i]);
+    if (axis.shape == grainscope::Shape::sphere) continue;
+    const double *q = atom->quaternion[i];
+    sums.add_axis(Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * Vector3d::Unit(axis.index), axis.shape);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums.sums.data(), sums.sums.size(), MPI_DOUBLE, MPI_SUM, world);
+
+  const grainscope::Nematic nematic(sums);
+  const Eigen::Matrix3d &m = nematic.q;
+  double *out = vector;
+  for (double value : {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2), nematic.director[0], nematic.director[1],
+                       nematic.director[2], nematic.biaxiality, nematic.theta, nematic.director_theta, nematic.spin[0], nematic.spin[1],
+                       nematic.spin[2], nematic.grains_with_axis, nematic.grains_with_theta, nematic.eigenvalues[0],
+                       nematic.eigenvalues[1], nematic.eigenvalues[2]})
+    *out++ = value;
+  scalar = nematic.order;
+}
+
+double ComputeNematic::compute_scalar() {
+  invoked_scalar = update->ntimestep;
+  if (invoked_vector != update->ntimestep) compute_vector();
+  return scalar;
+}

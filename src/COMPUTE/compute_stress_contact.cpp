@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "compute_stress_contact.h"
+#include "arguments.h"
+#include "contact_observer.h"
+#include "group_motion.h"
+#include "stress.h"
+#include "atom.h"
+#include "fix_property_global.h"
+#include "force.h"
+#include "modify.h"
+#include "update.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using grainscope::GroupMotion;
+
+ComputeStressContact::ComputeStressContact(LAMMPS *lmp, int &iarg, int narg, char **arg)
+    : ContactCompute(lmp, iarg, narg, arg), sums_(new grainscope::StressSums) {
+  grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
+  if (!arguments.done()) arguments.fail("takes no keywords, got '" + arguments.word("nothing") + "'");
+  scalar_flag = vector_flag = 1;
+  extscalar = 0;
+  extvector = 0;
+  size_vector = 35;
+  vector = new double[size_vector]();
+}
+
+ComputeStressContact::~ComputeStressContact() { delete[] vector; }
+
+void ComputeStressContact::begin_contacts() { *sums_ = grainscope::StressSums(); }
+
+void ComputeStressContact::add_contact(const grainscope::Contact &contact) {
+  if (both_in_group(contact.i, contact.j)) sums_->add(contact);
+}
+
+/** Smallest Young's modulus among the types of the group; 0 when the deck defines none. */
+double ComputeStressContact::softest_modulus() const {
+  auto *moduli = static_cast<FixPropertyGlobal *>(
+      modify->find_fix_property("youngsModulus", "property/global", "peratomtype", 0, 0, style, false));
+  double softest = HUGE_VAL;
+  if (moduli)
+    for (int i = 0; i < atom->nlocal; i++)
+      if (in_group(i)) softest = std::fmin(softest, moduli->compute_vector(atom->type[i] - 1));
+  MPI_Allreduce(MPI_IN_PLACE, &softest, 1, MPI_DOUBLE, MPI_MIN, world);
+  return std::isfinite(softest) ? softest : 0.0;
+}
+
+/** Smallest over the group of shortest / middle semi-axis: min(alpha, 1) for spheroids. */
+double ComputeStressContact::flattest_shape() const {
+  double flattest = 1.0;
+  if (atom->superquadric_flag)
+    for (int i = 0; i < atom->nlocal; i++) {
+      if (!in_group(i)) continue;
+      std::array<double, 3> s = {atom->shape[i][0], atom->shape[i][1], atom->shape[i][2]};
+      std::sort(s.begin(), s.end());
+      flattest = std::fmin(flattest, s[0] / s[1]);
+    }
+  MPI_Allreduce(MPI_IN_PLACE, &flattest, 1, MPI_DOUBLE, MPI_MIN, world);
+  return flattest;
+}
+
+void ComputeStressContact::compute_vector() {
+  require_tally();
+  invoked_vector = update->ntimestep;
+  grainscope::StressSums all = *sums_;
+  sum_over_ranks(all.sums.data(), all.sums.size());
+  MPI_Allreduce(MPI_IN_PLACE, &all.largest_overlap, 1, MPI_DOUBLE, MPI_MAX, world);
+
+  const grainscope::BoxState &box = observer_->box();
+  const GroupMotion motion(lmp, groupbit, box);
+  // Forces over areas are in pressure units only where force->nktv2p is 1; cgs and si both are.
+  const double unit = force->nktv2p / box.volume;
+  const Eigen::Matrix3d total = all.total(1.0) * unit;
+  const Eigen::Matrix3d tangential = all.tangential(1.0) * unit;
+  const Eigen::Matrix3d kinetic = -peculiar_momentum_flux(lmp, groupbit, box, motion) * force->mvv2e * unit;
+  const Eigen::Matrix3d normal = total - tangential;
+
+  double *out = vector;
+  const auto six = [&out](const Eigen::Matrix3d &s) {
+    for (double value : {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(0, 2), s(1, 2)}) *out++ = value;
+  };
+  six(total);
+  *out++ = total(1, 0);
+  six(normal);
+  six(tangential);
+  six(kinetic);
+  const double pressure = -total(1, 1);
+  const double per_pressure = pressure > 0.0 ? 1.0 / pressure : 0.0;
+  const double contacts = all.contacts();
+  const double per_contact = contacts > 0.0 ? 1.0 / contacts : 0.0;
+  *out++ = pressure;
+  *out++ = total(0, 1) * per_pressure;
+  *out++ = (total(0, 0) - total(1, 1)) * per_pressure;
+  *out++ = (total(1, 1) - total(2, 2)) * per_pressure;
+  *out++ = contacts;
+  *out++ = motion.grains > 0.0 ? 2.0 * contacts / motion.grains : 0.0;
+  *out++ = all.sliding() * per_contact;
+  *out++ = all.overlaps() * per_contact;
+  *out++ = all.largest_overlap;
+  *out++ = flattest_shape() * std::pow(softest_modulus() * per_pressure, 2.0 / 3.0);
+  scalar = pressure;
+}
+
+double ComputeStressContact::compute_scalar() {
+  invoked_scalar = update->ntimestep;
+  if (invoked_vector != update->ntimestep) compute_vector();
+  return scalar;
+}

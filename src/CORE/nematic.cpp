@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "nematic.h"
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+namespace grainscope {
+
+void NematicSums::add_axis(const Eigen::Vector3d &p, Shape shape) {
+  const double products[6] = {p[0] * p[0], p[1] * p[1], p[2] * p[2], p[0] * p[1], p[0] * p[2], p[1] * p[2]};
+  for (int k = 0; k < 6; k++) sums[k] += products[k];
+  sums[6] += 1.0;
+  if (shape == Shape::oblate) sums[10] += 1.0;
+  const double in_plane = p[0] * p[0] + p[1] * p[1];
+  if (in_plane < 1e-18) return;
+  const double sign = shape == Shape::oblate ? -1.0 : 1.0;  // the major axis lies at right angles to p: 2 theta turns by pi
+  sums[7] += sign * (p[0] * p[0] - p[1] * p[1]) / in_plane;
+  sums[8] += sign * 2.0 * p[0] * p[1] / in_plane;
+  sums[9] += 1.0;
+}
+
+void NematicSums::add_spin(const Eigen::Vector3d &omega) {
+  for (int k = 0; k < 3; k++) sums[11 + k] += omega[k];
+  sums[14] += 1.0;
+}
+
+double line_angle(double x, double y) {
+  const double angle = std::atan2(y, x);
+  if (angle > M_PI_2) return angle - M_PI;
+  return angle <= -M_PI_2 ? angle + M_PI : angle;
+}
+
+Nematic::Nematic(const NematicSums &all)
+    : q(Eigen::Matrix3d::Zero()), eigenvalues(Eigen::Vector3d::Zero()), director(Eigen::Vector3d::Zero()), order(0.0), biaxiality(0.0),
+      theta(0.0), director_theta(0.0), spin(Eigen::Vector3d::Zero()), grains_with_axis(all.sums[6]), grains_with_theta(all.sums[9]) {
+  const auto &s = all.sums;
+  if (s[14] > 0.0) spin = Eigen::Vector3d(s[11], s[12], s[13]) / s[14];
+  if (grains_with_axis == 0.0) return;
+  q << s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2];
+  q /= grains_with_axis;
+  q.diagonal().array() -= 1.0 / 3.0;
+
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(q);
+  eigenvalues = solver.eigenvalues().reverse();
+  director = solver.eigenvectors().col(2);
+  int largest;
+  director.cwiseAbs().maxCoeff(&largest);
+  if (director[largest] < 0.0) director = -director;
+  order = 1.5 * eigenvalues[0];
+  biaxiality = eigenvalues[1] - eigenvalues[2];
+
+  const bool mostly_oblate = 2.0 * s[10] > grains_with_axis;
+  director_theta = mostly_oblate ? line_angle(director[1], -director[0]) : line_angle(director[0], director[1]);
+  if (grains_with_theta > 0.0) theta = 0.5 * std::atan2(s[8], s[7]);
+}
+
+}

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "arguments.h"
+#include "error.h"
+#include <cmath>
+#include <cstdlib>
+
+namespace grainscope {
+
+Arguments::Arguments(LAMMPS_NS::LAMMPS *lmp, const std::string &style, int first, int narg, char **arg)
+    : Pointers(lmp), style_(style), words_(arg + std::min(first, narg), arg + narg) {}
+
+std::string Arguments::word(const std::string &wanted) {
+  if (done()) fail("expected " + wanted + (at_ ? " after '" + words_[at_ - 1] + "'" : "") + ", got the end of the command");
+  return words_[at_++];
+}
+
+std::string Arguments::choice(const std::string &keyword, const std::vector<std::string> &choices) {
+  std::string list;
+  for (std::size_t k = 0; k < choices.size(); k++)
+    list += (k == 0 ? "" : k + 1 < choices.size() ? ", " : " or ") + choices[k];
+  const std::string got = word(list);
+  for (const std::string &one : choices)
+    if (got == one) return got;
+  fail(keyword, list, got);
+}
+
+bool Arguments::is_number(const std::string &text, double &value) {
+  char *end = nullptr;
+  value = std::strtod(text.c_str(), &end);
+  return !text.empty() && !std::isspace(static_cast<unsigned char>(text[0])) && *end == '\0' && std::isfinite(value);
+}
+
+double Arguments::number(const std::string &keyword, const std::string &requirement, bool (*accept)(double)) {
+  const std::string got = word(requirement);
+  double value;
+  if (!is_number(got, value) || !accept(value)) fail(keyword, requirement, got);
+  return value;
+}
+
+void Arguments::fail(const std::string &keyword, const std::string &requirement, const std::string &got) const {
+  fail("'" + keyword + "' must be " + requirement + ", got '" + got + "'");
+}
+
+void Arguments::fail(const std::string &message) const {
+  error->all(FLERR, (style_ + ": " + message).c_str());
+  std::abort();  // not reached: error->all ends the run
+}
+
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_ARGUMENTS_H
+#define GRAINSCOPE_ARGUMENTS_H
+
+#include "pointers.h"
+#include <string>
+#include <vector>
+
+namespace grainscope {
+
+/** The words of one command, read in order. Every complaint names the style, the keyword, the requirement and the value received:
+ *  `compute dissipation: 'mode' must be instantaneous or step, got 'fast'`. Errors are collective: all ranks read the same words. */
+class Arguments : private LAMMPS_NS::Pointers {
+ public:
+  Arguments(LAMMPS_NS::LAMMPS *lmp, const std::string &style, int first, int narg, char **arg);
+
+  bool done() const { return at_ == words_.size(); }
+  /** The next word; an error that names `wanted` when there is none. */
+  std::string word(const std::string &wanted);
+  /** The value that follows `keyword`, as one of `choices`. */
+  std::string choice(const std::string &keyword, const std::vector<std::string> &choices);
+  bool yes_or_no(const std::string &keyword) { return choice(keyword, {"yes", "no"}) == "yes"; }
+  /** A finite number, all of the word; `requirement` is said when it is none or `accept` is false for it. */
+  double number(const std::string &keyword, const std::string &requirement, bool (*accept)(double));
+  /** `text` as a finite number; false when it is not one to the last character. */
+  static bool is_number(const std::string &text, double &value);
+
+  [[noreturn]] void fail(const std::string &keyword, const std::string &requirement, const std::string &got) const;
+  [[noreturn]] void fail(const std::string &message) const;
+
+ private:
+  std::string style_;
+  std::vector<std::string> words_;
+  std::size_t at_ = 0;
+};
+
+}
+
+#endif

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact_compute.h"
+#include "contact_observer.h"
+#include "pair_gran_insitu.h"
+#include "atom.h"
+#include "error.h"
+#include "update.h"
+
+namespace grainscope {
+
+ContactCompute::ContactCompute(LAMMPS_NS::LAMMPS *lmp, int &iarg, int narg, char **arg)
+    : Compute(lmp, iarg, narg, arg), observer_(nullptr), name_(std::string("compute ") + style), tallied_(-1) {
+  timeflag = 1;
+}
+
+void ContactCompute::init() {
+  observer_ = &LAMMPS_NS::PairGranInsitu::required_by(lmp, name_.c_str())->observer();
+  observer_->add(this);
+  tallied_ = -1;
+}
+
+bool ContactCompute::wants_contacts() {
+  if (!matchstep(update->ntimestep)) return false;
+  tallied_ = update->ntimestep;
+  return true;
+}
+
+bool ContactCompute::in_group(int i) const { return atom->mask[i] & groupbit; }
+
+bool ContactCompute::both_in_group(int i, int j) const { return atom->mask[i] & atom->mask[j] & groupbit; }
+
+void ContactCompute::require_tally() const {
+  if (tallied_ == update->ntimestep) return;
+  const std::string message = name_ + " " + id + ": not tallied on this step, because nobody announced it: ask through thermo, "
+                              "fix ave/time, a dump, or a variable that one of them uses";
+  error->all(FLERR, message.c_str());
+}
+
+void ContactCompute::sum_over_ranks(double *values, int n) const {
+  MPI_Allreduce(MPI_IN_PLACE, values, n, MPI_DOUBLE, MPI_SUM, world);
+}
+
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_CONTACT_COMPUTE_H
+#define GRAINSCOPE_CONTACT_COMPUTE_H
+
+#include "compute.h"
+#include "contact_sink.h"
+#include <string>
+
+namespace grainscope {
+
+class ContactObserver;
+
+/** A compute that sees contacts: it listens to the force evaluations of the steps it is announced for, as LAMMPS announces
+ *  computes (thermo, fix ave/time, dumps and variables in them do), and refuses to answer for any other step. */
+class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
+ public:
+  ContactCompute(LAMMPS_NS::LAMMPS *lmp, int &iarg, int narg, char **arg);
+
+  void init();
+  bool wants_contacts();
+
+ protected:
+  ContactObserver *observer_;
+  std::string name_;  // "compute <style>", for messages
+
+  bool both_in_group(int i, int j) const;
+  bool in_group(int i) const;
+  /** Errors unless the current step was tallied. */
+  void require_tally() const;
+  /** Sums `values` over all ranks, in place. */
+  void sum_over_ranks(double *values, int n) const;
+
+ private:
+  LAMMPS_NS::bigint tallied_;
+};
+
+}
+
+#endif
