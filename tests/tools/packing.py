@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Initial states: a box and its grains, and the deck lines that create them."""
+from dataclasses import dataclass
+import math
+
+import numpy as np
+
+DENSITY = 1000.0
+SKIN = 0.2
+
+
+def number(value):
+    """A double as text that reads back as the same double."""
+    return repr(float(value))
+
+
+def numbers(values):
+    return " ".join(number(v) for v in values)
+
+
+@dataclass
+class Grain:
+    position: tuple
+    semi_axes: tuple = (1.0, 1.0, 1.0)
+    quaternion: tuple = (1.0, 0.0, 0.0, 0.0)
+    velocity: tuple = (0.0, 0.0, 0.0)
+    omega: tuple = (0.0, 0.0, 0.0)
+    type: int = 1
+    blockiness: tuple = (2.0, 2.0)
+
+    def volume(self):
+        return 4.0 / 3.0 * math.pi * math.prod(self.semi_axes)
+
+    def mass(self):
+        return DENSITY * self.volume()
+
+
+@dataclass
+class Packing:
+    """atom_style is 'superquadric', or 'sphere', which needs three equal semi-axes."""
+    edges: tuple
+    grains: list
+    tilt: float = 0.0
+    atom_style: str = "superquadric"
+    types: int = 1
+    origin: tuple = (0.0, 0.0, 0.0)
+
+    def lines(self):
+        (x, y, z), (lx, ly, lz) = self.origin, self.edges
+        bounds = numbers([x, x + lx, y, y + ly, z, z + lz])
+        yield f"region box prism {bounds} {number(self.tilt)} 0 0 units box"
+        yield f"create_box {self.types} box"
+        for k, grain in enumerate(self.grains, 1):
+            yield f"create_atoms {grain.type} single {numbers(grain.position)} units box"
+            yield f"set atom {k} {self._shape(grain)} {self._motion(grain)}"
+
+    def _shape(self, grain):
+        if self.atom_style == "sphere":
+            return f"diameter {number(2.0 * grain.semi_axes[0])} density {number(DENSITY)}"
+        return (f"shape {numbers(grain.semi_axes)} blockiness {numbers(grain.blockiness)} density {number(DENSITY)} "
+                f"quat_direct {numbers(grain.quaternion)}")
+
+    @staticmethod
+    def _motion(grain):
+        names = ("vx", "vy", "vz", "omegax", "omegay", "omegaz")
+        return " ".join(f"{n} {number(v)}" for n, v in zip(names, (*grain.velocity, *grain.omega)))
+
+
+def _random_quaternion(random, wobble):
+    """A rotation of a random axis by up to `wobble` radians."""
+    axis = random.normal(size=3)
+    axis /= np.linalg.norm(axis)
+    half = 0.5 * wobble * random.uniform()
+    return (math.cos(half), *(math.sin(half) * axis))
+
+
+def dense_packing(alpha=1.0, sizes=(1.0,), types=1, overlap=0.02, speed=0.4, wobble=0.15, seed=7, atom_style="superquadric",
+                  minimum=100, blockiness=(2.0, 2.0)):
+    """Spheroids a, a, alpha a on a stretched face-centred lattice whose neighbours overlap by `overlap` diameters, slightly
+    turned, with random velocities: dense and full of contacts from the first step. The box holds the host's smallest periodic
+    height, 2 x (largest diameter + skin), and at least `minimum` grains."""
+    random = np.random.default_rng(seed)
+    cell = 2.0 * math.sqrt(2.0) * (1.0 - overlap) * np.array([1.0, 1.0, alpha]) * float(np.mean(sizes))
+    needed = 2.0 * (2.0 * max(sizes) * max(1.0, alpha) * 1.05 + SKIN) * np.array([1.13, 1.0, 1.0])  # a sheared box loses height
+    counts = np.ceil(needed / cell + 1e-9).astype(int)
+    while 4 * counts.prod() < minimum:
+        counts[np.argmin(counts * cell)] += 1
+    basis = np.array([[0, 0, 0], [0, 0.5, 0.5], [0.5, 0, 0.5], [0.5, 0.5, 0]])
+    corners = np.stack(np.meshgrid(*[np.arange(n) for n in counts], indexing="ij"), axis=-1).reshape(-1, 3)
+    points = ((corners[:, None, :] + basis[None, :, :]).reshape(-1, 3) + 0.25) * cell
+    grains = []
+    for k, point in enumerate(points):
+        a = sizes[k % len(sizes)]
+        grains.append(Grain(tuple(point), (a, a, alpha * a), _random_quaternion(random, wobble if alpha != 1.0 else 0.0),
+                            tuple(speed * random.normal(size=3)), tuple(speed * random.normal(size=3)), 1 + k % types, blockiness))
+    return Packing(tuple(counts * cell), grains, atom_style=atom_style, types=types)

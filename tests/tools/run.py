@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Runs a deck in a folder of its own and reads what it wrote."""
+import os
+from pathlib import Path
+import subprocess
+import tempfile
+
+import numpy as np
+
+TIME_LIMIT = 120.0
+
+
+class Failure(Exception):
+    """What a test found wrong, in words for a person."""
+
+
+def binary():
+    path = os.environ.get("GRAINSCOPE_BINARY")
+    if not path:
+        raise Failure("GRAINSCOPE_BINARY must name the grainscope executable")
+    return path
+
+
+def _environment():
+    env = dict(os.environ, OMP_NUM_THREADS="1", OMPI_MCA_btl_vader_single_copy_mechanism="none",
+               OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_mpi_yield_when_idle="1")
+    if os.geteuid() == 0:
+        env.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    return env
+
+
+def _command(ranks):
+    if ranks == 1:
+        return [binary()]
+    mpiexec = os.environ.get("GRAINSCOPE_MPIEXEC", "mpirun")
+    return [mpiexec, "--oversubscribe", "--bind-to", "none", "-np", str(ranks), binary()]
+
+
+def tail(output):
+    """The end of a run's output, without the host's lines about single grains."""
+    noise = ("Created ", "Setting atom", "  1 settings made")
+    return "\n".join(line for line in (output or "").splitlines() if not line.startswith(noise))[-2500:]
+
+
+class Result:
+    """A finished run: exit code, output, and the files of its folder."""
+
+    def __init__(self, folder, code, output):
+        self.folder = Path(folder)
+        self.code = code
+        self.output = output
+
+    def file(self, name):
+        path = self.folder / name
+        if not path.exists():
+            raise Failure(f"the run wrote no {name}; its output ends:\n{tail(self.output)}")
+        return path
+
+    def thermo(self):
+        """One dict of arrays per `run` command, columns named as in the deck's thermo_style (the host cuts its own headings)."""
+        blocks, names, rows, inside = [], [], [], False
+        for line in self.file("log.liggghts").read_text().splitlines():
+            words = line.split()
+            if words[:2] == ["thermo_style", "custom"]:
+                names = words[2:]
+            elif words[:1] == ["Step"]:
+                rows, inside = [], True
+            elif line.startswith("Loop time") and inside:
+                blocks.append(columns_of(names, rows))
+                inside = False
+            elif inside and len(words) == len(names) and words[0].isdigit():
+                rows.append([float(w) for w in words])
+        return blocks
+
+    def dump(self, name):
+        """A list of (step, dict of arrays), one per snapshot."""
+        snapshots, lines = [], iter(self.file(name).read_text().splitlines())
+        for line in lines:
+            if line == "ITEM: TIMESTEP":
+                step = int(next(lines))
+            elif line.startswith("ITEM: NUMBER OF"):
+                count = int(next(lines))
+            elif line.startswith(("ITEM: ATOMS", "ITEM: ENTRIES")):
+                names = line.split()[2:]
+                rows = [[float(w) for w in next(lines).split()] for _ in range(count)]
+                snapshots.append((step, columns_of(names, rows)))
+        return snapshots
+
+    def averages(self, name):
+        """A fix ave/time file of global values: one dict of arrays, columns named as in its header."""
+        rows, names = [], None
+        for line in self.file(name).read_text().splitlines():
+            if line.startswith("# TimeStep"):
+                names = line[2:].split()
+            elif not line.startswith("#"):
+                rows.append([float(w) for w in line.split()])
+        return columns_of(names, rows)
+
+
+def columns_of(names, rows):
+    table = np.array(rows, dtype=float).reshape(len(rows), len(names))
+    return {name: table[:, k] for k, name in enumerate(names)}
+
+
+def _deck_text(deck):
+    return deck if isinstance(deck, str) else deck.text()
+
+
+def attempt(deck, ranks=1, folder=None, arguments=(), time_limit=TIME_LIMIT):
+    """Runs a deck (a Deck or its text) and returns the Result, whatever its exit code."""
+    folder = Path(folder or tempfile.mkdtemp(prefix="case-", dir=os.environ.get("GRAINSCOPE_SCRATCH")))
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "in.deck").write_text(_deck_text(deck))
+    command = [*_command(ranks), "-in", "in.deck", "-log", "log.liggghts", *arguments]
+    try:
+        done = subprocess.run(command, cwd=folder, env=_environment(), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              stdin=subprocess.DEVNULL, timeout=time_limit, text=True, errors="replace")
+    except subprocess.TimeoutExpired:
+        raise Failure(f"{' '.join(command)} in {folder} did not end within {time_limit} s")
+    return Result(folder, done.returncode, done.stdout)
+
+
+def run(deck, ranks=1, **options):
+    """Runs a deck that must succeed."""
+    result = attempt(deck, ranks, **options)
+    if result.code != 0 or "ERROR" in result.output:
+        raise Failure(f"the run in {result.folder} ended with code {result.code}:\n{tail(result.output)}")
+    return result
