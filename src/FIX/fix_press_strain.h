@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifdef FIX_CLASS
+
+FixStyle(press/strain,FixPressStrain)
+
+#else
+
+#ifndef LMP_FIX_PRESS_STRAIN_H
+#define LMP_FIX_PRESS_STRAIN_H
+
+#include "contact_sink.h"
+#include "fix_deform.h"
+#include <memory>
+
+namespace LAMMPS_NS {
+
+/** Shears the box at a true rate and holds the normal pressure along one axis by moving that box length at strain (or time) intervals.
+ *  scalar: pressure averaged over the last completed interval. vector (8, intensive): strain, target, pressure now, L, dL/dt, inputs,
+ *  inputs clipped, relative error of the averaged pressure. It is a fix deform to the host, which then remaps velocities across the
+ *  moving faces. Source: Bilotto, Trulsson & Molinari 2025, Sec. II; doi 10.1103/tj41-6qqk. */
+class FixPressStrain : public FixDeform, public grainscope::ContactSink {
+ public:
+  FixPressStrain(class LAMMPS *lmp, int narg, char **arg);
+  ~FixPressStrain();
+
+  void init();
+  void setup(int vflag);
+  void pre_exchange();
+  void end_of_step();
+  void write_restart(FILE *file);
+  void restart(char *buffer);
+  double compute_scalar();
+  double compute_vector(int n);
+
+  bool wants_contacts() { return true; }
+  void begin_contacts();
+  void add_contact(const grainscope::Contact &contact);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+
+  struct HostArguments;
+  FixPressStrain(class LAMMPS *lmp, int narg, char **arg, const HostArguments &host);
+
+  void require_controllable_box();
+  void evaluate_rate();
+  void evaluate_variables();
+  double advance_progress();
+  double expected_interval() const;
+  void set_box_rates();
+  void advance_box();
+  void plan_flip();
+  void take_input();
+  double pressure_now();
+};
+
+}
+
+#endif
+#endif
