@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Initial states: a box and its grains, and the deck lines that create them."""
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 import math
 
 import numpy as np
@@ -94,3 +94,11 @@ def dense_packing(alpha=1.0, sizes=(1.0,), types=1, overlap=0.02, speed=0.4, wob
         grains.append(Grain(tuple(point), (a, a, alpha * a), _random_quaternion(random, wobble if alpha != 1.0 else 0.0),
                             tuple(speed * random.normal(size=3)), tuple(speed * random.normal(size=3)), 1 + k % types, blockiness))
     return Packing(tuple(counts * cell), grains, atom_style=atom_style, types=types)
+
+
+def in_the_open(packing, factor=3.0):
+    """The same grains in the middle of a box `factor` times as large: no contact crosses a face, so that
+    sum over contacts of (x_i - x_j) F = sum over grains of x f exactly."""
+    edges = tuple(factor * e for e in packing.edges)
+    origin = tuple(-0.5 * (factor - 1.0) * e for e in packing.edges)
+    return replace(packing, edges=edges, origin=origin)
