@@ -8,3 +8,16 @@ add_cases(pair cases/pair_host.py LABEL case RANKS 1 2 CASES
   clear-and-begin-again pair-style-again stale-springs-warned-once virial-of-spheroids host-deck-with-walls)
 add_cases(pair cases/pair_host.py LABEL case RANKS 1 CASES
   stale-springs-cured-no-warning no-springs-no-warning check-timestep-gran virial-of-plain-gran-is-wrong)
+add_cases(oracle cases/measures_against_oracle.py LABEL case RANKS 1 2 CASES
+  spheres spheres-in-the-open spheroid-1.5 spheroid-1.5-in-the-open spheres-through-a-flip spheroids-through-a-flip walls-not-counted)
+add_cases(oracle cases/measures_against_oracle.py LABEL case RANKS 1 CASES
+  spheroid-0.33-in-the-open spheroid-3-in-the-open polydisperse two-types frictionless no-history subgroup group-of-one)
+add_cases(sphere-law cases/sphere_law.py LABEL case RANKS 1 CASES history-undamped no-history frictionless slippery)
+add_cases(sphere-law cases/sphere_law.py LABEL case RANKS 1 2 CASES history two-types)
+add_cases(same-on-ranks cases/ranks.py LABEL case RANKS 2 4 CASES spheres spheroids oblate-grains subgroup)
+add_cases(same-on-ranks cases/ranks.py LABEL case RANKS 4 CASES empty-ranks empty-group)
+add_cases(host-tally cases/ranks.py LABEL case RANKS 1 2 CASES stress-atom-of-spheres stress-atom-of-spheroids)
+add_cases(nematic cases/nematic.py LABEL case RANKS 1 CASES
+  two-of-four-along-z three-of-four-along-z all-aligned isotropic mean-angle mean-angle-is-of-lines oblate-angle
+  spheres-have-no-order spheres-do-not-dilute longest-of-three-axes axis-along-body-x mean-spin)
+add_cases(nematic cases/nematic.py LABEL case RANKS 2 4 CASES two-of-four-along-z three-of-four-along-z)

@@ -44,11 +44,13 @@ class Packing:
     atom_style: str = "superquadric"
     types: int = 1
     origin: tuple = (0.0, 0.0, 0.0)
+    triclinic: bool = True
 
     def lines(self):
         (x, y, z), (lx, ly, lz) = self.origin, self.edges
         bounds = numbers([x, x + lx, y, y + ly, z, z + lz])
-        yield f"region box prism {bounds} {number(self.tilt)} 0 0 units box"
+        shape = f"prism {bounds} {number(self.tilt)} 0 0" if self.triclinic else f"block {bounds}"
+        yield f"region box {shape} units box"
         yield f"create_box {self.types} box"
         for k, grain in enumerate(self.grains, 1):
             yield f"create_atoms {grain.type} single {numbers(grain.position)} units box"
@@ -83,8 +85,10 @@ def dense_packing(alpha=1.0, sizes=(1.0,), types=1, overlap=0.02, speed=0.4, wob
     cell = 2.0 * math.sqrt(2.0) * (1.0 - overlap) * np.array([1.0, 1.0, alpha]) * float(np.mean(sizes))
     needed = 2.0 * (2.0 * max(sizes) * max(1.0, alpha) * 1.05 + SKIN) * np.array([1.13, 1.0, 1.0])  # a sheared box loses height
     counts = np.ceil(needed / cell + 1e-9).astype(int)
+    counts[0] += counts[0] % 2  # so that the lattice also fits a box tilted by half its length
     while 4 * counts.prod() < minimum:
-        counts[np.argmin(counts * cell)] += 1
+        k = np.argmin(counts * cell)
+        counts[k] += 2 if k == 0 else 1
     basis = np.array([[0, 0, 0], [0, 0.5, 0.5], [0.5, 0, 0.5], [0.5, 0.5, 0]])
     corners = np.stack(np.meshgrid(*[np.arange(n) for n in counts], indexing="ij"), axis=-1).reshape(-1, 3)
     points = ((corners[:, None, :] + basis[None, :, :]).reshape(-1, 3) + 0.25) * cell
@@ -102,3 +106,14 @@ def in_the_open(packing, factor=3.0):
     edges = tuple(factor * e for e in packing.edges)
     origin = tuple(-0.5 * (factor - 1.0) * e for e in packing.edges)
     return replace(packing, edges=edges, origin=origin)
+
+
+def tilted(packing, fraction):
+    """The same lattice in a box whose tilt is `fraction` of its length; it fits at 1/2."""
+    tilt = fraction * packing.edges[0]
+    grains = []
+    for grain in packing.grains:
+        x, y, z = grain.position
+        outside = math.floor((x - tilt * y / packing.edges[1]) / packing.edges[0])
+        grains.append(replace(grain, position=(x - outside * packing.edges[0], y, z)))
+    return replace(packing, grains=grains, tilt=tilt)

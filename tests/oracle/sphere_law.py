@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Contacts of spheres from positions and velocities alone: geometry, Hertz (or Hooke-free) forces, the tangential spring followed from
+step to step. F_n = 4/3 E* sqrt(R* d) d - gamma_n u_n; k_t = 8 G* sqrt(R* d); gamma = -2 sqrt(5/6) b sqrt(S m*), S = 2 E* sqrt(R* d)
+for the normal part and k_t for the tangential one, b = ln e / sqrt(ln^2 e + pi^2)."""
+from dataclasses import dataclass, field
+import itertools
+import math
+
+import numpy as np
+
+
+@dataclass
+class Law:
+    young: np.ndarray          # per type
+    poisson: float
+    restitution: np.ndarray    # types x types
+    friction: np.ndarray
+    dt: float
+    tangential: str = "history"
+    tangential_damping: bool = True
+    springs: dict = field(default_factory=dict)
+
+    def stiffness(self, a, b):
+        """E*, G* of a pair of types."""
+        nu, ea, eb = self.poisson, self.young[a], self.young[b]
+        effective = 1.0 / ((1 - nu * nu) / ea + (1 - nu * nu) / eb)
+        shear = 1.0 / (2 * (2 - nu) * (1 + nu) / ea + 2 * (2 - nu) * (1 + nu) / eb)
+        return effective, shear
+
+
+def half_step_velocities(grains, dt, first):
+    """The velocities that entered the force: v_n less the half kick that the same force gave; in the first evaluation v itself."""
+    if first:
+        return grains.v, grains.omega
+    inertia = 0.4 * grains.mass * grains.radius ** 2
+    return grains.v - 0.5 * dt * grains.force / grains.mass[:, None], grains.omega - 0.5 * dt * grains.torque / inertia[:, None]
+
+
+def touching(grains, box):
+    """(i, j, image) with i < j in ID, x_j + H image touching x_i."""
+    shifts = np.array(list(itertools.product((-1, 0, 1), repeat=3)))
+    for i, j in itertools.combinations(range(len(grains.ids)), 2):
+        gaps = np.linalg.norm(grains.x[i] - grains.x[j] - shifts @ box.edges.T, axis=1) - grains.radius[i] - grains.radius[j]
+        for k in np.flatnonzero(gaps < 0.0):
+            yield i, j, shifts[k]
+
+
+def contacts(law, grains, box, first):
+    """Rows like those of compute contact/local, with the tangential damping coefficient as well. Springs move on by one step."""
+    v, omega = half_step_velocities(grains, law.dt, first)
+    rows, springs = [], {}
+    for i, j, image in touching(grains, box):
+        branch = grains.x[i] - grains.x[j] - box.edges @ image
+        distance = np.linalg.norm(branch)
+        n, overlap = branch / distance, grains.radius[i] + grains.radius[j] - distance
+        ri, rj = grains.radius[i] - 0.5 * overlap, grains.radius[j] - 0.5 * overlap
+        a, b = grains.types[i] - 1, grains.types[j] - 1
+        effective, shear = law.stiffness(a, b)
+        radius = grains.radius[i] * grains.radius[j] / (grains.radius[i] + grains.radius[j])
+        mass = grains.mass[i] * grains.mass[j] / (grains.mass[i] + grains.mass[j])
+        root = math.sqrt(radius * overlap)
+        log_e = math.log(law.restitution[a, b])
+        damping = -2.0 * math.sqrt(5.0 / 6.0) * log_e / math.hypot(log_e, math.pi) * math.sqrt(mass)
+        kn, kt = 4.0 / 3.0 * effective * root, 8.0 * shear * root
+        gamma_n, gamma_t = damping * math.sqrt(2.0 * effective * root), damping * math.sqrt(kt)
+        if law.tangential == "off" or not law.tangential_damping:
+            gamma_t = 0.0
+        u = v[i] - (v[j] + box.rate @ image) - np.cross(ri * omega[i] + rj * omega[j], n)
+        un = u @ n
+        ut = u - un * n
+        fn = kn * overlap - gamma_n * un
+        ft, sliding, slip, spring = tangential_force(law, law.springs.get((i, j)), ut, n, kt, gamma_t,
+                                                     law.friction[a, b] * abs(fn), first)
+        springs[(i, j)] = spring
+        rows.append({"id": (grains.ids[i], grains.ids[j]), "image": image, "point": grains.x[i] - ri * n, "normal": n, "branch": branch,
+                     "overlap": overlap, "force": fn * n + ft, "fn": fn, "fn_damping": -gamma_n * un, "ft": ft, "un": un, "ut": ut,
+                     "sliding": float(sliding), "slip": slip, "gamma_t": gamma_t})
+    law.springs = springs
+    return {name: np.array([row[name] for row in rows]) for name in rows[0]}
+
+
+def tangential_force(law, spring, ut, n, kt, gamma_t, limit, first):
+    """(force, sliding, slip, spring) of one contact."""
+    if law.tangential == "off":
+        return np.zeros(3), False, 0.0, None
+    speed = np.linalg.norm(ut)
+    if law.tangential == "no_history":
+        sliding = gamma_t * speed > limit
+        coefficient = limit / speed if sliding else gamma_t
+        return -coefficient * ut, sliding, speed * law.dt if sliding else 0.0, None
+    spring = np.zeros(3) if spring is None else spring
+    if not first:
+        spring = spring + ut * law.dt
+        spring = spring - (spring @ n) * n
+    length = np.linalg.norm(spring)
+    if kt * length > limit:
+        cut = spring * (limit / (kt * length))
+        return -kt * cut, True, length - limit / kt, cut
+    return -kt * spring - gamma_t * ut, False, 0.0, spring
