@@ -21,3 +21,16 @@ add_cases(nematic cases/nematic.py LABEL case RANKS 1 CASES
   two-of-four-along-z three-of-four-along-z all-aligned isotropic mean-angle mean-angle-is-of-lines oblate-angle
   spheres-have-no-order spheres-do-not-dilute longest-of-three-axes axis-along-body-x mean-spin)
 add_cases(nematic cases/nematic.py LABEL case RANKS 2 4 CASES two-of-four-along-z three-of-four-along-z)
+add_cases(collision cases/collisions.py LABEL case RANKS 1 CASES
+  head-on-spheres-e-0.1 head-on-spheres-e-0.5 head-on-spheres-e-0.9 head-on-prolate-e-0.1 head-on-prolate-e-0.5 head-on-prolate-e-0.9
+  head-on-oblate-e-0.1 head-on-oblate-e-0.5 head-on-oblate-e-0.9 oblique-spheres oblique-prolate single-contact)
+add_cases(collision cases/collisions.py LABEL case RANKS 2 CASES head-on-prolate-e-0.5 oblique-prolate)
+add_cases(sphere-law cases/sphere_law.py LABEL case RANKS 1 2 CASES under-pressure-control sheared-backward)
+add_cases(press-strain cases/press_strain.py LABEL case RANKS 1 CASES
+  shears-backward-as-fix-deform recursion-clipped recursion-clipped-by-rate recursion-every-time recursion-negative-rate
+  inputs-every-strain inputs-every-time inputs-every-step holds-the-target target-zero-expands target-follows-a-variable without-shear
+  momentum-kept)
+add_cases(press-strain cases/press_strain.py LABEL case RANKS 1 2 CASES
+  shears-as-fix-deform recursion-every-strain automatic-gain restart-continues at-the-target-nothing-moves momentum-removed
+  kinetic-part-counts)
+add_cases(press-strain cases/press_strain.py LABEL case RANKS 2 4 CASES same-on-ranks)

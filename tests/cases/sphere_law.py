@@ -32,31 +32,51 @@ def ordered(rows):
     return {name: values[order] for name, values in rows.items()}
 
 
-def follows_the_law(deck, rate):
+def follows_the_law(deck, motion, box_at):
+    """`motion`: the fix that moves the box; `box_at(table, step)`: the box that the force evaluation of a step saw."""
     quantities = [f"c_{c}[{k}]" for c in ("now", "loss") for k in range(1, 6)]
-    deck = replace(deck, body=[shear(rate), "compute rows all contact/local", "compute now all dissipation mode instantaneous",
-                               "compute loss all dissipation", *thermo(1, *box_columns(), *quantities),
-                               *dump_grains(deck.packing, 1), *dump_local("rows", ROW_WIDTH, 1, "rows"), f"run {STEPS}"])
+    deck = replace(deck, body=[*motion, "compute rows all contact/local", "compute now all dissipation mode instantaneous",
+                               "compute loss all dissipation", *dump_grains(deck.packing, 1),
+                               *dump_local("rows", ROW_WIDTH, 1, "rows")])
+    columns = [*box_columns(), *quantities, *(["f_press[5]"] if "press" in motion[0] else [])]
+    deck.body += [*thermo(1, *columns), f"run {STEPS}"]
 
     def case(ranks):
         result = run(deck, ranks)
         law, table, slid = law_of(deck), result.thermo()[0], 0
         for (step, columns), (_, dumped) in zip(result.dump("grains.dump"), result.dump("rows.dump")):
-            grains, box = grains_of(columns), box_of(table, max(step - 1, 0), rate)
-            expected, found = ordered(contacts(law, grains, box, step == 0)), rows_of(dumped, "rows")
-            require(np.array_equal(found["id"], expected["id"]), f"step {step}: other contacts")
-            for name in expected.keys() & found.keys():
-                scale = {"sliding": 1.0, "slip": 1e-3, "overlap": 1.0}.get(name)
-                if name in ("ft", "fn_damping", "fn", "force"):
-                    scale = float(np.abs(expected["force"]).max())
-                if name in ("ut", "un"):
-                    scale = float(max(np.abs(expected["ut"]).max(), np.abs(expected["un"]).max()))
-                require_close(found[name], expected[name], TOLERANCE, f"step {step}: {name}", scale)
-            slid += int(expected["sliding"].sum())
+            expected = ordered(contacts(law, grains_of(columns), box_at(table, step), step == 0))
+            check_rows(rows_of(dumped, "rows"), expected, step)
             check_powers(expected, [table[q][step] for q in quantities], deck.dt(), step)
-        if deck.tangential != "off":
-            require(slid > STEPS, f"only {slid} sliding contacts")
+            slid += int(expected["sliding"].sum())
+        require("f_press[5]" not in table or np.ptp(table["f_press[5]"]) > 0.01, "the box length did not change")
+        require(deck.tangential == "off" or slid > STEPS, f"only {slid} sliding contacts")
     return case
+
+
+def check_rows(found, expected, step):
+    require(np.array_equal(found["id"], expected["id"]), f"step {step}: other contacts")
+    force = float(np.abs(expected["force"]).max())
+    speed = float(max(np.abs(expected["ut"]).max(), np.abs(expected["un"]).max()))
+    scales = {"sliding": 1.0, "slip": 1e-3, "overlap": 1.0, "ut": speed, "un": speed,
+              **{name: force for name in ("ft", "fn_damping", "fn", "force")}}
+    for name in expected.keys() & found.keys():
+        require_close(found[name], expected[name], TOLERANCE, f"step {step}: {name}", scales.get(name))
+
+
+def in_simple_shear(deck, rate=0.03):
+    return follows_the_law(deck, [shear(rate)], lambda table, step: box_of(table, max(step - 1, 0), rate))
+
+
+def under_control(deck, rate=0.03):
+    """Sheared, compressed and driven by fix press/strain: images move with both rates."""
+    motion = [f"fix press all press/strain axis y target 3e5 shear xy rate {rate} every 1e-3 gain 2e-6 maxrate 10 limit 0.05"]
+
+    def box_at(table, step):
+        before = max(step - 1, 0)
+        return box_of(table, before, rate, table["f_press[5]"][before])
+
+    return follows_the_law(deck, motion, box_at)
 
 
 def check_powers(rows, found, dt, step):
@@ -78,7 +98,7 @@ def spheres(**choices):
 
 TWO_TYPES = {"packing": dense_packing(atom_style="sphere", minimum=60, types=2, sizes=(0.9, 1.0, 1.1), overlap=0.053, speed=0.8),
              "material": Material(young=(5e6, 2e7), restitution=(0.3, 0.5, 0.5, 0.8), friction=(0.05, 0.2, 0.2, 0.9))}
-CASES = {name: follows_the_law(spheres(**choices), 0.03) for name, choices in {
+CASES = {name: in_simple_shear(spheres(**choices)) for name, choices in {
     "history": {},
     "history-undamped": {"extra": "tangential_damping off"},
     "no-history": {"tangential": "no_history"},
@@ -86,6 +106,8 @@ CASES = {name: follows_the_law(spheres(**choices), 0.03) for name, choices in {
     "slippery": {"material": Material(friction=(0.01,), restitution=(0.1,))},
     "two-types": TWO_TYPES,
 }.items()}
+CASES["under-pressure-control"] = under_control(spheres())
+CASES["sheared-backward"] = in_simple_shear(spheres(), -0.03)
 
 if __name__ == "__main__":
     main(CASES)

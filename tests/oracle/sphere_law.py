@@ -46,7 +46,7 @@ def touching(grains, box):
 
 
 def contacts(law, grains, box, first):
-    """Rows like those of compute contact/local, with the tangential damping coefficient as well. Springs move on by one step."""
+    """Rows like those of compute contact/local, with stiffnesses and damping coefficients as well. Springs move on by one step."""
     v, omega = half_step_velocities(grains, law.dt, first)
     rows, springs = [], {}
     for i, j, image in touching(grains, box):
@@ -74,7 +74,8 @@ def contacts(law, grains, box, first):
         springs[(i, j)] = spring
         rows.append({"id": (grains.ids[i], grains.ids[j]), "image": image, "point": grains.x[i] - ri * n, "normal": n, "branch": branch,
                      "overlap": overlap, "force": fn * n + ft, "fn": fn, "fn_damping": -gamma_n * un, "ft": ft, "un": un, "ut": ut,
-                     "sliding": float(sliding), "slip": slip, "gamma_t": gamma_t})
+                     "sliding": float(sliding), "slip": slip, "gamma_t": gamma_t,
+                     "kn": kn, "kt": kt, "gamma_n": gamma_n})
     law.springs = springs
     return {name: np.array([row[name] for row in rows]) for name in rows[0]}
 
