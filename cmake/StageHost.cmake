@@ -112,8 +112,10 @@ endif()
 string(REPLACE ";" "\n" combinations "${combinations}\n")
 write_if_changed("${HOST_STAGE}/style_contact_model.h" "${combinations}")
 file(STRINGS "${HOST_SOURCE}/version_liggghts.txt" host_version LIMIT_COUNT 1)
+# Restart files carry this text; LIGGGHTS parses the number after the first word. (The word is not LIGGGHTS-PUBLIC: that makes the host
+# print random remarks, through a dangling pointer, after every error.)
 write_if_changed("${HOST_STAGE}/version_liggghts.h"
-                 "#define LIGGGHTS_VERSION \"LIGGGHTS-PUBLIC ${host_version} with grainscope ${PROJECT_VERSION}\"\n")
+                 "#define LIGGGHTS_VERSION \"LIGGGHTS ${host_version} with grainscope ${PROJECT_VERSION}\"\n")
 
 set(HOST_FILES ${staged})
 list(FILTER HOST_FILES INCLUDE REGEX "\\.cpp$")

@@ -2,7 +2,7 @@
 #include "compute_stress_contact.h"
 #include "arguments.h"
 #include "contact_observer.h"
-#include "group_motion.h"
+#include "peculiar_motion.h"
 #include "stress.h"
 #include "atom.h"
 #include "fix_property_global.h"
@@ -10,11 +10,10 @@
 #include "modify.h"
 #include "update.h"
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <vector>
 
 using namespace LAMMPS_NS;
-using grainscope::GroupMotion;
 
 ComputeStressContact::ComputeStressContact(LAMMPS *lmp, int &iarg, int narg, char **arg)
     : ContactCompute(lmp, iarg, narg, arg), sums_(new grainscope::StressSums) {
@@ -39,10 +38,13 @@ void ComputeStressContact::add_contact(const grainscope::Contact &contact) {
 double ComputeStressContact::softest_modulus() const {
   auto *moduli = static_cast<FixPropertyGlobal *>(
       modify->find_fix_property("youngsModulus", "property/global", "peratomtype", 0, 0, style, false));
+  if (!moduli) return 0.0;
+  std::vector<char> present(atom->ntypes + 1, false);
+  for (int i = 0; i < atom->nlocal; i++)
+    if (in_group(i)) present[atom->type[i]] = true;
   double softest = HUGE_VAL;
-  if (moduli)
-    for (int i = 0; i < atom->nlocal; i++)
-      if (in_group(i)) softest = std::fmin(softest, moduli->compute_vector(atom->type[i] - 1));
+  for (int type = 1; type <= atom->ntypes; type++)
+    if (present[type]) softest = std::min(softest, moduli->compute_vector(type - 1));
   MPI_Allreduce(MPI_IN_PLACE, &softest, 1, MPI_DOUBLE, MPI_MIN, world);
   return std::isfinite(softest) ? softest : 0.0;
 }
@@ -53,9 +55,9 @@ double ComputeStressContact::flattest_shape() const {
   if (atom->superquadric_flag)
     for (int i = 0; i < atom->nlocal; i++) {
       if (!in_group(i)) continue;
-      std::array<double, 3> s = {atom->shape[i][0], atom->shape[i][1], atom->shape[i][2]};
-      std::sort(s.begin(), s.end());
-      flattest = std::fmin(flattest, s[0] / s[1]);
+      const double *s = atom->shape[i];
+      const double low = std::min(s[0], s[1]), high = std::max(s[0], s[1]);
+      flattest = std::min(flattest, std::min(low, s[2]) / std::max(low, std::min(high, s[2])));
     }
   MPI_Allreduce(MPI_IN_PLACE, &flattest, 1, MPI_DOUBLE, MPI_MIN, world);
   return flattest;
@@ -69,12 +71,12 @@ void ComputeStressContact::compute_vector() {
   MPI_Allreduce(MPI_IN_PLACE, &all.largest_overlap, 1, MPI_DOUBLE, MPI_MAX, world);
 
   const grainscope::BoxState &box = observer_->box();
-  const GroupMotion motion(lmp, groupbit, box);
+  const grainscope::PeculiarMotion motion(lmp, groupbit, box);
   // Forces over areas are in pressure units only where force->nktv2p is 1; cgs and si both are.
   const double unit = force->nktv2p / box.volume;
   const Eigen::Matrix3d total = all.total(1.0) * unit;
   const Eigen::Matrix3d tangential = all.tangential(1.0) * unit;
-  const Eigen::Matrix3d kinetic = -peculiar_momentum_flux(lmp, groupbit, box, motion) * force->mvv2e * unit;
+  const Eigen::Matrix3d kinetic = -motion.momentum_flux() * force->mvv2e * unit;
   const Eigen::Matrix3d normal = total - tangential;
 
   double *out = vector;
@@ -95,7 +97,7 @@ void ComputeStressContact::compute_vector() {
   *out++ = (total(0, 0) - total(1, 1)) * per_pressure;
   *out++ = (total(1, 1) - total(2, 2)) * per_pressure;
   *out++ = contacts;
-  *out++ = motion.grains > 0.0 ? 2.0 * contacts / motion.grains : 0.0;
+  *out++ = motion.grains() > 0.0 ? 2.0 * contacts / motion.grains() : 0.0;
   *out++ = all.sliding() * per_contact;
   *out++ = all.overlaps() * per_contact;
   *out++ = all.largest_overlap;

@@ -2,6 +2,7 @@
 #ifndef GRAINSCOPE_SYMMETRY_AXIS_H
 #define GRAINSCOPE_SYMMETRY_AXIS_H
 
+#include <algorithm>
 #include <cmath>
 
 namespace grainscope {
@@ -17,7 +18,7 @@ struct SymmetryAxis {
 /** Semi-axes within `tolerance` (relative) of each other are equal. */
 inline SymmetryAxis symmetry_axis(const double semi_axes[3], double tolerance = 1e-9) {
   const auto equal = [&](int a, int b) {
-    return std::fabs(semi_axes[a] - semi_axes[b]) <= tolerance * std::fmax(semi_axes[a], semi_axes[b]);
+    return std::fabs(semi_axes[a] - semi_axes[b]) <= tolerance * std::max(semi_axes[a], semi_axes[b]);
   };
   const bool xy = equal(0, 1), yz = equal(1, 2), zx = equal(2, 0);
   if (xy && yz && zx) return {Shape::sphere, -1};

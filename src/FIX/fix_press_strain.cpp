@@ -2,8 +2,8 @@
 #include "fix_press_strain.h"
 #include "arguments.h"
 #include "contact_observer.h"
-#include "group_motion.h"
 #include "pair_gran_insitu.h"
+#include "peculiar_motion.h"
 #include "pressure_control.h"
 #include "atom.h"
 #include "comm.h"
@@ -21,10 +21,9 @@
 
 using namespace LAMMPS_NS;
 using grainscope::Arguments;
-using grainscope::BoxState;
-using grainscope::GroupMotion;
 using grainscope::Intervals;
 using grainscope::NetworkResponse;
+using grainscope::PeculiarMotion;
 
 namespace {
 
@@ -47,6 +46,13 @@ double &tilt_of(Domain *domain, const Tilt &tilt) {
 
 double value_of(LAMMPS *lmp, const std::string &variable) {
   return lmp->input->variable->compute_equal(lmp->input->variable->find(const_cast<char *>(variable.c_str())));
+}
+
+/** Asked at a point that lies on no wall's axis or face; the host's own PrimitiveWall::axis() knows cylinders only. */
+bool pushes_along(PrimitiveWall *wall, int axis) {
+  double point[3] = {0.1234567891, 0.2345678912, 0.3456789123}, push[3];
+  wall->resolveContact(point, 0.0, push);
+  return push[axis] != 0.0;
 }
 
 enum class Every { strain, time, step };
@@ -198,7 +204,7 @@ void FixPressStrain::require_controllable_box() {
     FixWallGran *wall = dynamic_cast<FixWallGran *>(fix);
     if (!wall) continue;
     if (wall->is_mesh_wall()) arguments.fail(std::string("cannot move a box that holds a mesh wall (fix ") + fix->id + ")");
-    if (wall->primitiveWall() && wall->primitiveWall()->axis() == my.axis)
+    if (wall->primitiveWall() && pushes_along(wall->primitiveWall(), my.axis))
       arguments.fail("cannot move box edges along '" + axis + "': fix " + fix->id + " is a wall on that axis");
   }
   if (deforming) arguments.fail("another fix already deforms the box: only one fix deform or press/strain at a time");
@@ -335,9 +341,8 @@ void FixPressStrain::end_of_step() {
   Impl &my = *impl_;
   double kinetic = 0.0;
   if (my.kinetic) {
-    const BoxState &box = my.observer->box();
-    const GroupMotion motion(lmp, 1, box);
-    kinetic = grainscope::peculiar_momentum_flux(lmp, 1, box, motion)(my.axis, my.axis) * force->mvv2e / comm->nprocs;
+    const PeculiarMotion motion(lmp, groupbit, my.observer->box());
+    kinetic = motion.momentum_flux()(my.axis, my.axis) * force->mvv2e / comm->nprocs;
   }
   my.now.pressure += kinetic;
   my.window.add(my.now, force->nktv2p / my.observer->box().volume);
@@ -363,10 +368,10 @@ void FixPressStrain::take_input() {
   my.window_steps = 0.0;
 
   if (my.remove_momentum) {
-    const GroupMotion motion(lmp, my.momentum_groupbit, my.observer->box());
+    const Eigen::Vector3d drift = PeculiarMotion(lmp, my.momentum_groupbit, my.observer->box()).drift();
     for (int i = 0; i < atom->nlocal; i++)
       if (atom->mask[i] & my.momentum_groupbit)
-        for (int k = 0; k < 3; k++) atom->v[i][k] -= motion.drift[k];
+        for (int k = 0; k < 3; k++) atom->v[i][k] -= drift[k];
   }
   const auto input = my.control.input(mean, my.target.value, domain->prd[my.axis], expected_interval());
   my.velocity = input.velocity;

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "peculiar_motion.h"
+#include "atom.h"
+#include "lammps.h"
+#include <mpi.h>
+
+namespace grainscope {
+
+using Eigen::Map;
+using Eigen::Vector3d;
+
+PeculiarMotion::PeculiarMotion(LAMMPS_NS::LAMMPS *lmp, int groupbit, const BoxState &box) : lmp_(lmp) {
+  const LAMMPS_NS::Atom *atom = lmp->atom;
+  local_.reserve(atom->nlocal);
+  double sums[5] = {0.0, 0.0, 0.0, 0.0, 0.0};
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const double mass = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
+    const Vector3d u = Map<const Vector3d>(atom->v[i]) - box.flow(Map<const Vector3d>(atom->x[i]));
+    local_.push_back({mass, u});
+    for (int k = 0; k < 3; k++) sums[k] += mass * u[k];
+    sums[3] += mass;
+    sums[4] += 1.0;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, lmp->world);
+  mass_ = sums[3];
+  grains_ = sums[4];
+  drift_ = mass_ > 0.0 ? Vector3d(Map<const Vector3d>(sums) / mass_) : Vector3d::Zero();
+}
+
+Eigen::Matrix3d PeculiarMotion::momentum_flux() const {
+  double sums[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  for (const Grain &grain : local_) {
+    const Vector3d dv = grain.u - drift_, p = grain.mass * dv;
+    sums[0] += p[0] * dv[0];
+    sums[1] += p[1] * dv[1];
+    sums[2] += p[2] * dv[2];
+    sums[3] += p[0] * dv[1];
+    sums[4] += p[0] * dv[2];
+    sums[5] += p[1] * dv[2];
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, lmp_->world);
+  Eigen::Matrix3d flux;
+  flux << sums[0], sums[3], sums[4], sums[3], sums[1], sums[5], sums[4], sums[5], sums[2];
+  return flux;
+}
+
+}
