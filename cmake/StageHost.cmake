@@ -32,9 +32,10 @@ function(mend file old new why)
   set(HOST_MENDS ${HOST_MENDS} "${file}: ${why}" PARENT_SCOPE)
 endfunction()
 
-mend(utils.h "return static_cast< std::ostringstream & >(( std::ostringstream() << std::dec << a ) ).str();"
-     "std::ostringstream text; text << std::dec << a; return text.str();" "an ostringstream cast that does not compile")
-mend(finish.cpp "neighbor->lists[m]->numneigh > 0" "neighbor->lists[m]->inum > 0" "a pointer compared with 0")
+# (The text begins with its line: a comment that quotes the old code is none.)
+mend(utils.h "\n    return static_cast< std::ostringstream & >(( std::ostringstream() << std::dec << a ) ).str();"
+     "\n    std::ostringstream text; text << std::dec << a; return text.str();" "an ostringstream cast that does not compile")
+mend(finish.cpp "\n      if (neighbor->lists[m]->numneigh > 0)" "\n      if (neighbor->lists[m]->inum > 0)" "a pointer compared with 0")
 mend(domain.cpp "prd_lamda[0] = prd_lamda[1] = prd_lamda[2] = 0.0;" "prd_lamda[0] = prd_lamda[1] = prd_lamda[2] = 1.0;"
      "prd_lamda of 0 loses atoms of triclinic boxes")
 mend(domain.cpp "prd_half_lamda[0] = prd_half_lamda[1] = prd_half_lamda[2] = 0.0;"
