@@ -1,0 +1,124 @@
+"""Reads what examples/simple_shear writes: series.txt, parameters.txt and grains.dump. Used by the other tools of this folder."""
+from dataclasses import dataclass
+from pathlib import Path
+import re
+
+import numpy as np
+
+
+class InputError(Exception):
+    """A file that is missing or is not what it should be; the message says which and why."""
+
+
+@dataclass
+class Run:
+    """One run: its name, its parameters by name, its columns by name (arrays over rows) and their units."""
+    name: str
+    parameters: dict
+    columns: dict
+    units: dict
+
+    def __getitem__(self, column):
+        if column not in self.columns:
+            raise InputError(f"{self.name}: no column '{column}' in series.txt; it has {', '.join(self.columns)}")
+        return self.columns[column]
+
+    @property
+    def injected(self):
+        """Power that shear and box motion put in, over W0."""
+        return self["W_shear"] + self["W_box"]
+
+    @property
+    def dissipated(self):
+        """Power lost to normal damping and friction, over W0."""
+        return self["W_n"] + self["W_t"]
+
+    def steady(self, start=None):
+        """Mask of the rows of the steady state, from strain `start`. Default: 6 (4 below I = 0.01), at most half the run."""
+        strain = self["strain"]
+        if start is None:
+            start = min(6.0 if self.parameters["I"] >= 0.01 else 4.0, 0.5 * strain[-1])
+        rows = strain > start
+        if rows.sum() < 16:
+            raise InputError(f"{self.name}: {rows.sum()} rows beyond strain {start:g}, at least 16 are needed; the run ends at {strain[-1]:g}")
+        return rows
+
+
+def read_table(path):
+    """Columns and units of a text table whose last '#' line names its columns as name[unit]."""
+    try:
+        lines = Path(path).read_text().splitlines()
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror}") from None
+    header = [line for line in lines if line.startswith("#")]
+    rows = [line.split() for line in lines if line.strip() and not line.startswith("#")]
+    if not header or not rows:
+        raise InputError(f"{path}: a '#' line with the names of the columns and at least one row are needed")
+    names, units = [], {}
+    for word in header[-1].lstrip("# ").split():
+        name, unit = re.fullmatch(r"([^\[\]]+)(?:\[(.*)\])?", word).groups()
+        names.append(name)
+        units[name] = unit or ""
+    for number, row in enumerate(rows, 1):
+        if len(row) != len(names):
+            raise InputError(f"{path}: row {number} has {len(row)} values, the header names {len(names)} columns")
+    try:
+        values = np.array(rows, dtype=float)
+    except ValueError as error:
+        raise InputError(f"{path}: {error}") from None
+    return dict(zip(names, values.T)), units
+
+
+def read_run(folder):
+    """The run whose output is in `folder`."""
+    folder = Path(folder)
+    columns, units = read_table(folder / "series.txt")
+    parameters, _ = read_table(folder / "parameters.txt")
+    return Run(folder.resolve().name, {name: value[-1] for name, value in parameters.items()}, columns, units)
+
+
+@dataclass
+class Grains:
+    """A dump: positions (N,3), rotation matrices (N,3,3) from the body to the laboratory, semi-axes (N,3); box origin and edge vectors
+    (rows of a 3x3 matrix)."""
+    positions: np.ndarray
+    rotations: np.ndarray
+    semi_axes: np.ndarray
+    origin: np.ndarray
+    edges: np.ndarray
+
+
+def rotation_matrices(quaternions):
+    """Rotation matrices (N,3,3) of unit quaternions (N,4), scalar part first."""
+    w, x, y, z = (quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True)).T
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]).transpose(2, 0, 1)
+
+
+def read_grains(path):
+    """The last snapshot of a text dump with columns id x y z quat1-4 shapex-z, in a triclinic or orthogonal box."""
+    try:
+        text = Path(path).read_text()
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror}") from None
+    snapshot = text.rpartition("ITEM: TIMESTEP")[2]
+    match = re.search(r"ITEM: BOX BOUNDS([^\n]*)\n((?:[^\n]*\n){3})ITEM: ATOMS ([^\n]*)\n(.*)", snapshot, re.S)
+    if not match:
+        raise InputError(f"{path}: not a LIGGGHTS text dump")
+    bounds = np.array([line.split() for line in match[2].splitlines()], dtype=float)
+    names = match[3].split()
+    wanted = "x y z quat1 quat2 quat3 quat4 shapex shapey shapez".split()
+    missing = [name for name in wanted if name not in names]
+    if missing:
+        raise InputError(f"{path}: no column {', '.join(missing)}; the dump must hold {' '.join(wanted)}")
+    table = np.array(match[4].split(), dtype=float).reshape(-1, len(names))
+    columns = table[:, [names.index(name) for name in wanted]]
+
+    xy, xz, yz = bounds[:, 2] if bounds.shape[1] == 3 else (0.0, 0.0, 0.0)
+    low, high = bounds[:, 0].copy(), bounds[:, 1].copy()
+    low[:2] -= min(0.0, xy, xz, xy + xz), min(0.0, yz)
+    high[:2] -= max(0.0, xy, xz, xy + xz), max(0.0, yz)
+    lx, ly, lz = high - low
+    edges = np.array([[lx, 0.0, 0.0], [xy, ly, 0.0], [xz, yz, lz]])
+    return Grains(columns[:, :3], rotation_matrices(columns[:, 3:7]), columns[:, 7:], low, edges)

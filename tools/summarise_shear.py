@@ -1,0 +1,70 @@
+#!/usr/bin/python3
+"""Summary of simple-shear runs: steady means with statistical errors, the inertial number reached, energy in against energy out."""
+import argparse
+import sys
+
+import numpy as np
+
+from shear_output import InputError, read_run
+
+ROWS = [("P", "pressure / target"), ("mu_eff", "effective friction"), ("phi", "solid fraction"), ("Z", "coordination"),
+        ("sliding", "sliding contacts"), ("S2", "nematic order S2"), ("theta_x", "angle to the flow [deg]"),
+        ("spin", "-2 omega_z / rate"), ("overlap_mean", "mean overlap / d"), ("overlap_max", "largest overlap / d"),
+        ("kappa", "stiffness number")]
+
+
+def mean_and_error(values):
+    """Mean and its standard error by blocking: blocks of 1, 2, 4 ... rows, at least 8 of them; the largest error counts."""
+    error, blocks = 0.0, np.asarray(values)
+    while len(blocks) >= 8:
+        error = max(error, blocks.std(ddof=1) / np.sqrt(len(blocks)))
+        blocks = blocks[: len(blocks) // 2 * 2].reshape(-1, 2).mean(axis=1)
+    return np.mean(values), error
+
+
+def with_error(values):
+    """Mean and error as text, the error with two digits."""
+    mean, error = mean_and_error(values)
+    digits = max(0, 1 - int(np.floor(np.log10(error)))) if error > 0 else 3
+    return f"{mean:.{digits}f} +- {error:.{digits}f}"
+
+
+def summary(run, start=None):
+    """Pairs (name, text) of one run."""
+    rows = run.steady(start)
+    target = run.parameters["I"]
+    reached = target / np.sqrt(run["P"][rows].mean())
+    off = reached / target - 1
+    cells = [("grains", f"{run.parameters['N']:.0f}"), ("aspect ratio", f"{run.parameters['alpha']:g}"),
+             ("friction coefficient", f"{run.parameters['mu']:g}"),
+             ("steady state, strain", f"{run['strain'][rows][0]:.1f} to {run['strain'][-1]:.1f}"),
+             ("inertial number", f"{reached:.4f} ({100 * off:+.1f} %)"),
+             ("within 5 % of target", "yes" if abs(off) <= 0.05 else f"NO, target {target:g}")]
+    cells += [(title, with_error(run[name][rows])) for name, title in ROWS]
+    put_in, lost = run.injected[rows], run.dissipated[rows]
+    cells += [("power in: shear", with_error(run["W_shear"][rows])), ("power in: box", with_error(run["W_box"][rows])),
+              ("power out: normal damping", with_error(run["W_n"][rows])), ("power out: friction", with_error(run["W_t"][rows])),
+              ("friction's share of the loss", f"{100 * run['W_t'][rows].mean() / lost.mean():.1f} %"),
+              ("energy out / energy in", f"{100 * lost.mean() / put_in.mean():.1f} %")]
+    return cells
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, epilog="Powers are over rate x target pressure x volume. The inertial number "
+                                     "is that of the mean pressure. Errors: one standard deviation, by blocking.")
+    parser.add_argument("run", nargs="+", help="output folder of a run (it holds series.txt and parameters.txt)")
+    parser.add_argument("--from", dest="start", type=float, metavar="STRAIN",
+                        help="where the steady state starts (default: 6, or 4 below I = 0.01, at most half the run)")
+    arguments = parser.parse_args()
+    try:
+        runs = [read_run(folder) for folder in arguments.run]
+        tables = [summary(run, arguments.start) for run in runs]
+    except InputError as error:
+        sys.exit(f"summarise_shear.py: {error}")
+    print(" " * 30 + "".join(f"{run.name:>22}" for run in runs))
+    for cells in zip(*tables):
+        print(f"{cells[0][0]:<30}" + "".join(f"{text:>22}" for _, text in cells))
+
+
+if __name__ == "__main__":
+    main()
