@@ -25,6 +25,7 @@ def refused(*words, before=(), triclinic=True, boundary="p p p", pair="gran/insi
 
 
 WALL = "fix floor all wall/gran model hertz tangential history primitive type 1 {}plane 0.0 allow_special_domain_periodic yes"
+TUBE = WALL.format("y").replace("floor", "tube").replace("yplane 0.0", "xcylinder 9.0 0.0 0.0")
 CASES = {
     "axis": refused("fix press/strain: 'axis' must be x, y or z, got 'q'", axis="q"),
     "axis-missing": refused("fix press/strain: 'axis x', 'axis y' or 'axis z' is required", axis=None),
@@ -57,6 +58,7 @@ CASES = {
     "not-periodic-along-axis": refused("cannot move box edges along 'y': the box must be periodic there", boundary="p f p",
                                        shear=None, every=None, every_step="5", triclinic=False),
     "wall-on-the-axis": refused("cannot move box edges along 'y': fix floor is a wall on that axis", before=[WALL.format("y")]),
+    "cylinder-across-the-axis": refused("cannot move box edges along 'y': fix tube is a wall on that axis", before=[TUBE]),
     "second-fix-deform": refused("another fix already deforms the box", before=[shear(0.01)]),
     "needs-gran-insitu": refused("fix press/strain requires pair_style gran/insitu, got 'gran'", pair="gran"),
 }

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "grain_power.h"
+#include "make_contact.h"
+#include <gtest/gtest.h>
+
+using Eigen::Vector3d;
+
+namespace {
+
+const Vector3d force(4.0, 0.0, 1.0), lever_i(-1.0, 0.2, 0.0), lever_j(1.0, 0.2, 0.0);
+double v0[3] = {0.3, -0.1, 0.2}, v1[3] = {-0.4, 0.5, 0.1}, w0[3] = {0.1, 0.2, 0.3}, w1[3] = {-0.6, 0.4, 0.2};
+const double *v[2] = {v0, v1}, *omega[2] = {w0, w1};
+
+double relative_power(const Vector3d &image_velocity) {
+  const Vector3d u = Vector3d(v0) + Vector3d(w0).cross(lever_i) - Vector3d(v1) - image_velocity - Vector3d(w1).cross(lever_j);
+  return force.dot(u);
+}
+
+}
+
+TEST(grain_power, is_the_force_times_the_relative_velocity) {
+  grainscope::GrainPower power;
+  power.reset(2);
+  power.add(make_contact(), force, lever_i, lever_j, Vector3d(9.0, 9.0, 9.0));  // no ghost: the image velocity is ignored
+  EXPECT_NEAR(power.power(v, omega), relative_power(Vector3d::Zero()), 1e-15);
+}
+
+TEST(grain_power, two_owners_give_the_power_once_with_the_velocity_of_the_image) {
+  const Vector3d image(0.7, 0.0, -0.2);
+  grainscope::GrainPower power;
+  power.reset(2);
+  grainscope::Contact c = make_contact(0.5);
+  c.j = 2;  // a ghost of grain 1
+  power.add(c, force, lever_i, lever_j, image);
+  c.i = 1;
+  c.j = 3;  // a ghost of grain 0
+  power.add(c, -force, lever_j, lever_i, -image);
+  EXPECT_NEAR(power.power(v, omega), relative_power(image), 1e-15);
+}
+
+TEST(grain_power, reset_forgets) {
+  grainscope::GrainPower power;
+  power.reset(2);
+  power.add(make_contact(), force, lever_i, lever_j, Vector3d::Zero());
+  power.reset(2);
+  EXPECT_EQ(power.power(v, omega), 0.0);
+}
