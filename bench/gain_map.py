@@ -29,7 +29,7 @@ def main():
     for inertial, alpha, mu in itertools.product(arguments.inertial, arguments.alpha, arguments.mu):
         with tempfile.TemporaryDirectory() as folder:
             out = pathlib.Path(folder) / "out"
-            subprocess.run([str(arguments.binary.resolve()), "-in", str(DECK), "-log", "none", "-screen", "none", "-var", "out", str(out),
+            subprocess.run([str(arguments.binary.resolve()), "-in", str(DECK), "-log", "none", "-var", "out", str(out),
                             "-var", "N", str(arguments.grains), "-var", "I", str(inertial), "-var", "alpha", str(alpha),
                             "-var", "mu", str(mu), "-var", "strain", str(arguments.strain)], cwd=folder, check=True,
                            stdout=subprocess.DEVNULL)
