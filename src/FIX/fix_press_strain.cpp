@@ -421,7 +421,8 @@ void FixPressStrain::write_restart(FILE *file) {
 
 void FixPressStrain::restart(char *buffer) {
   Impl &my = *impl_;
-  const double *state = reinterpret_cast<const double *>(buffer);
+  double state[12];
+  memcpy(state, buffer, sizeof state);
   my.strain = state[0];
   my.velocity = state[1];
   my.averaged_pressure = state[2];

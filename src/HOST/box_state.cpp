@@ -22,7 +22,8 @@ BoxState::BoxState(LAMMPS_NS::LAMMPS *lmp) {
   const double h[6] = {domain->xprd, domain->yprd, domain->zprd, domain->triclinic ? domain->yz : 0.0,
                        domain->triclinic ? domain->xz : 0.0, domain->triclinic ? domain->xy : 0.0};
   edges = upper_triangular(h);
-  edge_velocities = upper_triangular(domain->h_rate);
+  // With `remap x` the host moves grains along with the box behind their velocities' back: these are then peculiar already.
+  if (domain->deform_vremap) edge_velocities = upper_triangular(domain->h_rate);
   velocity_gradient = edge_velocities * edges.inverse();
   centre = Eigen::Map<const Eigen::Vector3d>(domain->boxlo) + 0.5 * edges.rowwise().sum();
   volume = h[0] * h[1] * h[2];

@@ -10,7 +10,7 @@ namespace grainscope {
 
 /** The simulation box at one moment: H holds the edge vectors in its columns, dH/dt
  *  their velocities; the velocity gradient is dH/dt H^-1 and includes
- *  the motion of a box edge that is being moved. A box that does not deform has a gradient of zero. */
+ *  the motion of a box edge that is being moved. Zero for a box that does not deform, or deforms without `remap v`. */
 struct BoxState {
   Eigen::Matrix3d edges = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d edge_velocities = Eigen::Matrix3d::Zero();

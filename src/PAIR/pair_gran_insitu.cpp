@@ -43,6 +43,7 @@ PairGranInsitu *PairGranInsitu::required_by(LAMMPS *lmp, const char *who) {
         (lmp->force->pair ? lmp->force->pair_style : "no pair style") + "'";
     lmp->error->all(FLERR, message.c_str());
   }
+  if (lmp->force->newton_pair) lmp->error->all(FLERR, (std::string(who) + " requires 'newton off', got 'newton on'").c_str());
   return pair;
 }
 
@@ -115,8 +116,8 @@ void PairGranInsitu::require_box_large_enough() {
   for (int k = 0; k < 3; k++)
     if (periodic[k] && box.height(k) < needed) {
       char message[256];
-      snprintf(message, sizeof message, "pair_style gran/insitu: the periodic box must be at least 2 x (largest diameter + skin) = %g "
-               "high along %c, got %g: two images of one grain could touch the same neighbour", needed, "xyz"[k], box.height(k));
+      snprintf(message, sizeof message, "pair_style gran/insitu: the periodic box must be at least 2 x (largest diameter x contact distance "
+               "factor + skin) = %g high along %c, got %g: two images of one grain could touch the same neighbour", needed, "xyz"[k], box.height(k));
       error->all(FLERR, message);
     }
 }

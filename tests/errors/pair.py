@@ -32,7 +32,7 @@ CASES = {
                       "use it alone"),
     "misspelt-model": refusal(lambda: as_text("model hertz", "model hurtz"), "pair_style gran/insitu: invalid contact model"),
     "misspelt-setting": refusal(lambda: as_text("tangential history", "tangential history limitFours on"), "limitFours"),
-    "small-periodic-box": refusal(small_box, "pair_style gran/insitu: the periodic box must be at least 2 x (largest diameter + skin)",
+    "small-periodic-box": refusal(small_box, "pair_style gran/insitu: the periodic box must be at least 2 x (largest diameter x contact distance factor + skin)",
                                   "high along z, got 4"),
     **{f"{style.replace('/', '-')}-needs-gran-insitu": refusal(
         lambda style=style: deck(f"compute c all {style}", *thermo(1, "c_c" if style != "contact/local" else "step"), pair="gran"),
