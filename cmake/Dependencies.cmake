@@ -15,7 +15,8 @@ find_package(Boost QUIET)
 need(Boost_FOUND "Boost (headers)" libboost-dev)
 if(GRAINSCOPE_VTK)
   enable_language(C)
-  find_package(VTK QUIET)
+  find_package(VTK QUIET COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersCore FiltersGeneral IOLegacy IOXML
+               IOParallelXML ParallelCore ParallelMPI)
   need(VTK_FOUND "VTK (asked for by GRAINSCOPE_VTK)" libvtk9-dev)
 endif()
 
