@@ -12,7 +12,7 @@ add_cases(oracle cases/measures_against_oracle.py LABEL case RANKS 1 2 CASES
   spheres spheres-in-the-open spheroid-1.5 spheroid-1.5-in-the-open spheres-through-a-flip spheroids-through-a-flip walls-not-counted)
 add_cases(oracle cases/measures_against_oracle.py LABEL case RANKS 1 CASES
   spheroid-0.33-in-the-open spheroid-3-in-the-open polydisperse two-types frictionless no-history subgroup group-of-one)
-add_cases(sphere-law cases/sphere_law.py LABEL case RANKS 1 CASES history-undamped no-history frictionless slippery)
+add_cases(sphere-law cases/sphere_law.py LABEL case RANKS 1 CASES history-undamped no-history frictionless slippery limit-force)
 add_cases(sphere-law cases/sphere_law.py LABEL case RANKS 1 2 CASES history two-types)
 add_cases(same-on-ranks cases/ranks.py LABEL case RANKS 2 4 CASES spheres spheroids oblate-grains subgroup)
 add_cases(same-on-ranks cases/ranks.py LABEL case RANKS 4 CASES empty-ranks empty-group)

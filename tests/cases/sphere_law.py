@@ -24,7 +24,7 @@ def law_of(deck):
 
     young = np.array(deck.material.young if len(deck.material.young) == types else deck.material.young * types)
     return Law(young, POISSON, pairs(deck.material.restitution), pairs(deck.material.friction), deck.dt(), deck.tangential,
-               "tangential_damping off" not in deck.extra)
+               "tangential_damping off" not in deck.extra, "limitForce on" in deck.extra)
 
 
 def ordered(rows):
@@ -103,6 +103,7 @@ CASES = {name: in_simple_shear(spheres(**choices)) for name, choices in {
     "history-undamped": {"extra": "tangential_damping off"},
     "no-history": {"tangential": "no_history"},
     "frictionless": {"tangential": "off"},
+    "limit-force": {"extra": "limitForce on", "material": Material(restitution=(0.1,))},
     "slippery": {"material": Material(friction=(0.01,), restitution=(0.1,))},
     "two-types": TWO_TYPES,
 }.items()}

@@ -34,6 +34,8 @@ CASES = {
     "misspelt-setting": refusal(lambda: as_text("tangential history", "tangential history limitFours on"), "limitFours"),
     "small-periodic-box": refusal(small_box, "pair_style gran/insitu: the periodic box must be at least 2 x (largest diameter x contact distance factor + skin)",
                                   "high along z, got 4"),
+    "newton-on": refusal(lambda: deck("compute c all stress/contact", tangential="off").text().replace("newton off", "newton on"),
+                         "compute stress/contact requires 'newton off', got 'newton on'"),
     **{f"{style.replace('/', '-')}-needs-gran-insitu": refusal(
         lambda style=style: deck(f"compute c all {style}", *thermo(1, "c_c" if style != "contact/local" else "step"), pair="gran"),
         f"compute {style} requires pair_style gran/insitu, got 'gran'")

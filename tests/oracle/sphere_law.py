@@ -18,6 +18,7 @@ class Law:
     dt: float
     tangential: str = "history"
     tangential_damping: bool = True
+    limit_force: bool = False
     springs: dict = field(default_factory=dict)
 
     def stiffness(self, a, b):
@@ -68,12 +69,14 @@ def contacts(law, grains, box, first):
         u = v[i] - (v[j] + box.rate @ image) - np.cross(ri * omega[i] + rj * omega[j], n)
         un = u @ n
         ut = u - un * n
-        fn = kn * overlap - gamma_n * un
+        fn, damped = kn * overlap - gamma_n * un, -gamma_n * un
+        if law.limit_force and fn < 0.0:  # no attraction: damping takes away the elastic force and no more
+            fn, damped = 0.0, -kn * overlap
         ft, sliding, slip, spring = tangential_force(law, law.springs.get((i, j)), ut, n, kt, gamma_t,
                                                      law.friction[a, b] * abs(fn), first)
         springs[(i, j)] = spring
         rows.append({"id": (grains.ids[i], grains.ids[j]), "image": image, "point": grains.x[i] - ri * n, "normal": n, "branch": branch,
-                     "overlap": overlap, "force": fn * n + ft, "fn": fn, "fn_damping": -gamma_n * un, "ft": ft, "un": un, "ut": ut,
+                     "overlap": overlap, "force": fn * n + ft, "fn": fn, "fn_damping": damped, "ft": ft, "un": un, "ut": ut,
                      "sliding": float(sliding), "slip": slip, "gamma_t": gamma_t,
                      "kn": kn, "kt": kt, "gamma_n": gamma_n})
     law.springs = springs

@@ -37,9 +37,10 @@ def _command(ranks):
 
 
 def tail(output):
-    """The end of a run's output, without the host's lines about single grains."""
+    """The end of a run's output, without the host's lines about single grains and mpirun's about its processes."""
+    output = (output or "").split("-" * 60)[0]
     noise = ("Created ", "Setting atom", "  1 settings made")
-    return "\n".join(line for line in (output or "").splitlines() if not line.startswith(noise))[-2500:]
+    return "\n".join(line for line in output.splitlines() if not line.startswith(noise))[-2500:]
 
 
 class Result:

@@ -33,6 +33,8 @@ def column(data, wanted):
     if isinstance(wanted, int):
         wanted = names[wanted - 1] if wanted <= len(names) else str(wanted)
     if wanted not in data:
+        wanted = next((name for name in names if name[1:2] == "_" and name[2:] == wanted), wanted)
+    if wanted not in data:
         raise Failure(f"no column {wanted!r}; there are {', '.join(names)}")
     return data[names[0]], data[wanted]
 
