@@ -34,3 +34,5 @@ add_cases(press-strain cases/press_strain.py LABEL case RANKS 1 2 CASES
   shears-as-fix-deform recursion-every-strain automatic-gain restart-continues at-the-target-nothing-moves momentum-removed
   kinetic-part-counts)
 add_cases(press-strain cases/press_strain.py LABEL case RANKS 2 4 CASES same-on-ranks)
+add_cases(ellipsoid-rows cases/ellipsoid_rows.py LABEL case RANKS 1 CASES spheroid-0.33 spheroid-3)
+add_cases(ellipsoid-rows cases/ellipsoid_rows.py LABEL case RANKS 1 2 CASES spheroid-1.5)

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from case import main, require, require_close
+from case import main, require, require_close, require_equal
 from deck import Deck, Material, box_columns, dump_grains, dump_local, shear, thermo
 from oracle import measures
 from oracle.state import ROW_WIDTH, box_of, grains_of, rows_of
@@ -29,12 +29,13 @@ COMPUTES = {"stress": ("stress/contact", 35), "now": ("dissipation mode instanta
 
 
 def watched(deck, group="all"):
-    """The deck with every compute on `group` in thermo, and with dumps of grains and contacts."""
+    """The deck with every compute on `group` in thermo, and with dumps of grains, of all contacts and of the group's."""
     computes = [f"compute {name} {group} {command}" for name, (command, _) in COMPUTES.items()]
     quantities = [q for name, (_, size) in COMPUTES.items() for q in (f"c_{name}", *vector(name, size))]
-    return replace(deck, body=[*deck.body, *computes, f"compute rows {group} contact/local",
+    return replace(deck, body=[*deck.body, *computes, "compute rows all contact/local", f"compute own {group} contact/local",
                                *thermo(1, *box_columns(), *quantities), *dump_grains(deck.packing, EVERY),
-                               *dump_local("rows", ROW_WIDTH, EVERY, "rows"), f"run {STEPS}"])
+                               *dump_local("rows", ROW_WIDTH, EVERY, "rows"), *dump_local("own", ROW_WIDTH, EVERY, "own"),
+                               f"run {STEPS}"])
 
 
 @dataclass
@@ -49,12 +50,21 @@ class Moment:
         return np.array([self.told[q] for q in vector(name, COMPUTES[name][1])])
 
 
-def moments(result, rate=0.0):
+def within(rows, low, high):
+    """The rows whose two grains both have IDs from `low` to `high`."""
+    inside = ((rows["id"] >= low) & (rows["id"] <= high)).all(axis=1)
+    return {name: values[inside] for name, values in rows.items()}
+
+
+def moments(result, low, high, rate=0.0):
     table = result.thermo()[0]
-    for (step, columns), (_, rows) in zip(result.dump("grains.dump"), result.dump("rows.dump")):
+    for (step, columns), (_, every), (_, own) in zip(*map(result.dump, ("grains.dump", "rows.dump", "own.dump"))):
+        rows = within(rows_of(every, "rows"), low, high)
+        for name, values in rows_of(own, "own").items():
+            require_equal(values, rows[name], f"step {step}: contact/local of the group, {name}")
         # The force evaluation of a step saw the box that the end of the step before had left.
         box = box_of(table, max(step - 1, 0), rate)
-        yield Moment({name: values[step] for name, values in table.items()}, grains_of(columns), rows_of(rows, "rows"), box)
+        yield Moment({name: values[step] for name, values in table.items()}, grains_of(columns), rows, box)
 
 
 def check_stress(moment, chosen, tolerance, softest=5e6):
@@ -116,8 +126,8 @@ def agrees(deck, group="", rate=0.0, balance=True, softest=5e6, fewest=1.0, chec
         start = [f"group chosen id {group}"] if group else ["group chosen union all"]
         result = run(watched(replace(deck, body=[*start, *deck.body]), "chosen"), ranks)
         count = 0
-        for moment in moments(result, rate):
-            low, high = map(int, group.split(":")) if group else (1, len(moment.grains.ids))
+        low, high = map(int, group.split(":")) if group else (1, len(deck.packing.grains))
+        for moment in moments(result, low, high, rate):
             chosen = (moment.grains.ids >= low) & (moment.grains.ids <= high)
             require(len(moment.rows["fn"]) >= fewest * chosen.sum(), f"only {len(moment.rows['fn'])} contacts")
             check_stress(moment, chosen, tolerance, softest)
