@@ -36,3 +36,5 @@ add_cases(press-strain cases/press_strain.py LABEL case RANKS 1 2 CASES
 add_cases(press-strain cases/press_strain.py LABEL case RANKS 2 4 CASES same-on-ranks)
 add_cases(ellipsoid-rows cases/ellipsoid_rows.py LABEL case RANKS 1 CASES spheroid-0.33 spheroid-3)
 add_cases(ellipsoid-rows cases/ellipsoid_rows.py LABEL case RANKS 1 2 CASES spheroid-1.5)
+add_cases(press-analytic cases/press_analytic.py LABEL case RANKS 1 2 CASES
+  automatic-gain-compresses automatic-gain-expands given-gain)
