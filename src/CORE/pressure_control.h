@@ -33,7 +33,7 @@ struct NetworkResponse {
 /** The controller: at each input dL/dt = kp (P - P_target), held until the next. With the automatic gain kp = beta L/(eta + K T), T the time
  *  between inputs, the linear sampled recursion P_{n+1} = P_n - beta' (P_n - P_target) is stable for every beta < 1. */
 struct PressureControl {
-  static constexpr double beta = 0.2;
+  static constexpr double beta = 0.5;
 
   bool automatic = true;
   double gain = 0.0;               // kp, velocity per pressure, when not automatic

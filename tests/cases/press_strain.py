@@ -6,10 +6,10 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_same_snapshots
-from deck import POISSON, YOUNG, Deck, box_columns, dump_grains, number, shear, thermo
+from deck import POISSON, YOUNG, Deck, box_columns, dump_grains, number, thermo
 from oracle.sphere_law import Law, contacts
 from oracle.state import box_of, grains_of
-from packing import dense_packing, in_the_open, tilted
+from packing import dense_packing, tilted
 from run import run
 
 STATE = ["f_press", *[f"f_press[{k}]" for k in range(1, 9)]]
@@ -27,25 +27,36 @@ def controlled(line, steps, packing=None, columns=(), **choices):
     return deck
 
 
-def shears_as_fix_deform(rate):
-    """With no gain: the same trajectory as fix deform xy erate, through a flip."""
-    def case(ranks):
-        steps = 300
-        packing = tilted(dense_packing(1.0, atom_style="sphere"), math.copysign(0.48, rate))
-        deck = Deck(packing)
-        # 0.06 of the box length in the run: past the flip at 0.5.
-        gd = math.copysign(0.06, rate) * packing.edges[0] / packing.edges[1] / (steps * deck.dt())
-        output = [*thermo(1, "xy"), *dump_grains(packing, 50), f"run {steps}"]
-        host = run(replace(deck, body=[shear(gd), *output]), ranks)
-        ours = run(replace(deck, body=[press(1.0, gd, rest="gain 0 momentum no"), *output]), ranks)
-        tilt = host.thermo()[0]["xy"]
-        require(tilt[0] * tilt[-1] < 0.0, f"no flip: tilt {tilt[0]} to {tilt[-1]}")
-        require_close(ours.thermo()[0]["xy"], tilt, 1e-12, "tilt")
-        for (step, found), (_, expected) in zip(ours.dump("grains.dump"), host.dump("grains.dump")):
-            for name in ("x", "y", "z", "vx", "vy", "vz", "omegax", "omegay", "omegaz"):
-                # 1e-10: tilts differ by ulps (a sum here, a straight line there); the packing is chaotic.
-                require_close(found[name], expected[name], 1e-10, f"step {step}, {name}", max(1.0, np.abs(expected[name]).max()))
-    return case
+def same_as_fix_deform(packing, plane, strain, ranks):
+    """With no gain: the same trajectory as fix deform <plane> erate, through a flip."""
+    steps = 300
+    deck = Deck(packing)
+    rate = number(strain / (steps * deck.dt()))
+    output = [*thermo(1, plane), *dump_grains(packing, 50), f"run {steps}"]
+    host = run(replace(deck, body=[f"fix shear all deform 1 {plane} erate {rate} remap v", *output]), ranks)
+    line = f"fix press all press/strain axis y target 1 shear {plane} rate {rate} every 1e-3 gain 0 momentum no"
+    ours = run(replace(deck, body=[line, *output]), ranks)
+    tilt = host.thermo()[0][plane]
+    require(np.diff(tilt).min() < 0.0 < np.diff(tilt).max(), f"no flip: tilt {tilt[0]} to {tilt[-1]}")
+    require_close(ours.thermo()[0][plane], tilt, 1e-12, "tilt")
+    for (step, found), (_, expected) in zip(ours.dump("grains.dump"), host.dump("grains.dump")):
+        for name in ("x", "y", "z", "vx", "vy", "vz", "omegax", "omegay", "omegaz"):
+            # 1e-10: tilts differ by ulps (a sum here, a straight line there); the packing is chaotic.
+            require_close(found[name], expected[name], 1e-10, f"step {step}, {name}", max(1.0, np.abs(expected[name]).max()))
+
+
+def shears_as_fix_deform(direction):
+    """Dense, past the flip at half the box length."""
+    packing = tilted(dense_packing(1.0, atom_style="sphere"), math.copysign(0.48, direction))
+    strain = math.copysign(0.06, direction) * packing.edges[0] / packing.edges[1]
+    return lambda ranks: same_as_fix_deform(packing, "xy", strain, ranks)
+
+
+def shears_in_plane(plane):
+    """A gas, from an upright box past the flip."""
+    packing = dense_packing(atom_style="sphere", overlap=-0.3, speed=0.2)
+    edges = dict(zip("xyz", packing.edges))
+    return lambda ranks: same_as_fix_deform(packing, plane, 0.6 * edges[plane[0]] / edges[plane[1]], ranks)
 
 
 def windows(table):
@@ -94,7 +105,7 @@ def counts_inputs(every, per_step, rate=0.05):
 
 
 def automatic_gain(ranks):
-    """kp = 0.2 L/(eta + K T), K and eta from a contact law written on its own, at the first input."""
+    """kp = 0.5 L/(eta + K T), K and eta from a contact law written on its own, at the first input."""
     rate, target, every = 0.05, 5.2e4, 1e-3
     packing = dense_packing(atom_style="sphere", speed=0.01)
     deck = Deck(packing)
@@ -109,7 +120,7 @@ def automatic_gain(ranks):
     ny2, ry2 = rows["normal"][:, 1] ** 2, rows["branch"][:, 1] ** 2
     stiffness = np.sum((1.5 * rows["kn"] * ny2 + rows["kt"] * (1 - ny2)) * ry2) / box.volume
     damping = np.sum(rows["gamma_n"] * ny2 * ry2) / box.volume
-    kp = 0.2 * table[LENGTH][1] / (damping + stiffness * every / rate)
+    kp = 0.5 * table[LENGTH][1] / (damping + stiffness * every / rate)
     require(table[CLIPPED][1] == 0.0, "the input was clipped: nothing is proved")
     require_close(table[VELOCITY][1], kp * (table["f_press"][1] - target), 1e-9, "dL/dt of the first input")
 
@@ -137,6 +148,18 @@ def restart_continues(ranks):
     for name in ("f_press", STRAIN, LENGTH, VELOCITY, INPUTS, CLIPPED):
         require_close(tables[0][name][1:], tables[1][name][1:], 0.0, name, 1.0)
     require(tables[0][INPUTS][-1] > tables[0][INPUTS][1] > 1.0, "no input after the restart")
+
+
+def restart_on_other_ranks(ranks):
+    """A file written on one rank continues on several: inputs and averages go on where they were."""
+    packing = dense_packing(atom_style="sphere")
+    deck, line = Deck(packing), press(2e5, 0.05, "every 7e-4")
+    rest = [*thermo(1, *STATE), "run 40"]
+    state = run(replace(deck, body=[line, "run 153", "write_restart half.restart"])).folder / "half.restart"
+    one, many = (run(deck.restarted(state, [line, *rest]), n).thermo()[0] for n in (1, ranks))
+    for name in STATE:
+        # Sums in another order, through 40 chaotic steps.
+        require_close(many[name], one[name], 1e-9, name, max(1e-6, np.abs(one[name]).max()))
 
 
 def same_on_ranks(ranks):
@@ -217,6 +240,8 @@ def kinetic_part_counts(ranks):
 CASES = {
     "shears-as-fix-deform": shears_as_fix_deform(1.0),
     "shears-backward-as-fix-deform": shears_as_fix_deform(-1.0),
+    "shears-in-xz": shears_in_plane("xz"),
+    "shears-in-yz": shears_in_plane("yz"),
     # Strain 1e-3 at rate 0.05: every 0.02 s.
     "recursion-every-strain": follows_the_recursion("every 1e-3", 0.02, 1e-6),
     "recursion-clipped": follows_the_recursion("every 1e-3", 0.02, 1e-3, "limit 1e-4"),
@@ -229,6 +254,7 @@ CASES = {
     "automatic-gain": automatic_gain,
     "holds-the-target": holds_the_target,
     "restart-continues": restart_continues,
+    "restart-on-other-ranks": restart_on_other_ranks,
     "same-on-ranks": same_on_ranks,
     "target-zero-expands": target_zero_expands,
     "at-the-target-nothing-moves": at_the_target_nothing_moves,
