@@ -5,9 +5,10 @@ add_cases(pair-bitwise-equal cases/pair_bitwise.py LABEL case RANKS 1 CASES
   uncompiled-combination boxy-grains)
 add_cases(pair cases/pair_host.py LABEL case RANKS 1 2 CASES
   pair-local-output-does-not-disturb contact-local-output-does-not-disturb restart-continues restart-of-spheres-continues
-  clear-and-begin-again pair-style-again stale-springs-warned-once virial-of-spheroids host-deck-with-walls)
+  clear-and-begin-again pair-style-again stale-springs-warned-once sinks-come-and-go virial-of-spheroids host-deck-with-walls)
 add_cases(pair cases/pair_host.py LABEL case RANKS 1 CASES
-  stale-springs-cured-no-warning no-springs-no-warning check-timestep-gran virial-of-plain-gran-is-wrong)
+  stale-springs-cured-no-warning stale-springs-of-round-superquadrics no-stale-springs-of-spheroids every-way-to-ask
+  spin-of-frictionless-spheres no-springs-no-warning check-timestep-gran virial-of-plain-gran-is-wrong)
 add_cases(oracle cases/measures_against_oracle.py LABEL case RANKS 1 2 CASES
   spheres spheres-in-the-open spheroid-1.5 spheroid-1.5-in-the-open spheres-through-a-flip spheroids-through-a-flip walls-not-counted)
 add_cases(oracle cases/measures_against_oracle.py LABEL case RANKS 1 CASES
@@ -27,13 +28,13 @@ add_cases(collision cases/collisions.py LABEL case RANKS 1 CASES
 add_cases(collision cases/collisions.py LABEL case RANKS 2 CASES head-on-prolate-e-0.5 oblique-prolate)
 add_cases(sphere-law cases/sphere_law.py LABEL case RANKS 1 2 CASES under-pressure-control sheared-backward)
 add_cases(press-strain cases/press_strain.py LABEL case RANKS 1 CASES
-  shears-backward-as-fix-deform recursion-clipped recursion-clipped-by-rate recursion-every-time recursion-negative-rate
+  shears-backward-as-fix-deform shears-in-xz shears-in-yz recursion-clipped recursion-clipped-by-rate recursion-every-time recursion-negative-rate
   inputs-every-strain inputs-every-time inputs-every-step holds-the-target target-zero-expands target-follows-a-variable without-shear
   momentum-kept)
 add_cases(press-strain cases/press_strain.py LABEL case RANKS 1 2 CASES
   shears-as-fix-deform recursion-every-strain automatic-gain restart-continues at-the-target-nothing-moves momentum-removed
   kinetic-part-counts)
-add_cases(press-strain cases/press_strain.py LABEL case RANKS 2 4 CASES same-on-ranks)
+add_cases(press-strain cases/press_strain.py LABEL case RANKS 2 4 CASES same-on-ranks restart-on-other-ranks)
 add_cases(ellipsoid-rows cases/ellipsoid_rows.py LABEL case RANKS 1 CASES spheroid-0.33 spheroid-3)
 add_cases(ellipsoid-rows cases/ellipsoid_rows.py LABEL case RANKS 1 2 CASES spheroid-1.5)
 add_cases(press-analytic cases/press_analytic.py LABEL case RANKS 1 2 CASES

@@ -43,7 +43,8 @@ def collide(packing, restitution, fraction, ranks, friction=0.4, extra="", mode=
     """(energy lost, D_n, D_t, D_t damp, last number of contacts): integrated over the collision."""
     smallest = min(packing.grains[0].semi_axes)
     # Hertz collision time, with margin for the slow parting at small e.
-    duration = 3.0 * 2.94 * (5.0 * math.sqrt(2.0) * math.pi * 1000.0 / (8.0 * 5e6)) ** 0.4 / (2 * SPEED) ** 0.2 * max(packing.grains[0].semi_axes)
+    largest = max(packing.grains[0].semi_axes)
+    duration = 3.0 * 2.94 * (5.0 * math.sqrt(2.0) * math.pi * 1000.0 / (8.0 * 5e6)) ** 0.4 / (2 * SPEED) ** 0.2 * largest
     dt = fraction * rayleigh_time(smallest)
     steps = math.ceil(duration / dt)
     vector = [f"c_loss[{k}]" for k in range(1, 6)]
@@ -66,7 +67,7 @@ def single_contact(ranks):
     gamma_n = 2 sqrt(5/6) 0.2154538 sqrt(S_n m*) = 13344.03, so P_n = gamma_n 1^2 = 13344.03;
     F_n = 4/3 E* 0.1 0.02 + 13344.03 = 20670.04; the limit 2067.004 is below gamma_t 2 = 24218, so it slides: P_t = 2067.004 x 2."""
     spin = 1.0 / 0.99  # the lever is R - d/2
-    grains = [Grain((-0.99, 0, 0), velocity=(0.5, 0, 0), omega=(0, 0, spin)), Grain((0.99, 0, 0), velocity=(-0.5, 0, 0), omega=(0, 0, spin))]
+    grains = [Grain((0.99 * side, 0, 0), velocity=(-0.5 * side, 0, 0), omega=(0, 0, spin)) for side in (-1, 1)]
     packing = Packing((24.0, 24.0, 24.0), grains, atom_style="sphere", origin=(-12.0, -12.0, -12.0))
     vector = [f"c_loss[{k}]" for k in range(1, 6)]
     deck = Deck(packing, tangential="no_history", material=Material(friction=(0.1,)),

@@ -32,8 +32,8 @@ def order(grains, ranks, omega=(0.0, 0.0, 0.0)):
 
 def expect(grains, s2, **parts):
     """`parts`: theta, biaxiality, q, director, counts; degrees for theta."""
-    places = {"q": slice(0, 6), "director": slice(6, 9), "biaxiality": slice(9, 10), "theta": slice(10, 11), "director_theta": slice(11, 12),
-              "spin": slice(12, 15), "counts": slice(15, 17), "eigenvalues": slice(17, 20)}
+    places = {"q": slice(0, 6), "director": slice(6, 9), "biaxiality": slice(9, 10), "theta": slice(10, 11),
+              "director_theta": slice(11, 12), "spin": slice(12, 15), "counts": slice(15, 17), "eigenvalues": slice(17, 20)}
 
     def case(ranks):
         found_s2, vector = order(grains, ranks, parts.get("spin", (0.0, 0.0, 0.0)))

@@ -66,13 +66,47 @@ def pair_style_again(ranks):
     require_same_snapshots(twice.dump("grains.dump"), once.dump("grains.dump"), "issued twice against once")
 
 
-def stale_springs(factor, model, expected):
+def stale_springs(factor, model, expected, packing=dense_packing(1.0, atom_style="sphere")):
     def case(ranks):
-        deck = replace(Deck(dense_packing(1.0, atom_style="sphere"), contact_distance_factor=factor, tangential=model),
-                       body=["run 20", "run 20"])
+        deck = Deck(packing, contact_distance_factor=factor, tangential=model, body=["run 20", "run 20"])
         found = run(deck, ranks).output.count(WARNING)
         require(found == expected, f"factor {factor}, tangential {model}: {found} warnings, expected {expected}")
     return case
+
+
+def sinks_come_and_go(ranks):
+    """Computes deleted between runs, the pair style replaced under a living compute, and both in `clear`."""
+    deck = moving()
+    model = f"pair_style gran/insitu {deck.model()}"
+    define = ["compute stress all stress/contact", "compute rows all contact/local", "compute count all reduce sum c_rows[1]"]
+    deck.body = [*define, *thermo(5, "c_stress", "c_count"), "run 20", *thermo(5, "step"), "uncompute count", "uncompute stress",
+                 "run 20", model, "pair_coeff * *", "run 20", "uncompute rows", *define, *thermo(5, "c_stress", "c_count"), "run 20",
+                 model, "pair_coeff * *", "run 20", "clear"]
+    table = run(deck, ranks).thermo()
+    require(len(table) == 5 and (table[4]["c_stress"] != 0.0).all(), "the computes stopped seeing contacts")
+
+
+def every_way_to_ask(ranks):
+    """thermo, fix ave/time and a variable get the same numbers."""
+    deck = moving()
+    deck.body = ["compute stress all stress/contact", "variable twice equal 2*c_stress", *thermo(10, "c_stress", "v_twice"),
+                 "fix mean all ave/time 5 1 5 c_stress v_twice file mean.txt", "run 100"]
+    result = run(deck, ranks)
+    table, means = result.thermo()[-1], result.averages("mean.txt")
+    require_close(table["v_twice"], 2.0 * table["c_stress"], 1e-15, "variable")
+    steps = dict(zip(means["TimeStep"], means["c_stress"]))
+    # fix ave/time prints six digits.
+    require_close([steps[step] for step in table["step"][1:]], table["c_stress"][1:], 1e-5, "fix ave/time")
+
+
+def spin_of_frictionless_spheres(ranks):
+    """No torque at all: angular velocities stay what they were, to the last bit."""
+    deck = Deck(dense_packing(atom_style="sphere"), tangential="off")
+    deck.body = [shear(0.05), *dump_grains(deck.packing, 300), "run 300"]
+    (_, before), (_, after) = run(deck, ranks).dump("grains.dump")
+    require(np.abs(after["vx"] - before["vx"]).max() > 0.1, "nothing collided")
+    for name in ("omegax", "omegay", "omegaz"):
+        require_close(after[name], before[name], 0.0, name, 1.0)
 
 
 def time_step_check(ranks):
@@ -145,6 +179,11 @@ CASES = {
     "stale-springs-warned-once": stale_springs(1.0, "history", 1),
     "stale-springs-cured-no-warning": stale_springs(1.05, "history", 0),
     "no-springs-no-warning": stale_springs(1.0, "off", 0),
+    "stale-springs-of-round-superquadrics": stale_springs(1.0, "history", 1, dense_packing(1.0)),
+    "no-stale-springs-of-spheroids": stale_springs(1.0, "history", 0, dense_packing(1.5)),
+    "sinks-come-and-go": sinks_come_and_go,
+    "every-way-to-ask": every_way_to_ask,
+    "spin-of-frictionless-spheres": spin_of_frictionless_spheres,
     "check-timestep-gran": time_step_check,
     "virial-of-spheroids": virial_is_right,
     "virial-of-plain-gran-is-wrong": virial_of_plain_gran_is_wrong,

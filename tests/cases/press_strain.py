@@ -56,7 +56,7 @@ def shears_in_plane(plane):
     """A gas, from an upright box past the flip."""
     packing = dense_packing(atom_style="sphere", overlap=-0.3, speed=0.2)
     edges = dict(zip("xyz", packing.edges))
-    return lambda ranks: same_as_fix_deform(packing, plane, 0.6 * edges[plane[0]] / edges[plane[1]], ranks)
+    return lambda ranks: same_as_fix_deform(packing, plane, 0.601 * edges[plane[0]] / edges[plane[1]], ranks)
 
 
 def windows(table):

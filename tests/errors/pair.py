@@ -32,8 +32,8 @@ CASES = {
                       "use it alone"),
     "misspelt-model": refusal(lambda: as_text("model hertz", "model hurtz"), "pair_style gran/insitu: invalid contact model"),
     "misspelt-setting": refusal(lambda: as_text("tangential history", "tangential history limitFours on"), "limitFours"),
-    "small-periodic-box": refusal(small_box, "pair_style gran/insitu: the periodic box must be at least 2 x (largest diameter x contact distance factor + skin)",
-                                  "high along z, got 4"),
+    "small-periodic-box": refusal(small_box, "pair_style gran/insitu: the periodic box must be at least 2 x (largest diameter x "
+                                  "contact distance factor + skin)", "high along z, got 4"),
     "newton-on": refusal(lambda: deck("compute c all stress/contact", tangential="off").text().replace("newton off", "newton on"),
                          "compute stress/contact requires 'newton off', got 'newton on'"),
     **{f"{style.replace('/', '-')}-needs-gran-insitu": refusal(
