@@ -38,4 +38,4 @@ add_cases(press-strain cases/press_strain.py LABEL case RANKS 2 4 CASES same-on-
 add_cases(ellipsoid-rows cases/ellipsoid_rows.py LABEL case RANKS 1 CASES spheroid-0.33 spheroid-3)
 add_cases(ellipsoid-rows cases/ellipsoid_rows.py LABEL case RANKS 1 2 CASES spheroid-1.5)
 add_cases(press-analytic cases/press_analytic.py LABEL case RANKS 1 2 CASES
-  automatic-gain-compresses automatic-gain-expands given-gain)
+  automatic-gain-compresses automatic-gain-expands automatic-gain-of-hooke given-gain)
