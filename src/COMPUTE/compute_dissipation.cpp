@@ -37,8 +37,11 @@ ComputeDissipation::~ComputeDissipation() { delete[] vector; }
 
 void ComputeDissipation::init() {
   ContactCompute::init();
+  const grainscope::Arguments arguments(lmp, name_, 0, 0, nullptr);
   if (observer_->law() == grainscope::ContactObserver::TangentialLaw::other)
-    grainscope::Arguments(lmp, name_, 0, 0, nullptr).fail("knows the friction of 'tangential' off, no_history and history only");
+    arguments.fail("knows the friction of 'tangential' off, no_history and history only");
+  if (!observer_->elastic())
+    arguments.fail("knows the damping of the normal models hertz, hooke, hertz/stiffness and hooke/stiffness only");
 }
 
 bool ComputeDissipation::needs_images() const { return impl_->mode == Impl::Mode::step; }
@@ -86,6 +89,7 @@ void ComputeDissipation::compute_vector() {
   const double values[5] = {normal, sums.friction, tangential_damping, sums.contacts, sums.sliding};
   std::copy(values, values + 5, vector);
   sum_over_ranks(vector, 5);
+  for (int k = 0; k < 5; k++) vector[k] += 0.0;  // no negative zeros
   scalar = vector[0] + vector[1] + vector[2];
 }
 

@@ -5,6 +5,8 @@
 #include "peculiar_motion.h"
 #include "stress.h"
 #include "atom.h"
+#include "comm.h"
+#include "error.h"
 #include "fix_property_global.h"
 #include "force.h"
 #include "modify.h"
@@ -27,6 +29,12 @@ ComputeStressContact::ComputeStressContact(LAMMPS *lmp, int &iarg, int narg, cha
 }
 
 ComputeStressContact::~ComputeStressContact() { delete[] vector; }
+
+void ComputeStressContact::init() {
+  ContactCompute::init();
+  if (observer_->law() == grainscope::ContactObserver::TangentialLaw::other && comm->me == 0)
+    error->warning(FLERR, "compute stress/contact: sliding is known for 'tangential' off, no_history and history only; element 32 stays 0");
+}
 
 void ComputeStressContact::begin_contacts() { *sums_ = grainscope::StressSums(); }
 
@@ -102,7 +110,8 @@ void ComputeStressContact::compute_vector() {
   *out++ = all.overlaps() * per_contact;
   *out++ = all.largest_overlap;
   *out++ = flattest_shape() * std::pow(softest_modulus() * per_pressure, 2.0 / 3.0);
-  scalar = pressure;
+  for (int k = 0; k < size_vector; k++) vector[k] += 0.0;  // no negative zeros
+  scalar = pressure + 0.0;
 }
 
 double ComputeStressContact::compute_scalar() {

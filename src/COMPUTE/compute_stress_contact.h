@@ -27,6 +27,7 @@ class ComputeStressContact : public grainscope::ContactCompute {
  public:
   ComputeStressContact(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeStressContact();
+  void init();
   double compute_scalar();
   void compute_vector();
 

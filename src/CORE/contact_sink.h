@@ -31,6 +31,8 @@ class ContactSink {
   virtual bool needs_images() const { return false; }
 
   void set_source(Source *source) { source_ = source; }
+  /** False once the source is gone: what was kept of it must not be used. */
+  bool attached() const { return source_; }
 
  private:
   Source *source_;

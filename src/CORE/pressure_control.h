@@ -10,7 +10,8 @@ namespace grainscope {
 
 /** What the contact network says along one axis, in one evaluation or summed over a window of evaluations. With every contact moved
  *  affinely along the axis n, a change of the box length L gives dP = (stiffness) dL/L + (damping) (dL/dt)/L, per unit volume:
- *  stiffness = sum (k n_a^2 + k_t (1 - n_a^2)) r_a^2, damping = sum gamma_n n_a^2 r_a^2, k the tangent normal stiffness. */
+ *  stiffness = sum (k n_a^2 + k_t (1 - n_a^2)) r_a^2, damping = sum (gamma_n n_a^2 + gamma_t (1 - n_a^2)) r_a^2, k the tangent
+ *  normal stiffness, gamma_t that of contacts that do not slide. */
 struct NetworkResponse {
   double pressure = 0.0;   // sum F_a r_a / volume
   double stiffness = 0.0;
@@ -21,7 +22,7 @@ struct NetworkResponse {
     const double n2 = c.normal[axis] * c.normal[axis], r = c.branch[axis], wr2 = c.weight * r * r;
     pressure += c.weight * c.force[axis] * r;
     stiffness += wr2 * (exponent * c.normal_stiffness * n2 + (sticks ? c.tangential_stiffness * (1.0 - n2) : 0.0));
-    damping += wr2 * c.damping_coefficient * n2;
+    damping += wr2 * (c.damping_coefficient * n2 + (c.sliding ? 0.0 : c.tangential_damping * (1.0 - n2)));
   }
   void add(const NetworkResponse &other, double factor) {
     pressure += factor * other.pressure;
@@ -31,7 +32,8 @@ struct NetworkResponse {
 };
 
 /** The controller: at each input dL/dt = kp (P - P_target), held until the next. With the automatic gain kp = beta L/(eta + K T), T the time
- *  between inputs, the linear sampled recursion P_{n+1} = P_n - beta' (P_n - P_target) is stable for every beta < 1. */
+ *  between inputs, a network that answers affinely is stable for every beta < 1 (sampled recursion of the window average and the velocity
+ *  held before it, by the Jury criterion). 0.5 leaves a factor of two for what is not affine; smaller values make a dilute start slow. */
 struct PressureControl {
   static constexpr double beta = 0.5;
 

@@ -43,15 +43,15 @@ class FixPressStrain : public FixDeform, public grainscope::ContactSink {
   struct HostArguments;
   FixPressStrain(class LAMMPS *lmp, int narg, char **arg, const HostArguments &host);
 
-  void require_controllable_box();
+  void require_controllable_box() const;
+  void require_no_wall_on_axis(Fix *fix) const;
   void evaluate_rate();
   void evaluate_variables();
-  double advance_progress();
-  double expected_interval() const;
-  void set_box_rates();
-  void advance_box();
+  double progress_of_a_step() const;
+  double time_between_inputs() const;
   void plan_flip();
   void take_input();
+  double kinetic_pressure() const;
   double pressure_now();
 };
 

@@ -30,7 +30,7 @@ bool ContactCompute::in_group(int i) const { return atom->mask[i] & groupbit; }
 bool ContactCompute::both_in_group(int i, int j) const { return atom->mask[i] & atom->mask[j] & groupbit; }
 
 void ContactCompute::require_tally() const {
-  if (tallied_ == update->ntimestep) return;
+  if (attached() && tallied_ == update->ntimestep) return;
   const std::string message = name_ + " " + id + ": not tallied on this step, because nobody announced it: ask through thermo, "
                               "fix ave/time, a dump, or a variable that one of them uses";
   error->all(FLERR, message.c_str());

@@ -23,9 +23,8 @@ PeculiarMotion::PeculiarMotion(LAMMPS_NS::LAMMPS *lmp, int groupbit, const BoxSt
     sums[4] += 1.0;
   }
   MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, lmp->world);
-  mass_ = sums[3];
   grains_ = sums[4];
-  drift_ = mass_ > 0.0 ? Vector3d(Map<const Vector3d>(sums) / mass_) : Vector3d::Zero();
+  drift_ = sums[3] > 0.0 ? Vector3d(Map<const Vector3d>(sums) / sums[3]) : Vector3d::Zero();
 }
 
 Eigen::Matrix3d PeculiarMotion::momentum_flux() const {

@@ -9,13 +9,12 @@ namespace LAMMPS_NS { class LAMMPS; }
 
 namespace grainscope {
 
-/** How a group moves against the affine flow of the box, u = v - L(x - x_c): its mass and mean (by mass), over all ranks. Collective. */
+/** How a group moves against the affine flow of the box, u = v - L(x - x_c): its number of grains and mean (by mass), over all ranks. Collective. */
 class PeculiarMotion {
  public:
   PeculiarMotion(LAMMPS_NS::LAMMPS *lmp, int groupbit, const BoxState &box);
 
   double grains() const { return grains_; }
-  double mass() const { return mass_; }
   /** Mass-weighted mean of u; zero for an empty group. */
   const Eigen::Vector3d &drift() const { return drift_; }
   /** Sum m dv dv with dv = u - drift, over all ranks. Collective. */
@@ -28,7 +27,7 @@ class PeculiarMotion {
   };
   LAMMPS_NS::LAMMPS *lmp_;
   std::vector<Grain> local_;
-  double grains_, mass_;
+  double grains_;
   Eigen::Vector3d drift_;
 };
 

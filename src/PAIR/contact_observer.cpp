@@ -93,7 +93,7 @@ void ContactObserver::observe(const Sides &s, const LIGGGHTS::ContactModels::For
   c.tangential_damping = law_ == TangentialLaw::off ? 0.0 : s.gammat;
   c.normal_velocity = s.vn;
   // `limitForce` sets a negative total to exactly 0: the damping part is then what cancels the elastic one.
-  c.normal_damping = s.Fn == 0.0 ? -s.kn * s.deltan : -s.gamman * s.vn;
+  c.normal_damping = elastic_ && s.Fn == 0.0 ? -s.kn * s.deltan : -s.gamman * s.vn;
   c.tangential_force = c.force - c.normal_force * c.normal;
   c.tangential_velocity = Vector3d(s.vtr1, s.vtr2, s.vtr3);
   judge_sliding(s, c);

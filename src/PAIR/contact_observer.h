@@ -26,6 +26,9 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   void remove_all();
 
   void set_law(TangentialLaw law, int spring_offset) { law_ = law; spring_offset_ = spring_offset; }
+  /** Whether the normal model is an elastic spring and a dashpot: then its stiffness and damping are what the model says. */
+  void set_elastic(bool elastic) { elastic_ = elastic; }
+  bool elastic() const { return elastic_; }
   void set_friction(double **coefficients) { friction_ = coefficients; }
   TangentialLaw law() const { return law_; }
 
@@ -57,6 +60,7 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   bool active_ = false;
   TangentialLaw law_ = TangentialLaw::other;
   int spring_offset_ = 0;
+  bool elastic_ = false;
   double spring_[3] = {0.0, 0.0, 0.0};
   double **friction_ = nullptr;
   BoxState box_;

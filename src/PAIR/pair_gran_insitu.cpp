@@ -83,6 +83,9 @@ void PairGranInsitu::init_granular() {
   if (law == Law::history)
     while (history_arg[spring].name != "shearx") spring++;
   impl_->observer.set_law(law, spring);
+  bool elastic = false;
+  for (const char *model : {"hertz", "hooke", "hertz/stiffness", "hooke/stiffness"}) elastic = elastic || contact_match("normal", model);
+  impl_->observer.set_elastic(elastic);
 
   impl_->friction = nullptr;
   if (law == Law::no_history || law == Law::history) {

@@ -11,7 +11,7 @@ PairStyle(gran/insitu,PairGranInsitu)
 #include "pair_gran_proxy.h"
 #include <memory>
 
-namespace grainscope { class ContactObserver; class ContactSink; }
+namespace grainscope { class ContactObserver; }
 
 namespace LAMMPS_NS {
 
