@@ -94,12 +94,12 @@ def main():
     if len(arguments.run) > len(RUN_COLOURS):
         parser.error(f"at most {len(RUN_COLOURS)} runs in one picture, got {len(arguments.run)}")
     output = Path(arguments.output)
-    output.mkdir(parents=True, exist_ok=True)
     try:
+        output.mkdir(parents=True, exist_ok=True)
         runs = [read_run(folder) for folder in arguments.run]
         plot_series(runs, arguments.start, output / "series.png")
         plot_dissipation(runs, arguments.start, output / "dissipation.png")
-    except InputError as error:
+    except (InputError, OSError) as error:
         sys.exit(f"plot_shear.py: {error}")
     print(f"{output / 'series.png'}\n{output / 'dissipation.png'}")
 

@@ -178,7 +178,7 @@ def main():
         if arguments.scene:
             Path(arguments.scene).write_text(scene)
         save_with_legend(run_povray(scene, arguments.width, arguments.width * 3 // 4, arguments.threads), colormap, arguments.output)
-    except InputError as error:
+    except (InputError, OSError) as error:
         sys.exit(f"render_grains.py: {error}")
     print(arguments.output)
 

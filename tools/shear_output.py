@@ -106,13 +106,18 @@ def read_grains(path):
     match = re.search(r"ITEM: BOX BOUNDS([^\n]*)\n((?:[^\n]*\n){3})ITEM: ATOMS ([^\n]*)\n(.*)", snapshot, re.S)
     if not match:
         raise InputError(f"{path}: not a LIGGGHTS text dump")
-    bounds = np.array([line.split() for line in match[2].splitlines()], dtype=float)
     names = match[3].split()
     wanted = "x y z quat1 quat2 quat3 quat4 shapex shapey shapez".split()
     missing = [name for name in wanted if name not in names]
     if missing:
         raise InputError(f"{path}: no column {', '.join(missing)}; the dump must hold {' '.join(wanted)}")
-    table = np.array(match[4].split(), dtype=float).reshape(-1, len(names))
+    try:
+        bounds = np.array([line.split() for line in match[2].splitlines()], dtype=float)
+        table = np.array(match[4].split(), dtype=float).reshape(-1, len(names))
+    except ValueError:
+        raise InputError(f"{path}: the last snapshot is damaged or incomplete") from None
+    if len(table) == 0:
+        raise InputError(f"{path}: the last snapshot holds no grains")
     columns = table[:, [names.index(name) for name in wanted]]
 
     xy, xz, yz = bounds[:, 2] if bounds.shape[1] == 3 else (0.0, 0.0, 0.0)
