@@ -119,7 +119,8 @@ def automatic_gain(ranks):
     rows = contacts(law, grains_of(dumps[1][1]), box, False)
     ny2, ry2 = rows["normal"][:, 1] ** 2, rows["branch"][:, 1] ** 2
     stiffness = np.sum((1.5 * rows["kn"] * ny2 + rows["kt"] * (1 - ny2)) * ry2) / box.volume
-    damping = np.sum(rows["gamma_n"] * ny2 * ry2) / box.volume
+    sticking = rows["gamma_t"] * (rows["sliding"] == 0)
+    damping = np.sum((rows["gamma_n"] * ny2 + sticking * (1 - ny2)) * ry2) / box.volume
     kp = 0.5 * table[LENGTH][1] / (damping + stiffness * every / rate)
     require(table[CLIPPED][1] == 0.0, "the input was clipped: nothing is proved")
     require_close(table[VELOCITY][1], kp * (table["f_press"][1] - target), 1e-9, "dL/dt of the first input")

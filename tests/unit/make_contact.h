@@ -27,6 +27,7 @@ inline grainscope::Contact make_contact(double weight = 1.0) {
   c.normal_stiffness = 600.0;
   c.tangential_stiffness = 500.0;
   c.damping_coefficient = 8.0;
+  c.tangential_damping = 5.0;
   return c;
 }
 

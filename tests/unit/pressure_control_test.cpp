@@ -17,7 +17,11 @@ TEST(network_response, one_contact_by_hand) {
   c.branch = Eigen::Vector3d(0.0, 2.0, 0.0);  // a normal at right angles to the branch: only k_t answers
   across.add(c, 1, 1.5, true);
   EXPECT_DOUBLE_EQ(across.stiffness, 500.0 * 4.0);
-  EXPECT_DOUBLE_EQ(across.damping, 0.0);
+  EXPECT_DOUBLE_EQ(across.damping, 0.0);  // it slides
+  c.sliding = false;
+  NetworkResponse sticking;
+  sticking.add(c, 1, 1.5, true);
+  EXPECT_DOUBLE_EQ(sticking.damping, 5.0 * 4.0);
   frictionless.add(c, 1, 1.5, false);
   EXPECT_DOUBLE_EQ(frictionless.stiffness, 0.0);
 }
