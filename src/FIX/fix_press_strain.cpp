@@ -35,6 +35,13 @@ double value_of(LAMMPS *lmp, const char *keyword, const Quantity &quantity) {
   return lmp->input->variable->compute_equal(found);
 }
 
+/** Asked at a point that lies on no wall's axis or face; the host's own PrimitiveWall::axis() knows cylinders only. */
+bool pushes_along(PrimitiveWall *wall, int axis) {
+  double point[3] = {0.1234567891, 0.2345678912, 0.3456789123}, push[3];
+  wall->resolveContact(point, 0.0, push);
+  return push[axis] != 0.0;
+}
+
 }
 
 struct FixPressStrain::Impl {
@@ -131,7 +138,7 @@ void FixPressStrain::require_no_wall_on_axis(Fix *fix) const {
   if (!wall || wall->is_mesh_wall())
     press_strain_error(lmp, std::string("cannot move a box that holds a wall of style ") + fix->style + " (fix " + fix->id +
                                 "): only primitive walls of wall/gran on another axis");
-  if (wall->primitiveWall() && wall->primitiveWall()->axis() == impl_->settings.axis)
+  if (wall->primitiveWall() && pushes_along(wall->primitiveWall(), impl_->settings.axis))
     press_strain_error(lmp, std::string("cannot move box edges along '") + axis + "': fix " + fix->id + " is a wall on that axis");
 }
 

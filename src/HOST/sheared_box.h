@@ -9,12 +9,13 @@ namespace LAMMPS_NS { class Irregular; }
 
 namespace grainscope {
 
-/** One tilt of the host's box: its index in h and h_rate, the edges along its flow and its gradient, its name. */
+/** One tilt of the host's box: its index in h and h_rate, the edges along its flow and its gradient, its name. Which tilt is meant is told
+ *  by address: `inline`, so that all files share one table. */
 struct Tilt {
   int index, flow, gradient;
   const char *name;
 };
-const Tilt tilts[3] = {{5, 0, 1, "xy"}, {4, 0, 2, "xz"}, {3, 1, 2, "yz"}};
+inline const Tilt tilts[3] = {{5, 0, 1, "xy"}, {4, 0, 2, "xz"}, {3, 1, 2, "yz"}};
 
 /** Moves the host's box: one edge length at a given speed, symmetrically about its middle, and one tilt at a given shear rate.
  *  domain->h_rate always holds the rates of the coming step: the host's ghost velocities follow it. */
