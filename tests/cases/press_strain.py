@@ -76,12 +76,13 @@ def follows_the_recursion(every, interval, gain, rest="", rate=0.05, target=3e5)
         words = f"limit 0.01 {rest}".split()
         limit = float(words[len(words) - 1 - words[::-1].index("limit") + 1])
         maxrate = float(words[words.index("maxrate") + 1]) if "maxrate" in words else abs(rate) or math.inf
+        lasts = math.ceil(interval / dt - 1e-9) * dt  # inputs fall on whole steps
         clipped, held = 0, 0.0
         for first, last in windows(table):
             require_close(table[VELOCITY][first:last], np.full(last - first, held), 0.0, "dL/dt between inputs", 1.0)
             mean = table[NOW][first + 1:last + 1].mean()
             require_close(table["f_press"][last], mean, 1e-12, f"averaged pressure at step {last}", target)
-            bound = table[LENGTH][last] * min(limit / interval, maxrate)
+            bound = table[LENGTH][last] * min(limit / lasts, maxrate)
             wanted = gain * (mean - target)
             held = table[VELOCITY][last]
             require_close(held, np.clip(wanted, -bound, bound), 1e-10, f"dL/dt at step {last}", bound)
@@ -121,7 +122,8 @@ def automatic_gain(ranks):
     stiffness = np.sum((1.5 * rows["kn"] * ny2 + rows["kt"] * (1 - ny2)) * ry2) / box.volume
     sticking = rows["gamma_t"] * (rows["sliding"] == 0)
     damping = np.sum((rows["gamma_n"] * ny2 + sticking * (1 - ny2)) * ry2) / box.volume
-    kp = 0.5 * table[LENGTH][1] / (damping + stiffness * every / rate)
+    lasts = math.ceil(every / rate / deck.dt()) * deck.dt()
+    kp = 0.5 * table[LENGTH][1] / (damping + stiffness * lasts)
     require(table[CLIPPED][1] == 0.0, "the input was clipped: nothing is proved")
     require_close(table[VELOCITY][1], kp * (table["f_press"][1] - target), 1e-9, "dL/dt of the first input")
 
