@@ -1,23 +1,30 @@
-# What must be on the machine, each with the one line that cures its absence.
+# What must be on the machine. All that is missing is told at once, with the one line that cures it.
 
-function(need found package)
-  string(REPLACE ";" " " packages "${ARGN}")
+set(missing "")
+set(packages "")
+macro(need found what)
   if(NOT ${found})
-    message(FATAL_ERROR "${package} was not found. On Debian or Ubuntu: sudo apt-get install ${packages}")
+    list(APPEND missing "${what}")
+    list(APPEND packages ${ARGN})
   endif()
-endfunction()
+endmacro()
 
 find_package(MPI QUIET COMPONENTS CXX)
 need(MPI_CXX_FOUND "MPI (Open MPI)" libopenmpi-dev openmpi-bin)
 find_package(Eigen3 3.3 QUIET NO_MODULE)
 need(Eigen3_FOUND "Eigen 3" libeigen3-dev)
 find_package(Boost QUIET)
-need(Boost_FOUND "Boost (headers)" libboost-dev)
+need(Boost_FOUND "Boost headers" libboost-dev)
 if(GRAINSCOPE_VTK)
   enable_language(C)
   find_package(VTK QUIET COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersCore FiltersGeneral IOLegacy IOXML
                IOParallelXML ParallelCore ParallelMPI)
   need(VTK_FOUND "VTK (asked for by GRAINSCOPE_VTK)" libvtk9-dev)
+endif()
+if(missing)
+  string(REPLACE ";" ", " missing "${missing}")
+  string(REPLACE ";" " " packages "${packages}")
+  message(FATAL_ERROR "Not found: ${missing}. On Debian or Ubuntu: sudo apt-get install ${packages}")
 endif()
 
 find_program(CCACHE ccache)
