@@ -7,7 +7,7 @@ add_cases(error-compute errors/computes.py LABEL error RANKS 1 2 CASES
 add_cases(error-press-strain errors/press_strain.py LABEL error RANKS 1 CASES
   axis axis-missing target target-not-a-number target-missing target-no-such-variable target-variable-negative shear shear-without-rate
   rate-zero rate-infinite rate-variable-zero every every-missing every-twice every-without-shear every-time every-step gain limit maxrate
-  momentum kinetic unknown-keyword value-missing orthogonal-box not-periodic-along-axis wall-on-the-axis cylinder-across-the-axis
+  momentum kinetic keyword-twice unknown-keyword value-missing orthogonal-box not-periodic-along-axis wall-on-the-axis cylinder-across-the-axis
   second-fix-deform needs-gran-insitu)
 add_cases(error-press-strain errors/press_strain.py LABEL error RANKS 2 CASES
   axis target-variable-negative rate-zero every-without-shear orthogonal-box wall-on-the-axis needs-gran-insitu)
