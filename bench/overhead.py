@@ -1,18 +1,21 @@
 #!/usr/bin/python3
-"""Instructions per step of pair_style gran/insitu, idle and with each observer every step, against pair_style gran.
+"""What pair_style gran/insitu costs, idle and with each observer in every step, over pair_style gran.
 
-Counts instructions with callgrind (repeatable, whatever else the machine does) in LIGGGHTS's time loop only, on one dense sheared
-packing (N = 2000, alpha = 1.5, mu_p = 0.4, I = 0.1); prints a Markdown table. Needs valgrind.
+On one dense sheared packing (N = 2000, alpha = 1.5, mu_p = 0.4, I = 0.1), in LIGGGHTS's time loop only, as a Markdown table:
+instructions per step counted by callgrind (repeatable, whatever else the machine does; needs valgrind), or with --time the wall time,
+also per contact, as medians of alternating runs (wants a quiet machine).
 """
 import argparse
 import pathlib
 import re
+import statistics
 import subprocess
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 EVERY_STEP = "fix mean all ave/time 1 1 1 {value} file /dev/null\n"
 OBSERVERS = {
+    "gran/insitu, idle": "",
     "stress/contact": "compute observer all stress/contact\n" + EVERY_STEP.format(value="c_observer[26]"),
     "dissipation mode step": "compute observer all dissipation\n" + EVERY_STEP.format(value="c_observer"),
     "dissipation mode instantaneous": "compute observer all dissipation mode instantaneous\n" + EVERY_STEP.format(value="c_observer"),
@@ -24,43 +27,81 @@ OBSERVERS = {
     "fix press/strain, gain auto": "fix press all press/strain axis y target 50 shear xy rate 0.00977 every 4.6e-4\n",
     "fix deform (the host's)": "fix press all deform 1 xy erate 0.00977 remap v\n",
 }
+CONTACTS = "compute count all stress/contact\nthermo_style custom step c_count[30]\n"
 
 
-def instructions(binary, state, steps, pair, observers, folder):
-    deck = folder / "observers"
-    deck.write_text(observers)
-    output = folder / "callgrind.out"
-    command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={output}", "--collect-atstart=no",
-               "--toggle-collect=LAMMPS_NS::Verlet::run(int)", str(binary), "-in", str(HERE / "in.overhead"), "-screen", "none",
-               "-log", "none", "-var", "state", str(state), "-var", "pair", pair, "-var", "steps", str(steps),
-               "-var", "observers", str(deck)]
-    result = subprocess.run(command, cwd=folder, capture_output=True, text=True)
-    found = re.search(r"Collected : (\d+)", result.stderr)
-    if result.returncode or not found or int(found[1]) == 0:
-        raise SystemExit(f"the run failed: {' '.join(command)}\n{result.stdout}{result.stderr}")
-    return int(found[1]) / steps
+class Bench:
+    def __init__(self, binary, state, folder):
+        self.binary, self.state, self.folder = binary, state, folder
+
+    def run(self, pair, observers, steps, prefix=()):
+        deck = self.folder / "observers"
+        deck.write_text(observers)
+        command = [*prefix, str(self.binary), "-in", str(HERE / "in.overhead"), "-log", "none", "-var", "state", str(self.state),
+                   "-var", "pair", pair, "-var", "steps", str(steps), "-var", "observers", str(deck)]
+        result = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, errors="replace")
+        if result.returncode:
+            raise SystemExit(f"the run failed: {' '.join(command)}\n{result.stdout}{result.stderr}")
+        return result
+
+    def instructions(self, pair, observers, steps):
+        """Per step."""
+        valgrind = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={self.folder / 'callgrind.out'}", "--collect-atstart=no",
+                    "--toggle-collect=LAMMPS_NS::Verlet::run(int)"]
+        count = int(re.search(r"Collected : (\d+)", self.run(pair, observers, steps, valgrind).stderr)[1])
+        if count == 0:
+            raise SystemExit("callgrind counted nothing: is the binary stripped?")
+        return count / steps
+
+    def seconds(self, pair, observers, steps):
+        """Per step."""
+        return float(re.search(r"Loop time of (\S+)", self.run(pair, observers, steps).stdout)[1]) / steps
+
+    def contacts(self):
+        return float(re.search(r"^\s*0\s+(\S+)", self.run("gran/insitu", CONTACTS + "reset_timestep 0\n", 0).stdout, re.M)[1])
+
+
+def count_instructions(bench, steps):
+    base = bench.instructions("gran", "", steps)
+    print(f"| case | instructions per step | over gran |\n|---|---|---|\n| pair_style gran | {base:.4g} | |", flush=True)
+    for label, observers in OBSERVERS.items():
+        count = bench.instructions("gran/insitu", observers, steps)
+        print(f"| {label} | {count:.4g} | {100 * (count / base - 1):+.2f} % |", flush=True)
+
+
+def take_time(bench, steps, repeats):
+    contacts = bench.contacts()
+    times = {label: [] for label in ("pair_style gran", *OBSERVERS)}
+    for _ in range(repeats):
+        times["pair_style gran"].append(bench.seconds("gran", "", steps))
+        for label, observers in OBSERVERS.items():
+            times[label].append(bench.seconds("gran/insitu", observers, steps))
+    base = statistics.median(times["pair_style gran"])
+    print(f"{contacts:.0f} contacts, medians of {repeats} runs of {steps} steps\n\n| case | ms per step | over gran | ns per contact |\n|---|---|---|---|")
+    for label, values in times.items():
+        time = statistics.median(values)
+        print(f"| {label} | {1e3 * time:.3f} | {100 * (time / base - 1):+.1f} % | {1e9 * (time - base) / contacts:.0f} |")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("binary", type=pathlib.Path, help="the grainscope binary")
-    parser.add_argument("--steps", type=int, default=20, help="steps to count (default %(default)s)")
+    parser.add_argument("--time", action="store_true", help="wall time instead of instructions")
+    parser.add_argument("--repeats", type=int, default=9, help="runs per case with --time (default %(default)s)")
     parser.add_argument("--state", type=pathlib.Path, help="restart file of bench/in.dense (made when not given: a minute)")
     arguments = parser.parse_args()
-    binary = arguments.binary.resolve()
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        state = arguments.state and arguments.state.resolve()
+        binary, state = arguments.binary.resolve(), arguments.state and arguments.state.resolve()
         if not state:
             state = folder / "dense.restart"
             subprocess.run([str(binary), "-in", str(HERE / "in.dense"), "-var", "out", str(state), "-log", "none"], cwd=folder,
                            check=True, stdout=subprocess.DEVNULL)
-        base = instructions(binary, state, arguments.steps, "gran", "", folder)
-        print("| case | instructions per step | over gran |\n|---|---|---|")
-        print(f"| pair_style gran | {base:.4g} | |", flush=True)
-        for label, observers in [("gran/insitu, idle", "")] + list(OBSERVERS.items()):
-            count = instructions(binary, state, arguments.steps, "gran/insitu", observers, folder)
-            print(f"| {label} | {count:.4g} | {100 * (count / base - 1):+.2f} % |", flush=True)
+        bench = Bench(binary, state, folder)
+        if arguments.time:
+            take_time(bench, 100, arguments.repeats)
+        else:
+            count_instructions(bench, 20)
 
 
 if __name__ == "__main__":
