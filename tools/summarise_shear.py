@@ -7,10 +7,11 @@ import numpy as np
 
 from shear_output import InputError, read_run
 
-ROWS = [("P", "pressure / target"), ("mu_eff", "effective friction"), ("phi", "solid fraction"), ("Z", "coordination"),
-        ("sliding", "sliding contacts"), ("S2", "nematic order S2"), ("theta_x", "angle to the flow [deg]"),
-        ("spin", "-2 omega_z / rate"), ("overlap_mean", "mean overlap / d"), ("overlap_max", "largest overlap / d"),
-        ("kappa", "stiffness number")]
+# Column, title, factor
+ROWS = [("P", "pressure / target", 1), ("mu_eff", "effective friction", 1), ("phi", "solid fraction", 1), ("Z", "coordination", 1),
+        ("sliding", "sliding contacts", 1), ("S2", "nematic order S2", 1), ("theta_x", "angle to the flow [deg]", 1),
+        ("spin", "-2 omega_z / rate", 1), ("overlap_mean", "mean overlap / d [%]", 100),
+        ("overlap_max", "largest overlap / d [%]", 100), ("kappa", "stiffness number", 1)]
 
 
 def mean_and_error(values):
@@ -40,7 +41,7 @@ def summary(run, start=None):
              ("steady state, strain", f"{run['strain'][rows][0]:.1f} to {run['strain'][-1]:.1f}"),
              ("inertial number", f"{reached:.4f} ({100 * off:+.1f} %)"),
              ("within 5 % of target", "yes" if abs(off) <= 0.05 else f"NO, target {target:g}")]
-    cells += [(title, with_error(run[name][rows])) for name, title in ROWS]
+    cells += [(title, with_error(factor * run[name][rows])) for name, title, factor in ROWS]
     put_in, lost = run.injected[rows], run.dissipated[rows]
     cells += [("power in: shear", with_error(run["W_shear"][rows])), ("power in: box", with_error(run["W_box"][rows])),
               ("power out: normal damping", with_error(run["W_n"][rows])), ("power out: friction", with_error(run["W_t"][rows])),
