@@ -10,6 +10,7 @@
 #include "fix_property_global.h"
 #include "force.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "update.h"
 #include <algorithm>
 #include <cmath>
@@ -32,6 +33,7 @@ ComputeStressContact::~ComputeStressContact() { delete[] vector; }
 
 void ComputeStressContact::init() {
   ContactCompute::init();
+  stiffness_of_build_ = -1;
   if (observer_->law() == grainscope::ContactObserver::TangentialLaw::other && comm->me == 0)
     error->warning(FLERR, "compute stress/contact: sliding is known for 'tangential' off, no_history and history only; element 32 stays 0");
 }
@@ -109,7 +111,11 @@ void ComputeStressContact::compute_vector() {
   *out++ = all.sliding() * per_contact;
   *out++ = all.overlaps() * per_contact;
   *out++ = all.largest_overlap;
-  *out++ = flattest_shape() * std::pow(softest_modulus() * per_pressure, 2.0 / 3.0);
+  if (stiffness_of_build_ != neighbor->lastcall) {  // grains come and go with neighbour lists only
+    stiffness_ = flattest_shape() * std::pow(softest_modulus(), 2.0 / 3.0);
+    stiffness_of_build_ = neighbor->lastcall;
+  }
+  *out++ = stiffness_ * std::pow(per_pressure, 2.0 / 3.0);
   for (int k = 0; k < size_vector; k++) vector[k] += 0.0;  // no negative zeros
   scalar = pressure + 0.0;
 }

@@ -33,9 +33,12 @@ class ComputeStressContact : public grainscope::ContactCompute {
 
   void begin_contacts();
   void add_contact(const grainscope::Contact &contact);
+  bool needs_details() const { return false; }
 
  private:
   std::unique_ptr<grainscope::StressSums> sums_;
+  double stiffness_ = 0.0;             // kappa P^(2/3), as of the neighbour list built at the step below
+  bigint stiffness_of_build_ = -1;
 
   double softest_modulus() const;
   double flattest_shape() const;

@@ -8,24 +8,26 @@ namespace grainscope {
 
 /** One grain-grain contact of one force evaluation, as grain i sees it, in simulation units.
  *  Velocities are those that entered the force (x_n, v_{n-1/2}, omega_{n-1/2}); forces are those that drove the step:
- *  per grain they sum to f. All vectors are in the laboratory frame. */
+ *  per grain they sum to f. All vectors are in the laboratory frame. The details are filled in only when a sink needs them. */
 struct Contact {
   int i, j;                              // local indices; j may be a ghost
   bool ghost;                            // j is a ghost: its owner sees this contact too
   double weight;                         // 1, or 1/2 when j is a ghost: weighted sums over ranks count each contact once
   Eigen::Vector3d branch;                // r = x_i - x_j
-  Eigen::Vector3d point;                 // contact point
   Eigen::Vector3d normal;                // unit, from j to i
   double overlap;                        // normal overlap, > 0
   Eigen::Vector3d force;                 // total force on i
   double normal_force;                   // force . normal, > 0 pushes apart; damping (and cohesion) included
-  double normal_damping;                 // the damping part of normal_force
-  double normal_velocity;                // (v_i - v_j at the contact point) . normal, < 0 approaching
   Eigen::Vector3d tangential_force;      // force on i less its normal part
-  Eigen::Vector3d tangential_velocity;   // of i relative to j at the contact point
   double friction;                       // mu_p of this pair of types
   bool sliding;                          // the tangential spring was cut (friction limit reached) in this evaluation
   double slip;                           // length cut from the spring, >= 0
+
+  // Details
+  Eigen::Vector3d point;                 // contact point
+  double normal_velocity;                // (v_i - v_j at the contact point) . normal, < 0 approaching
+  Eigen::Vector3d tangential_velocity;   // of i relative to j at the contact point
+  double normal_damping;                 // the damping part of normal_force
   double normal_stiffness;               // secant k_n: elastic force / overlap
   double tangential_stiffness;           // k_t
   double damping_coefficient;            // gamma_n: damping force / normal velocity

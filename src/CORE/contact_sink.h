@@ -27,6 +27,8 @@ class ContactSink {
   /** The evaluation begins: forget the last one. */
   virtual void begin_contacts() = 0;
   virtual void add_contact(const Contact &contact) = 0;
+  /** False if the details of a Contact are of no use. */
+  virtual bool needs_details() const { return true; }
   /** True if image shifts of ghosts must be known during the evaluation. */
   virtual bool needs_images() const { return false; }
 

@@ -14,13 +14,15 @@ namespace grainscope {
 class GrainPower {
  public:
   void reset(int n_local) {
-    wrenches_.assign(6 * n_local, 0.0);
+    if (used_ || wrenches_.size() != 6 * static_cast<std::size_t>(n_local)) wrenches_.assign(6 * n_local, 0.0);
     image_power_ = 0.0;
+    used_ = false;
   }
 
   /** Force on i at the contact point and its opposite on j; `image_velocity` is that of a ghost j, else ignored. */
   void add(const Contact &c, const Eigen::Vector3d &force, const Eigen::Vector3d &lever_i, const Eigen::Vector3d &lever_j,
            const Eigen::Vector3d &image_velocity) {
+    used_ = true;
     add_wrench(c.i, force, lever_i);
     if (c.ghost) image_power_ += c.weight * force.dot(image_velocity);
     else add_wrench(c.j, -force, lever_j);
@@ -28,6 +30,7 @@ class GrainPower {
 
   /** Power of the collected forces with these velocities, over this rank's grains; the sum over ranks is sum F . (v_i - v_j). */
   double power(const double *const *v, const double *const *omega) const {
+    if (!used_) return 0.0;
     double sum = -image_power_;
     for (std::size_t i = 0; 6 * i < wrenches_.size(); i++)
       for (int k = 0; k < 3; k++) sum += wrenches_[6 * i + k] * v[i][k] + wrenches_[6 * i + 3 + k] * omega[i][k];
@@ -37,6 +40,7 @@ class GrainPower {
  private:
   std::vector<double> wrenches_;  // force, torque per local grain
   double image_power_ = 0.0;
+  bool used_ = false;
 
   void add_wrench(int i, const Eigen::Vector3d &force, const Eigen::Vector3d &lever) {
     const Eigen::Vector3d torque = lever.cross(force);

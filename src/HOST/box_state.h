@@ -24,7 +24,11 @@ struct BoxState {
   /** Distance between the two faces that cut edge k, k = 0, 1, 2. */
   double height(int k) const;
   /** Mean velocity of the affine flow at x; zero at the box centre. */
-  Eigen::Vector3d flow(const Eigen::Vector3d &x) const { return velocity_gradient * (x - centre); }
+  Eigen::Vector3d flow(const Eigen::Vector3d &x) const {
+    const Eigen::Vector3d r = x - centre;
+    const Eigen::Matrix3d &l = velocity_gradient;  // upper triangular, as H is
+    return {l(0, 0) * r[0] + l(0, 1) * r[1] + l(0, 2) * r[2], l(1, 1) * r[1] + l(1, 2) * r[2], l(2, 2) * r[2]};
+  }
 };
 
 }

@@ -11,17 +11,21 @@ using Eigen::Vector3d;
 
 PeculiarMotion::PeculiarMotion(LAMMPS_NS::LAMMPS *lmp, int groupbit, const BoxState &box) : lmp_(lmp) {
   const LAMMPS_NS::Atom *atom = lmp->atom;
-  local_.reserve(atom->nlocal);
-  double sums[5] = {0.0, 0.0, 0.0, 0.0, 0.0};
-  for (int i = 0; i < atom->nlocal; i++) {
+  local_.resize(atom->nlocal);
+  Grain *grain = local_.data();
+  const BoxState flow = box;
+  double mass = 0.0;
+  Vector3d momentum = Vector3d::Zero();
+  for (int i = 0, n = atom->nlocal; i < n; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
-    const double mass = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
-    const Vector3d u = Map<const Vector3d>(atom->v[i]) - box.flow(Map<const Vector3d>(atom->x[i]));
-    local_.push_back({mass, u});
-    for (int k = 0; k < 3; k++) sums[k] += mass * u[k];
-    sums[3] += mass;
-    sums[4] += 1.0;
+    const double m = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
+    const Vector3d u = Map<const Vector3d>(atom->v[i]) - flow.flow(Map<const Vector3d>(atom->x[i]));
+    *grain++ = {m, u};
+    momentum += m * u;
+    mass += m;
   }
+  local_.resize(grain - local_.data());
+  double sums[5] = {momentum[0], momentum[1], momentum[2], mass, static_cast<double>(local_.size())};
   MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, lmp->world);
   grains_ = sums[4];
   drift_ = sums[3] > 0.0 ? Vector3d(Map<const Vector3d>(sums) / sums[3]) : Vector3d::Zero();

@@ -35,9 +35,16 @@ bool ContactObserver::begin() {
   for (ContactSink *sink : sinks_)
     if (sink->wants_contacts()) listening_.push_back(sink);
   active_ = !listening_.empty();
-  if (active_) box_ = BoxState(lmp);
+  if (active_) {
+    box_ = BoxState(lmp);
+    x_ = lmp->atom->x;
+    n_local_ = lmp->atom->nlocal;
+    dt_ = lmp->update->dt;
+  }
+  details_ = false;
   for (ContactSink *sink : listening_) {
     sink->begin_contacts();
+    details_ = details_ || sink->needs_details();
     images = images || sink->needs_images();
   }
   return images;
@@ -46,57 +53,61 @@ bool ContactObserver::begin() {
 /** The spring as it was before the friction limit, in the host's own operations and order, so that a spring that was not cut
  *  compares equal to the last bit. In the first evaluation of a run the host moves no spring: sliding then means that the force was
  *  limited, and slip is what would have been cut. */
-void ContactObserver::judge_sliding(const Sides &s, Contact &c) const {
-  c.sliding = false;
-  c.slip = 0.0;
-  c.friction = friction_ ? friction_[s.itype][s.jtype] : 0.0;
-  const double limit = c.friction * std::fabs(s.Fn);
-  if (law_ == TangentialLaw::no_history) {
-    const double speed = std::sqrt(s.vtr1 * s.vtr1 + s.vtr2 * s.vtr2 + s.vtr3 * s.vtr3);
-    c.sliding = limit < s.gammat * speed;
-    if (c.sliding) c.slip = speed * lmp->update->dt;
-  } else if (law_ == TangentialLaw::history) {
-    double trial[3] = {spring_[0], spring_[1], spring_[2]};
+inline ContactObserver::Sliding ContactObserver::judge_sliding(const Sides &s, double limit) const {
+  if (law_ == TangentialLaw::history) {
+    double x = spring_[0], y = spring_[1], z = spring_[2];
     if (s.computeflag && s.shearupdate) {
-      const double dt = lmp->update->dt;
-      trial[0] += s.vtr1 * dt;
-      trial[1] += s.vtr2 * dt;
-      trial[2] += s.vtr3 * dt;
-      const double along = trial[0] * s.en[0] + trial[1] * s.en[1] + trial[2] * s.en[2];
-      trial[0] -= along * s.en[0];
-      trial[1] -= along * s.en[1];
-      trial[2] -= along * s.en[2];
+      const double dt = dt_;
+      x += s.vtr1 * dt;
+      y += s.vtr2 * dt;
+      z += s.vtr3 * dt;
+      const double along = x * s.en[0] + y * s.en[1] + z * s.en[2];
+      x -= along * s.en[0];
+      y -= along * s.en[1];
+      z -= along * s.en[2];
     }
-    const double length = std::sqrt(trial[0] * trial[0] + trial[1] * trial[1] + trial[2] * trial[2]);
-    c.sliding = s.kt * length > limit;
-    if (c.sliding) c.slip = length - limit / s.kt;
+    const double length = std::sqrt(x * x + y * y + z * z);
+    if (s.kt * length > limit) return {true, length - limit / s.kt};
+  } else if (law_ == TangentialLaw::no_history) {
+    const double speed = std::sqrt(s.vtr1 * s.vtr1 + s.vtr2 * s.vtr2 + s.vtr3 * s.vtr3);
+    if (limit < s.gammat * speed) return {true, speed * dt_};
   }
+  return {false, 0.0};
 }
 
 void ContactObserver::observe(const Sides &s, const LIGGGHTS::ContactModels::ForceData &force_on_i) {
+  const Map<const Vector3d> xi(x_[s.i]), xj(x_[s.j]);
+  const Vector3d normal(s.en[0], s.en[1], s.en[2]), force(force_on_i.delta_F[0], force_on_i.delta_F[1], force_on_i.delta_F[2]);
+  const double normal_force = force.dot(normal);
+  const double friction = friction_ ? friction_[s.itype][s.jtype] : 0.0;
+  const Sliding sliding = judge_sliding(s, friction * std::fabs(s.Fn));
+
   Contact c;
   c.i = s.i;
   c.j = s.j;
-  c.ghost = s.j >= lmp->atom->nlocal;
+  c.ghost = s.j >= n_local_;
   c.weight = c.ghost ? 0.5 : 1.0;
-  const Map<const Vector3d> xi(lmp->atom->x[s.i]), xj(lmp->atom->x[s.j]);
   c.branch = xi - xj;
-  c.normal = Map<const Vector3d>(s.en);
-  if (s.is_non_spherical) c.point = Map<const Vector3d>(s.contact_point);
-  else c.point = xi - s.cri * c.normal;
+  c.normal = normal;
   c.overlap = s.deltan;
-  c.force = Map<const Vector3d>(force_on_i.delta_F);
-  c.normal_force = c.force.dot(c.normal);
-  c.normal_stiffness = s.kn;
-  c.tangential_stiffness = s.kt;
-  c.damping_coefficient = s.gamman;
-  c.tangential_damping = law_ == TangentialLaw::off ? 0.0 : s.gammat;
-  c.normal_velocity = s.vn;
-  // `limitForce` sets a negative total to exactly 0: the damping part is then what cancels the elastic one.
-  c.normal_damping = elastic_ && s.Fn == 0.0 ? -s.kn * s.deltan : -s.gamman * s.vn;
-  c.tangential_force = c.force - c.normal_force * c.normal;
-  c.tangential_velocity = Vector3d(s.vtr1, s.vtr2, s.vtr3);
-  judge_sliding(s, c);
+  c.force = force;
+  c.normal_force = normal_force;
+  c.tangential_force = force - normal_force * normal;
+  c.friction = friction;
+  c.sliding = sliding.yes;
+  c.slip = sliding.slip;
+  if (details_) {
+    if (s.is_non_spherical) c.point = Map<const Vector3d>(s.contact_point);
+    else c.point = xi - s.cri * normal;
+    c.normal_velocity = s.vn;
+    c.tangential_velocity = Vector3d(s.vtr1, s.vtr2, s.vtr3);
+    // `limitForce` sets a negative total to exactly 0: the damping part is then what cancels the elastic one.
+    c.normal_damping = elastic_ && s.Fn == 0.0 ? -s.kn * s.deltan : -s.gamman * s.vn;
+    c.normal_stiffness = s.kn;
+    c.tangential_stiffness = s.kt;
+    c.damping_coefficient = s.gamman;
+    c.tangential_damping = law_ == TangentialLaw::off ? 0.0 : s.gammat;
+  }
   for (ContactSink *sink : listening_) sink->add_contact(c);
 }
 

@@ -58,15 +58,23 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
  private:
   std::vector<ContactSink *> sinks_, listening_;
   bool active_ = false;
+  bool details_ = false;
   TangentialLaw law_ = TangentialLaw::other;
   int spring_offset_ = 0;
   bool elastic_ = false;
   double spring_[3] = {0.0, 0.0, 0.0};
   double **friction_ = nullptr;
   BoxState box_;
+  double **x_ = nullptr;           // of the evaluation under way, as the two below
+  int n_local_ = 0;
+  double dt_ = 0.0;
   std::vector<double> image_shifts_;
 
-  void judge_sliding(const Sides &s, Contact &contact) const;
+  struct Sliding {
+    bool yes;
+    double slip;
+  };
+  Sliding judge_sliding(const Sides &s, double limit) const;
 };
 
 }
