@@ -19,7 +19,7 @@ global_settings {{ assumed_gamma 1.0
   radiosity {{ pretrace_start 0.08 pretrace_end 0.01 count 200 error_bound 0.8 recursion_limit 1 nearest_count 12 }} }}
 background {{ color rgb 1 }}
 camera {{ location {camera} right -x*{aspect} up y sky y angle {angle} look_at {target} }}
-light_source {{ {key_light} color rgb 0.85 area_light {across}*x, {across}*z, 9, 9 adaptive 1 jitter circular orient }}
+light_source {{ {key_light} color rgb 0.85 area_light {across}*x, {across}*z, 17, 17 adaptive 3 circular orient }}
 light_source {{ {fill_light} color rgb 0.25 shadowless }}
 #declare grain_finish = finish {{ ambient 0 emission 0.05 diffuse 0.75 specular 0.22 roughness 0.03 }}
 plane {{ y, {floor} pigment {{ color rgb 1 }} finish {{ ambient 0 emission 0.06 diffuse 0.64 }} }}
