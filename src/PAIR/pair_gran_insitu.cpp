@@ -51,9 +51,12 @@ void PairGranInsitu::settings(int narg, char **arg) {
   if (force->pair != this)
     error->all(FLERR, "pair_style gran/insitu cannot be a sub-style of hybrid: contact history works with one granular style only; "
                       "use it alone");
+  std::string received;
+  for (int k = 0; k < narg; k++) received += std::string(k ? " " : "") + arg[k];
   const int64_t hash = LIGGGHTS::PairStyles::Factory::instance().selectVariant("gran", narg, arg, force->custom_contact_models);
   if (hash == -1)
-    error->all(FLERR, "pair_style gran/insitu: invalid contact model (check for typos, and enable at least one model)");
+    error->all(FLERR, ("pair_style gran/insitu: invalid contact model (check for typos, and enable at least one model), got '" + received +
+                       "'").c_str());
   history_arg.clear();
   dnum_pairgran = 0;
   impl_->loop.reset(grainscope::create_observed_loop(hash, lmp, this));
