@@ -66,7 +66,7 @@ void ComputeDissipation::add_contact(const Contact &c) {
     if (damped) sums.tangential_damping += c.weight * c.tangential_damping * c.tangential_velocity.squaredNorm();
     return;
   }
-  if (c.sliding) sums.friction += c.weight * c.tangential_force.norm() * c.slip / update->dt;
+  if (c.sliding) sums.friction += c.weight * c.tangential_force.norm() * c.slip;  // over dt, later
   const Vector3d lever_i = c.point - Map<const Vector3d>(atom->x[c.i]);
   const Vector3d lever_j = lever_i + c.branch;
   Vector3d image_velocity = Vector3d::Zero();
@@ -81,12 +81,13 @@ void ComputeDissipation::compute_vector() {
   require_tally();
   invoked_vector = update->ntimestep;
   const Impl &sums = *impl_;
-  double normal = sums.normal, tangential_damping = sums.tangential_damping;
+  double normal = sums.normal, friction = sums.friction, tangential_damping = sums.tangential_damping;
   if (sums.mode == Impl::Mode::step) {
     normal = -sums.normal_damping_forces.power(atom->v, atom->omega);
+    friction /= update->dt;
     tangential_damping = -sums.tangential_damping_forces.power(atom->v, atom->omega);
   }
-  const double values[5] = {normal, sums.friction, tangential_damping, sums.contacts, sums.sliding};
+  const double values[5] = {normal, friction, tangential_damping, sums.contacts, sums.sliding};
   std::copy(values, values + 5, vector);
   sum_over_ranks(vector, 5);
   for (int k = 0; k < 5; k++) vector[k] += 0.0;  // no negative zeros

@@ -43,11 +43,9 @@ class GrainPower {
   bool used_ = false;
 
   void add_wrench(int i, const Eigen::Vector3d &force, const Eigen::Vector3d &lever) {
-    const Eigen::Vector3d torque = lever.cross(force);
-    for (int k = 0; k < 3; k++) {
-      wrenches_[6 * i + k] += force[k];
-      wrenches_[6 * i + 3 + k] += torque[k];
-    }
+    Eigen::Matrix<double, 6, 1> wrench;
+    wrench << force, lever.cross(force);
+    Eigen::Map<Eigen::Matrix<double, 6, 1>>(&wrenches_[6 * i]) += wrench;
   }
 };
 
