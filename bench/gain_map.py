@@ -22,7 +22,7 @@ def main():
     parser.add_argument("--inertial", type=float, nargs="+", default=[0.1, 0.01])
     parser.add_argument("--alpha", type=float, nargs="+", default=[0.33, 1.0, 3.0])
     parser.add_argument("--mu", type=float, nargs="+", default=[0.0, 0.4, 10.0])
-    parser.add_argument("--grains", type=int, default=200)
+    parser.add_argument("--grains", type=int, default=700, help="at alpha 3 fewer make the box too small (default %(default)s)")
     parser.add_argument("--strain", type=float, default=2.0)
     arguments = parser.parse_args()
     print("| I | alpha | mu_p | mean P/P_t | std | largest | phi |\n|---|---|---|---|---|---|---|", flush=True)
