@@ -4,6 +4,8 @@
 #include "lammps.h"
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 
 namespace grainscope {
 
@@ -27,6 +29,15 @@ BoxState::BoxState(LAMMPS_NS::LAMMPS *lmp) {
   velocity_gradient = edge_velocities * edges.inverse();
   centre = Eigen::Map<const Eigen::Vector3d>(domain->boxlo) + 0.5 * edges.rowwise().sum();
   volume = h[0] * h[1] * h[2];
+}
+
+Eigen::Vector3d BoxState::fraction(const Eigen::Vector3d &x) const {
+  return edges.triangularView<Eigen::Upper>().solve(x - centre) + Eigen::Vector3d::Constant(0.5);
+}
+
+int BoxState::layer(const Eigen::Vector3d &x, int k, int layers) const {
+  const double s = fraction(x)[k];
+  return std::min(static_cast<int>((s - std::floor(s)) * layers), layers - 1);
 }
 
 double BoxState::height(int k) const {

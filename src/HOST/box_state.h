@@ -23,6 +23,10 @@ struct BoxState {
 
   /** Distance between the two faces that cut edge k, k = 0, 1, 2. */
   double height(int k) const;
+  /** x in units of the box edges, 0 to 1 inside. */
+  Eigen::Vector3d fraction(const Eigen::Vector3d &x) const;
+  /** Which of `layers` layers of equal height across edge k holds x, 0 to layers - 1; periodic. */
+  int layer(const Eigen::Vector3d &x, int k, int layers) const;
   /** Mean velocity of the affine flow at x; zero at the box centre. */
   Eigen::Vector3d flow(const Eigen::Vector3d &x) const {
     const Eigen::Vector3d r = x - centre;
