@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_DECAY_FIT_H
+#define GRAINSCOPE_DECAY_FIT_H
+
+#include <vector>
+
+namespace grainscope {
+
+/** Least squares of exp(-r/length), which is 1 at r = 0, over the points with r > 0 and c > 0.05:
+ *  length minimises S = sum (c - exp(-r/length))^2; error = sqrt(S/(points - 1) / sum (d exp(-r/length)/d length)^2). */
+struct DecayFit {
+  double length = 0.0;  // 0 without points, and when no finite length is best (c that does not decay)
+  double error = 0.0;   // standard error of length; 0 with fewer than two points
+  int points = 0;
+};
+
+DecayFit fit_decay(const std::vector<double> &r, const std::vector<double> &c);
+
+}
+
+#endif
