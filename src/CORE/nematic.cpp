@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "nematic.h"
-#include <Eigen/Eigenvalues>
+#include "principal_axes.h"
 #include <cmath>
 
 namespace grainscope {
@@ -39,12 +39,9 @@ Nematic::Nematic(const NematicSums &all)
   q /= grains_with_axis;
   q.diagonal().array() -= 1.0 / 3.0;
 
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(q);
-  eigenvalues = solver.eigenvalues().reverse();
-  director = solver.eigenvectors().col(2);
-  int largest;
-  director.cwiseAbs().maxCoeff(&largest);
-  if (director[largest] < 0.0) director = -director;
+  const PrincipalAxes principal(q);
+  eigenvalues = principal.values;
+  director = principal.vectors.col(0);
   order = 1.5 * eigenvalues[0];
   biaxiality = eigenvalues[1] - eigenvalues[2];
 
