@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_contact_local.h"
 #include "arguments.h"
-#include "contact.h"
+#include "contact_measures.h"
 #include "contact_observer.h"
 #include "atom.h"
 #include "update.h"
@@ -19,12 +19,6 @@ struct Row {
   const double *image;
   int id_i, id_j;
 };
-
-/** |F_t| / (mu_p |F_n|); 0 for frictionless contacts. */
-double mobilisation(const Contact &c) {
-  const double limit = c.friction * std::fabs(c.normal_force);
-  return limit > 0.0 ? c.tangential_force.norm() / limit : 0.0;
-}
 
 double *put(double *at, const Vector3d &v) { return std::copy(v.data(), v.data() + 3, at); }
 
@@ -49,7 +43,7 @@ const Column columns[] = {
     {"ut", 3, [](const Row &r, double *to) { put(to, r.contact.tangential_velocity); }},
     {"sliding", 1, [](const Row &r, double *to) { *to = r.contact.sliding; }},
     {"slip", 1, [](const Row &r, double *to) { *to = r.contact.slip; }},
-    {"mobilisation", 1, [](const Row &r, double *to) { *to = mobilisation(r.contact); }}};
+    {"mobilisation", 1, [](const Row &r, double *to) { *to = grainscope::mobilisation(r.contact); }}};
 
 }
 

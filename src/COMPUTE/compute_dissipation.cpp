@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_dissipation.h"
 #include "arguments.h"
+#include "contact_measures.h"
 #include "contact_observer.h"
 #include "grain_power.h"
 #include "atom.h"
@@ -61,8 +62,8 @@ void ComputeDissipation::add_contact(const Contact &c) {
   const bool damped = !c.sliding && c.tangential_damping > 0.0;
 
   if (sums.mode == Impl::Mode::instantaneous) {
-    sums.normal -= c.weight * c.normal_damping * c.normal_velocity;
-    if (c.sliding) sums.friction -= c.weight * c.tangential_force.dot(c.tangential_velocity);
+    sums.normal += c.weight * grainscope::damping_loss(c);
+    sums.friction += c.weight * grainscope::friction_loss(c);
     if (damped) sums.tangential_damping += c.weight * c.tangential_damping * c.tangential_velocity.squaredNorm();
     return;
   }

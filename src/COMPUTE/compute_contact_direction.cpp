@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "compute_contact_direction.h"
+#include "arguments.h"
+#include "contact.h"
+#include "plane.h"
+#include "rows.h"
+#include "update.h"
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using grainscope::Contact;
+
+namespace {
+
+const int width = 6;
+
+enum { CONTACTS, NORMAL, TANGENTIAL, ALONG, SUMS };
+
+bool is_even_count(double n) { return n >= 2.0 && n <= 1e6 && n == 2.0 * std::floor(0.5 * n); }
+
+}
+
+struct ComputeContactDirection::Impl {
+  grainscope::Plane plane;
+  int half = 36;             // bins from 0 to pi; the other half is their mirror image
+  std::vector<double> sums;  // half x SUMS
+  grainscope::Rows rows;
+};
+
+ComputeContactDirection::ComputeContactDirection(LAMMPS *lmp, int &iarg, int narg, char **arg)
+    : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
+  grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
+  while (!arguments.done()) {
+    const std::string keyword = arguments.choice("keyword", {"plane", "bins"});
+    if (keyword == "plane") impl_->plane.read(arguments);
+    else impl_->half = static_cast<int>(arguments.number(keyword, "an even whole number of at least 2", is_even_count)) / 2;
+  }
+  array_flag = 1;
+  extarray = 0;
+  size_array_rows = 2 * impl_->half;
+  size_array_cols = width;
+  array = impl_->rows.resize(size_array_rows, width);
+}
+
+ComputeContactDirection::~ComputeContactDirection() {}
+
+void ComputeContactDirection::begin_contacts() { impl_->sums.assign(impl_->half * SUMS, 0.0); }
+
+void ComputeContactDirection::add_contact(const Contact &c) {
+  if (!both_in_group(c.i, c.j)) return;
+  const int a = impl_->plane.flow, b = impl_->plane.gradient;
+  const double length = std::hypot(c.normal[a], c.normal[b]);
+  if (length < 1e-9) return;
+  // beta and beta + pi are one line; the component along (-sin beta, cos beta) is the same for both grains.
+  double beta = std::atan2(c.normal[b], c.normal[a]);
+  if (beta < 0.0) beta += M_PI;
+  const int bin = static_cast<int>(beta / M_PI * impl_->half) % impl_->half;
+  const double along = (c.tangential_force[b] * c.normal[a] - c.tangential_force[a] * c.normal[b]) / length;
+  double *s = &impl_->sums[bin * SUMS];
+  s[CONTACTS] += c.weight;
+  s[NORMAL] += c.weight * std::fabs(c.normal_force) * length;
+  s[TANGENTIAL] += c.weight * std::hypot(c.tangential_force[a], c.tangential_force[b]);
+  s[ALONG] += c.weight * along;
+}
+
+void ComputeContactDirection::compute_array() {
+  require_tally();
+  invoked_array = update->ntimestep;
+  std::vector<double> all = impl_->sums;
+  sum_over_ranks(all.data(), all.size());
+  double contacts = 0.0;
+  for (int k = 0; k < impl_->half; k++) contacts += all[k * SUMS + CONTACTS];
+  const double bin = M_PI / impl_->half;
+  for (int k = 0; k < 2 * impl_->half; k++) {
+    const double *s = &all[k % impl_->half * SUMS];
+    const double per_contact = s[CONTACTS] > 0.0 ? 1.0 / s[CONTACTS] : 0.0;
+    const double row[width] = {(k + 0.5) * bin, s[CONTACTS], contacts > 0.0 ? s[CONTACTS] / (2.0 * contacts * bin) : 0.0,
+                               s[NORMAL] * per_contact, s[TANGENTIAL] * per_contact, s[ALONG] * per_contact};
+    std::copy(row, row + width, array[k]);
+  }
+}

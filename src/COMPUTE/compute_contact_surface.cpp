@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "compute_contact_surface.h"
+#include "arguments.h"
+#include "contact_measures.h"
+#include "contact_observer.h"
+#include "ellipsoid_bands.h"
+#include "rows.h"
+#include "symmetry_axis.h"
+#include "atom.h"
+#include "force.h"
+#include "group.h"
+#include "neighbor.h"
+#include "update.h"
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+using namespace LAMMPS_NS;
+using Eigen::Map;
+using Eigen::Vector3d;
+using grainscope::Contact;
+using grainscope::Shape;
+using grainscope::SurfaceAngle;
+
+namespace {
+
+const int width = 13;
+
+/** Sums over the contacts of one bin: each grain of a contact adds its own. */
+enum { CONTACTS, NORMAL, TANGENTIAL, MOBILISATION, SLIDING, NORMAL_POWER, FRICTION_POWER, SUMS };
+
+/** v seen along body axis `axis`: that component last, the others before it. */
+Vector3d along(int axis, const Vector3d &v) { return {v[(axis + 1) % 3], v[(axis + 2) % 3], v[axis]}; }
+
+bool is_bin_count(double n) { return n >= 1.0 && n <= 1e6 && n == std::floor(n); }
+
+}
+
+struct ComputeContactSurface::Impl {
+  int bins = 10;
+  SurfaceAngle angle = SurfaceAngle::polar;
+  int axis = -1;                      // body axis; -1: the symmetry axis
+  std::vector<double> unit_areas;     // of the bands of a grain of semi-axis 1 along the axis
+  double unit_area = 0.0;             // their sum
+  double grains = 0.0, mean_square = 0.0;  // of the group: number, mean of (semi-axis along the axis)^2
+  bigint build = -1;                  // the neighbour list that the four above are of
+  std::vector<double> sums;           // bins x SUMS, then the sum of F_y r_y over contacts
+  bool reduced = false;
+  grainscope::Rows rows;
+
+  double *bin(int k) { return &sums[k * SUMS]; }
+
+  void add(const Contact &c, int k, double area) {
+    double *s = bin(k);
+    s[CONTACTS] += 1.0;
+    s[NORMAL] += c.normal_force / area;
+    s[TANGENTIAL] += c.tangential_force.norm() / area;
+    s[MOBILISATION] += grainscope::mobilisation(c);
+    s[SLIDING] += c.sliding ? 1.0 : 0.0;
+    s[NORMAL_POWER] += 0.5 * grainscope::damping_loss(c);
+    s[FRICTION_POWER] += 0.5 * grainscope::friction_loss(c);
+  }
+};
+
+ComputeContactSurface::ComputeContactSurface(LAMMPS *lmp, int &iarg, int narg, char **arg)
+    : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
+  grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
+  while (!arguments.done()) {
+    const std::string keyword = arguments.choice("keyword", {"bins", "angle", "axis"});
+    if (keyword == "bins") impl_->bins = static_cast<int>(arguments.number(keyword, "a whole number of at least 1", is_bin_count));
+    if (keyword == "angle") impl_->angle = arguments.choice(keyword, {"polar", "parametric"}) == "polar" ? SurfaceAngle::polar : SurfaceAngle::parametric;
+    if (keyword == "axis") {
+      const std::string axis = arguments.choice(keyword, {"auto", "x", "y", "z"});
+      impl_->axis = axis == "auto" ? -1 : axis[0] - 'x';
+    }
+  }
+  if (!atom->superquadric_flag) arguments.fail("needs atom_style superquadric: grains of other styles have no axes to measure angles from");
+  array_flag = vector_flag = 1;
+  extarray = 0;
+  extvector = 0;
+  size_array_rows = impl_->bins;
+  size_array_cols = width;
+  array = impl_->rows.resize(impl_->bins, width);
+  size_vector = 3;
+  vector = new double[size_vector]();
+}
+
+ComputeContactSurface::~ComputeContactSurface() { delete[] vector; }
+
+void ComputeContactSurface::init() {
+  ContactCompute::init();
+  require_one_shape();
+  impl_->build = -1;
+}
+
+/** The body axis that angles are measured from: z for spheres. */
+int ComputeContactSurface::axis_of(const double *shape) const {
+  if (impl_->axis >= 0) return impl_->axis;
+  const int symmetry = grainscope::symmetry_axis(shape).index;
+  return symmetry < 0 ? 2 : symmetry;
+}
+
+/** Ellipsoids of one shape, of any size. Collective. */
+void ComputeContactSurface::require_one_shape() {
+  const grainscope::Arguments arguments(lmp, name_, 0, 0, nullptr);
+  const int none = std::numeric_limits<int>::max();
+  int boxy = none, triaxial = none;
+  double extremes[4] = {0.0, 0.0, -HUGE_VAL, -HUGE_VAL};  // largest and (negative) smallest ratios of semi-axes across to along
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!in_group(i)) continue;
+    const double *shape = atom->shape[i], *blockiness = atom->blockiness[i];
+    if (blockiness[0] != 2.0 || blockiness[1] != 2.0) boxy = std::min(boxy, atom->tag[i]);
+    if (impl_->axis < 0 && grainscope::symmetry_axis(shape).shape == Shape::triaxial) triaxial = std::min(triaxial, atom->tag[i]);
+    const Vector3d s = along(axis_of(shape), Map<const Vector3d>(shape));
+    for (int k = 0; k < 2; k++) {
+      extremes[k] = std::max(extremes[k], s[k] / s[2]);
+      extremes[2 + k] = std::max(extremes[2 + k], -s[k] / s[2]);
+    }
+  }
+  int bad[2] = {boxy, triaxial};
+  MPI_Allreduce(MPI_IN_PLACE, bad, 2, MPI_INT, MPI_MIN, world);
+  MPI_Allreduce(MPI_IN_PLACE, extremes, 4, MPI_DOUBLE, MPI_MAX, world);
+  if (bad[0] != none) arguments.fail("needs ellipsoids, blockiness 2 2, but grain " + std::to_string(bad[0]) + " has another");
+  if (bad[1] != none) arguments.fail("'axis' must be x, y or z for triaxial grains, got 'auto' and grain " + std::to_string(bad[1]));
+  impl_->unit_areas.assign(impl_->bins, 0.0);
+  impl_->unit_area = 0.0;
+  if (extremes[0] == 0.0) return;  // nobody in the group
+  for (int k = 0; k < 2; k++)
+    if (extremes[k] + extremes[2 + k] > 1e-9 * extremes[k])
+      arguments.fail("needs grains of one shape in group '" + std::string(group->names[igroup]) + "', got semi-axes across over along the axis from " +
+                     std::to_string(-extremes[2 + k]) + " to " + std::to_string(extremes[k]));
+  impl_->unit_areas = grainscope::band_areas(Vector3d(extremes[0], extremes[1], 1.0), impl_->bins, impl_->angle);
+  for (double area : impl_->unit_areas) impl_->unit_area += area;
+}
+
+/** What depends on who is there; grains come and go with neighbour lists only. Collective. */
+void ComputeContactSurface::measure_grains() {
+  if (impl_->build == neighbor->lastcall) return;
+  impl_->build = neighbor->lastcall;
+  require_one_shape();
+  double sums[2] = {0.0, 0.0};
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!in_group(i)) continue;
+    const double size = atom->shape[i][axis_of(atom->shape[i])];
+    sums[0] += 1.0;
+    sums[1] += size * size;
+  }
+  sum_over_ranks(sums, 2);
+  impl_->grains = sums[0];
+  impl_->mean_square = sums[0] > 0.0 ? sums[1] / sums[0] : 0.0;
+}
+
+void ComputeContactSurface::begin_contacts() {
+  measure_grains();
+  impl_->sums.assign(impl_->bins * SUMS + 1, 0.0);
+  impl_->reduced = false;
+}
+
+void ComputeContactSurface::add_contact(const Contact &c) {
+  if (!both_in_group(c.i, c.j)) return;
+  impl_->sums.back() += c.weight * c.force[1] * c.branch[1];
+  const auto add_to = [&](int grain, const Vector3d &arm) {
+    const double *shape = atom->shape[grain], *q = atom->quaternion[grain];
+    const int axis = axis_of(shape);
+    const Vector3d point = along(axis, Eigen::Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * arm);
+    const double psi = grainscope::surface_angle(point, along(axis, Map<const Vector3d>(shape)), impl_->angle);
+    impl_->add(c, grainscope::band_of(psi, impl_->bins), impl_->unit_area * shape[axis] * shape[axis]);
+  };
+  const Vector3d arm = c.point - Map<const Vector3d>(atom->x[c.i]);
+  add_to(c.i, arm);
+  if (!c.ghost) add_to(c.j, arm + c.branch);  // a ghost's owner counts it
+}
+
+void ComputeContactSurface::reduce() {
+  require_tally();
+  if (impl_->reduced) return;
+  impl_->reduced = true;
+  sum_over_ranks(impl_->sums.data(), impl_->sums.size());
+  const double pressure = impl_->sums.back() / observer_->box().volume;
+  const double per_pressure = pressure > 0.0 ? 1.0 / pressure : 0.0;
+  double contacts = 0.0, power = 0.0;
+  for (int k = 0; k < impl_->bins; k++) {
+    contacts += impl_->bin(k)[CONTACTS];
+    power += impl_->bin(k)[NORMAL_POWER] + impl_->bin(k)[FRICTION_POWER];
+  }
+  for (int k = 0; k < impl_->bins; k++) {
+    const double *s = impl_->bin(k);
+    const double area = impl_->unit_areas[k] * impl_->mean_square;
+    const double whole_over_part = impl_->unit_area > 0.0 ? impl_->unit_area / impl_->unit_areas[k] : 0.0;
+    const double share = contacts > 0.0 ? s[CONTACTS] / contacts : 0.0, per_contact = s[CONTACTS] > 0.0 ? 1.0 / s[CONTACTS] : 0.0;
+    const double inhomogeneity = power != 0.0 ? (s[NORMAL_POWER] + s[FRICTION_POWER]) / power * whole_over_part : 0.0;
+    const double row[width] = {(k + 0.5) * M_PI_2 / impl_->bins, area, s[CONTACTS], area > 0.0 ? share / area : 0.0, share * whole_over_part,
+                               s[NORMAL] * per_contact * per_pressure, s[TANGENTIAL] * per_contact * per_pressure, s[MOBILISATION] * per_contact,
+                               s[SLIDING] * per_contact, s[NORMAL_POWER], s[FRICTION_POWER], inhomogeneity, inhomogeneity * whole_over_part};
+    std::copy(row, row + width, array[k]);
+  }
+  vector[0] = pressure * force->nktv2p;
+  vector[1] = impl_->unit_area * impl_->mean_square;
+  vector[2] = impl_->grains;
+}
+
+void ComputeContactSurface::compute_array() {
+  invoked_array = update->ntimestep;
+  reduce();
+}
+
+void ComputeContactSurface::compute_vector() {
+  invoked_vector = update->ntimestep;
+  reduce();
+}
