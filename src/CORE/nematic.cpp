@@ -29,6 +29,11 @@ double line_angle(double x, double y) {
   return angle <= -M_PI_2 ? angle + M_PI : angle;
 }
 
+double major_axis_angle(const Eigen::Vector3d &axis, Shape shape) {
+  if (axis[0] * axis[0] + axis[1] * axis[1] < 1e-18) return 0.0;
+  return shape == Shape::oblate ? line_angle(axis[1], -axis[0]) : line_angle(axis[0], axis[1]);
+}
+
 Nematic::Nematic(const NematicSums &all)
     : q(Eigen::Matrix3d::Zero()), eigenvalues(Eigen::Vector3d::Zero()), director(Eigen::Vector3d::Zero()), order(0.0), biaxiality(0.0),
       theta(0.0), director_theta(0.0), spin(Eigen::Vector3d::Zero()), grains_with_axis(all.sums[6]), grains_with_theta(all.sums[9]) {
@@ -46,7 +51,7 @@ Nematic::Nematic(const NematicSums &all)
   biaxiality = eigenvalues[1] - eigenvalues[2];
 
   const bool mostly_oblate = 2.0 * s[10] > grains_with_axis;
-  director_theta = mostly_oblate ? line_angle(director[1], -director[0]) : line_angle(director[0], director[1]);
+  director_theta = major_axis_angle(director, mostly_oblate ? Shape::oblate : Shape::prolate);
   if (grains_with_theta > 0.0) theta = 0.5 * std::atan2(s[8], s[7]);
 }
 

@@ -20,6 +20,10 @@ struct NematicSums {
 /** Angle of the line along (x, y) with the x axis, in (-pi/2, pi/2]. */
 double line_angle(double x, double y);
 
+/** Angle of a grain's major axis with x in the xy plane, from its symmetry axis: the axis itself for prolate and triaxial grains, at right
+ *  angles to it for oblate ones, in (-pi/2, pi/2]; 0 where the axis stands on the plane (|p_xy| < 1e-9). */
+double major_axis_angle(const Eigen::Vector3d &axis, Shape shape);
+
 /** Nematic order of the grains' symmetry axes p_i, Bilotto et al. 2025, Eq. (3) and Fig. 2. */
 struct Nematic {
   explicit Nematic(const NematicSums &sums);

@@ -84,8 +84,8 @@ void Fluctuations::subtract_line(int gradient) {
   }
   sum_over_ranks(lmp_, second, 4);
   if (second[3] == 0.0) return;
-  const Vector3d slope = Map<Vector3d>(second + 0) / second[3];
-  for (Grain &g : local_) g.velocity -= slope * (x[g.index][gradient] - middle);
+  slope_ = Map<Vector3d>(second + 0) / second[3];
+  for (Grain &g : local_) g.velocity -= slope_ * (x[g.index][gradient] - middle);
 }
 
 void Fluctuations::subtract_layers(const BoxState &box, int gradient, int layers) {

@@ -39,11 +39,14 @@ class Fluctuations {
   const std::vector<Grain> &local() const { return local_; }
   /** Number of grains over all ranks. */
   double grains() const { return grains_; }
+  /** Slope of the fitted line, d<v>/dx_gradient; zero for other mean flows. */
+  const Eigen::Vector3d &slope() const { return slope_; }
 
  private:
   LAMMPS_NS::LAMMPS *lmp_;
   std::vector<Grain> local_;
   double grains_ = 0.0;
+  Eigen::Vector3d slope_ = Eigen::Vector3d::Zero();
 
   void subtract_means();
   void subtract_line(int gradient);

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "compute_contact_grain.h"
+#include "arguments.h"
+#include "contact_measures.h"
+#include "nematic.h"
+#include "rows.h"
+#include "atom.h"
+#include "update.h"
+#include <Eigen/Geometry>
+
+using namespace LAMMPS_NS;
+using grainscope::Contact;
+
+namespace {
+
+enum { CONTACTS, SLIDING, NORMAL_POWER, FRICTION_POWER, MOBILISATION, ANGLE, WIDTH };
+
+}
+
+struct ComputeContactGrain::Impl {
+  grainscope::Rows rows;
+  bool finished = false;  // sums are means already
+};
+
+ComputeContactGrain::ComputeContactGrain(LAMMPS *lmp, int &iarg, int narg, char **arg)
+    : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
+  grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
+  if (!arguments.done()) arguments.fail("takes no keywords, got '" + arguments.word("nothing") + "'");
+  peratom_flag = 1;
+  size_peratom_cols = WIDTH;
+}
+
+ComputeContactGrain::~ComputeContactGrain() {}
+
+void ComputeContactGrain::begin_contacts() {
+  array_atom = impl_->rows.resize(atom->nmax, WIDTH);
+  impl_->finished = false;
+}
+
+void ComputeContactGrain::add_contact(const Contact &c) {
+  if (!both_in_group(c.i, c.j)) return;
+  const double contribution[ANGLE] = {1.0, c.sliding ? 1.0 : 0.0, 0.5 * grainscope::damping_loss(c), 0.5 * grainscope::friction_loss(c),
+                                      grainscope::mobilisation(c)};
+  for (int k = 0; k < ANGLE; k++) {
+    array_atom[c.i][k] += contribution[k];
+    if (!c.ghost) array_atom[c.j][k] += contribution[k];  // a ghost's owner counts it
+  }
+}
+
+/** Angle of the major axis, as compute nematic averages it. */
+double ComputeContactGrain::angle_to_flow(int i) const {
+  if (!atom->superquadric_flag) return 0.0;
+  const grainscope::SymmetryAxis axis = grainscope::symmetry_axis(atom->shape[i]);
+  if (axis.shape == grainscope::Shape::sphere) return 0.0;
+  const double *q = atom->quaternion[i];
+  return grainscope::major_axis_angle(Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * Eigen::Vector3d::Unit(axis.index), axis.shape);
+}
+
+void ComputeContactGrain::compute_peratom() {
+  require_tally();
+  invoked_peratom = update->ntimestep;
+  if (impl_->finished) return;
+  impl_->finished = true;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!in_group(i)) continue;
+    double *row = array_atom[i];
+    if (row[CONTACTS] > 0.0) row[MOBILISATION] /= row[CONTACTS];
+    row[ANGLE] = angle_to_flow(i);
+  }
+}
+
+double ComputeContactGrain::memory_usage() { return impl_->rows.bytes(); }

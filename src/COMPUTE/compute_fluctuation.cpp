@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "compute_fluctuation.h"
+#include "arguments.h"
+#include "fluctuations.h"
+#include "grain_shape.h"
+#include "rows.h"
+#include "atom.h"
+#include "update.h"
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using Eigen::Map;
+using Eigen::Vector3d;
+using grainscope::BoxState;
+using grainscope::Fluctuations;
+using grainscope::MeanFlow;
+
+namespace {
+
+const int width = 5;
+
+bool is_layer_count(double n) { return n >= 1.0 && n <= 1e6 && n == std::floor(n); }
+bool is_positive(double x) { return x > 0.0; }
+
+}
+
+struct ComputeFluctuation::Impl {
+  MeanFlow flow;
+  int layers = 10;
+  double diameter = 0.0;  // 0: the mean of the group
+  grainscope::Rows rows;
+
+  MeanFlow with(MeanFlow::Kind kind) const {
+    MeanFlow other = flow;
+    other.kind = kind;
+    return other;
+  }
+};
+
+ComputeFluctuation::ComputeFluctuation(LAMMPS *lmp, int &iarg, int narg, char **arg) : Compute(lmp, iarg, narg, arg), impl_(new Impl) {
+  grainscope::Arguments arguments(lmp, "compute fluctuation", iarg, narg, arg);
+  while (!arguments.done()) {
+    const std::string keyword = arguments.choice("keyword", {"plane", "layers", "diameter", "flow"});
+    if (keyword == "plane") impl_->flow.plane.read(arguments);
+    if (keyword == "layers") impl_->layers = static_cast<int>(arguments.number(keyword, "a whole number of at least 1", is_layer_count));
+    if (keyword == "diameter") impl_->diameter = arguments.number(keyword, "a positive length", is_positive);
+    if (keyword == "flow") impl_->flow.read(arguments);
+  }
+  if (!atom->superquadric_flag && !atom->sphere_flag) arguments.fail("needs atom_style superquadric or sphere");
+  scalar_flag = vector_flag = array_flag = 1;
+  extscalar = 0;
+  extvector = -1;
+  size_vector = 14;
+  extlist = new int[size_vector]();
+  extlist[6] = extlist[7] = 1;
+  vector = new double[size_vector]();
+  extarray = 0;
+  size_array_rows = impl_->layers;
+  size_array_cols = width;
+  array = impl_->rows.resize(impl_->layers, width);
+}
+
+ComputeFluctuation::~ComputeFluctuation() {
+  delete[] extlist;
+  delete[] vector;
+}
+
+void ComputeFluctuation::init() {}
+
+void ComputeFluctuation::compute_array() {
+  invoked_array = update->ntimestep;
+  const BoxState box(lmp);
+  const int across = impl_->flow.plane.gradient;
+  const Fluctuations motion(lmp, groupbit, box, impl_->with(MeanFlow::Kind::box));
+  std::vector<double> sums(width * impl_->layers, 0.0);  // per layer m, grains, m u
+  for (const Fluctuations::Grain &g : motion.local()) {
+    double *at = &sums[width * box.layer(Map<const Vector3d>(atom->x[g.index]), across, impl_->layers)];
+    at[0] += g.mass;
+    at[1] += 1.0;
+    Map<Vector3d>(at + 2) += g.mass * g.velocity;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM, world);
+  const double length = box.edges(across, across);
+  for (int k = 0; k < impl_->layers; k++) {
+    const double *at = &sums[width * k];
+    const Vector3d mean = at[0] > 0.0 ? Vector3d(Map<const Vector3d>(at + 2) / at[0]) : Vector3d::Zero();
+    const double row[width] = {((k + 0.5) / impl_->layers - 0.5) * length, at[1], mean[0], mean[1], mean[2]};
+    std::copy(row, row + width, array[k]);
+  }
+}
+
+void ComputeFluctuation::compute_vector() {
+  invoked_vector = update->ntimestep;
+  const BoxState box(lmp);
+  const int along = impl_->flow.plane.flow, across = impl_->flow.plane.gradient;
+  const Fluctuations motion(lmp, groupbit, box, impl_->flow);
+  double sums[9] = {};  // dv dv, dw dw, twice E_tr, E_rot, diameters
+  for (const Fluctuations::Grain &g : motion.local()) {
+    Map<Vector3d>(sums + 0) += g.velocity.cwiseAbs2();
+    Map<Vector3d>(sums + 3) += g.spin.cwiseAbs2();
+    sums[6] += g.mass * g.velocity.squaredNorm();
+    sums[7] += grainscope::rotational_energy(*atom, g.index, g.spin);
+    sums[8] += grainscope::equivalent_diameter(*atom, g.index);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums, 9, MPI_DOUBLE, MPI_SUM, world);
+  std::fill(vector, vector + size_vector, 0.0);
+  scalar = 0.0;
+  const double n = motion.grains();
+  if (n == 0.0) return;
+
+  for (int k = 0; k < 6; k++) vector[k] = std::sqrt(sums[k] / n);
+  vector[6] = 0.5 * sums[6];
+  vector[7] = sums[7];
+  vector[8] = vector[6] > 0.0 ? vector[7] / vector[6] : 0.0;
+  vector[10] = box.velocity_gradient(along, across);
+  vector[11] = Fluctuations(lmp, groupbit, box, impl_->with(MeanFlow::Kind::fit)).slope()[along];
+  const double rate = std::fabs(vector[10]);
+  if (rate == 0.0) return;
+  const double diameter = impl_->diameter > 0.0 ? impl_->diameter : sums[8] / n;
+  scalar = vector[9] = std::sqrt((sums[0] + sums[1] + sums[2]) / n) / (rate * diameter);
+
+  compute_array();
+  double squares = 0.0, layers = 0.0;
+  for (int k = 0; k < impl_->layers; k++) {
+    squares += array[k][2 + along] * array[k][2 + along];
+    layers += array[k][1] > 0.0 ? 1.0 : 0.0;
+  }
+  const double unit = rate * box.edges(across, across);
+  vector[12] = std::sqrt(squares / layers) / unit;
+  vector[13] = vector[along] * std::sqrt(impl_->layers / n) / unit;
+}
+
+double ComputeFluctuation::compute_scalar() {
+  invoked_scalar = update->ntimestep;
+  if (invoked_vector != update->ntimestep) compute_vector();
+  return scalar;
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifdef COMPUTE_CLASS
+
+ComputeStyle(layering,ComputeLayering)
+
+#else
+
+#ifndef LMP_COMPUTE_LAYERING_H
+#define LMP_COMPUTE_LAYERING_H
+
+#include "compute.h"
+#include <memory>
+
+namespace LAMMPS_NS {
+
+/** Correlation of the number density across layers (smectic order), dn = n(y) - n, n = N/V, A = V/L the mean cross-section:
+ *  C(y) = A/(n L) int dn(y') dn(y' + y) dy', periodic, for lags y that are multiples of L/layers.
+ *  array (layers/2 + 1 rows x 2): 1 lag y [distance], 2 C [1/distance].
+ *  vector (4): 1 largest C beyond lag 0, 2 its lag, 3 C(0), 4 grains. scalar: 1 over 3 [-], in [-1, 1]. All 0 for an empty group, but lags.
+ *  Source: Bilotto, Trulsson & Molinari 2025, Sec. III A, doi 10.1103/tj41-6qqk; Marschall et al. 2019, doi 10.1103/PhysRevLett.122.188002. */
+class ComputeLayering : public Compute {
+ public:
+  ComputeLayering(class LAMMPS *lmp, int &iarg, int narg, char **arg);
+  ~ComputeLayering();
+  void init();
+  double compute_scalar();
+  void compute_vector();
+  void compute_array();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}
+
+#endif
+#endif

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_GRAIN_SHAPE_H
+#define GRAINSCOPE_GRAIN_SHAPE_H
+
+#include "atom.h"
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace grainscope {
+
+/** Semi-axes of grain i: those of a superquadric, three times the radius of a sphere. */
+inline Eigen::Vector3d semi_axes(const LAMMPS_NS::Atom &atom, int i) {
+  if (atom.superquadric_flag) return Eigen::Map<const Eigen::Vector3d>(atom.shape[i]);
+  return Eigen::Vector3d::Constant(atom.radius[i]);
+}
+
+/** Diameter of the sphere of the ellipsoid's volume. */
+inline double equivalent_diameter(const LAMMPS_NS::Atom &atom, int i) { return 2.0 * std::cbrt(semi_axes(atom, i).prod()); }
+
+/** 1/2 w.J w, J the inertia tensor of grain i and w in the laboratory frame. */
+inline double rotational_energy(const LAMMPS_NS::Atom &atom, int i, const Eigen::Vector3d &w) {
+  if (!atom.superquadric_flag) return 0.2 * atom.rmass[i] * atom.radius[i] * atom.radius[i] * w.squaredNorm();
+  const double *q = atom.quaternion[i];
+  const Eigen::Vector3d body = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * w;
+  return 0.5 * body.cwiseAbs2().dot(Eigen::Map<const Eigen::Vector3d>(atom.inertia[i]));
+}
+
+}
+
+#endif
