@@ -39,3 +39,13 @@ add_cases(ellipsoid-rows cases/ellipsoid_rows.py LABEL case RANKS 1 CASES sphero
 add_cases(ellipsoid-rows cases/ellipsoid_rows.py LABEL case RANKS 1 2 CASES spheroid-1.5)
 add_cases(press-analytic cases/press_analytic.py LABEL case RANKS 1 2 CASES
   automatic-gain-compresses automatic-gain-expands automatic-gain-of-hooke given-gain)
+add_cases(contact-measures cases/contact_measures.py LABEL case RANKS 1 CASES
+  spheres-mu-0 spheres-mu-10 spheres-polydisperse spheroid-0.33-in-the-open spheroid-0.67-in-the-open spheroid-1-in-the-open
+  spheroid-3-in-the-open spheroid-1.5-mu-0 spheroid-1.5-mu-10 spheroid-0.33 polydisperse two-types with-tangential-damping no-history
+  tilted-backward subgroup group-of-one units-cgs)
+add_cases(contact-measures cases/contact_measures.py LABEL case RANKS 1 2 CASES
+  spheres spheroid-1.5-in-the-open spheroid-1.5 spheres-through-a-flip spheroids-through-a-flip under-pressure-control)
+add_cases(motion-measures cases/motion_measures.py LABEL case RANKS 1 CASES
+  spheres-at-rest spheres-polydisperse spheroid-0.33 spheroid-0.67 spheroid-1 spheroid-3 tilted-backward under-pressure-control sheared-in-xz
+  sheared-in-yz group-of-one)
+add_cases(motion-measures cases/motion_measures.py LABEL case RANKS 1 2 CASES spheres spheroid-1.5 spheres-through-a-flip subgroup)

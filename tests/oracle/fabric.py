@@ -54,25 +54,28 @@ def fabric_vector(rows, plane=(0, 1)):
     return np.array([*six(tensor), *values, *vectors.ravel(), deviator, angle, ratio, len(n)])
 
 
-def weighted(rows, amount, factor):
-    """factor/(tr W) (W - tr W/3) of W = sum w amount n n, w = 1/(N_c (1 + a_c:nn)), a_c = 15/2 (F - 1/3)."""
+def weighted(rows, amount):
+    """W = sum w amount n n with w = 1/(N_c (1 + a_c:nn)), a_c = 15/2 (F - 1/3)."""
     n = rows["normal"]
-    if not len(n):
-        return np.zeros(6)
     anisotropy = 7.5 * traceless(fabric_tensor(n))
     weight = 1.0 / (len(n) * (1.0 + np.einsum("ca,ab,cb->c", n, anisotropy, n)))
-    tensor = np.einsum("c,ca,cb->ab", weight * amount, n, n)
-    trace = np.trace(tensor)
+    return np.einsum("c,ca,cb->ab", weight * amount, n, n)
+
+
+def deviation(tensor, trace, factor):
     return six(factor / trace * traceless(tensor)) if trace else np.zeros(6)
 
 
 def branch(rows):
-    return weighted(rows, np.linalg.norm(rows["branch"], axis=1), 7.5)
+    tensor = weighted(rows, np.linalg.norm(rows["branch"], axis=1))
+    return deviation(tensor, np.trace(tensor), 7.5)
 
 
 def force_normal(rows):
-    return weighted(rows, rows["fn"], 7.5)
+    tensor = weighted(rows, rows["fn"])
+    return deviation(tensor, np.trace(tensor), 7.5)
 
 
 def force_tangential(rows):
-    return weighted(rows, np.linalg.norm(rows["ft"], axis=1), 5.0)
+    """In units of the normal force: divided by the trace of the normal tensor."""
+    return deviation(weighted(rows, np.linalg.norm(rows["ft"], axis=1)), np.trace(weighted(rows, rows["fn"])), 5.0)

@@ -2,6 +2,7 @@
 """What needs several moments, or the whole box: non-affine displacement, and layering."""
 import numpy as np
 
+from oracle.correlation import heights
 from oracle.motion import fractions
 
 
@@ -47,8 +48,8 @@ def displacement_vector(calls, plane=(0, 1)):
 
 
 def layering(x, box, axis=1, layers=40):
-    """(array (layers/2 + 1) x 2, vector of 4)."""
-    length, grains = box.edges[axis, axis], len(x)
+    """(array (layers/2 + 1) x 2, vector of 4). L is the distance between the faces that cut the axis, so that V/L is their area."""
+    length, grains = heights(box)[axis], len(x)
     array = np.zeros((layers // 2 + 1, 2))
     array[:, 0] = np.arange(layers // 2 + 1) * length / layers
     if not grains:

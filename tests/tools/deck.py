@@ -57,6 +57,7 @@ class Deck:
     contact_distance_factor: float = 1.05
     processors: str = ""
     boundary: str = "p p p"
+    units: str = "si"
 
     def model(self):
         cohesion = "" if self.cohesion == "off" else f" cohesion {self.cohesion}"
@@ -70,7 +71,7 @@ class Deck:
 
     def header(self):
         yield from ("atom_style " + self.packing.atom_style, "atom_modify map array", "boundary " + self.boundary, "newton off",
-                    "communicate single vel yes", "units si")
+                    "communicate single vel yes", "units " + self.units)
         if self.processors:
             yield "processors " + self.processors
 

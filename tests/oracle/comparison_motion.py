@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Pairs of numbers to compare, as in comparison.py: fluctuations, layering, correlations, displacements."""
+import math
+
+import numpy as np
+
+from oracle import correlation, motion, series
+from oracle.comparison import TINY, compare, magnitude
+
+
+def of_fluctuation(vector, array, moment, flow=("box",), plane=(0, 1), layers=10, diameter=None):
+    expected, table = motion.fluctuation(moment.grains, moment.chosen, moment.box, flow, plane, layers, diameter)
+    # Velocities of the flow, which cancel, carry the rounding errors.
+    speed = max(magnitude(moment.grains.v[moment.chosen]) if moment.chosen.any() else 0.0, TINY)
+    spin = magnitude(moment.grains.omega[moment.chosen]) if moment.chosen.any() else TINY
+    mass = moment.grains.mass[moment.chosen].sum() or TINY
+    over_rate = 1.0 / (abs(expected[10]) * moment.box.edges[plane[1], plane[1]]) if expected[10] else 1.0
+    yield compare("fluctuation rms dv", vector[:3], expected[:3], speed)
+    yield compare("fluctuation rms dw", vector[3:6], expected[3:6], spin)
+    yield compare("fluctuation E_tr", vector[6], expected[6], 0.5 * mass * speed ** 2)
+    yield compare("fluctuation E_rot", vector[7], expected[7])
+    yield compare("fluctuation E_rot/E_tr", vector[8], expected[8], max(abs(expected[8]), TINY))
+    yield compare("fluctuation lever", vector[9], expected[9], max(expected[9], TINY))
+    yield compare("fluctuation rate", vector[10], expected[10])
+    yield compare("fluctuation measured rate", vector[11], expected[11], speed / moment.box.edges[plane[1], plane[1]])
+    yield compare("fluctuation profile", vector[12], expected[12], speed * over_rate)
+    yield compare("fluctuation noise", vector[13], expected[13], speed * over_rate)
+    yield compare("fluctuation layers", array[:, 0], table[:, 0], moment.box.edges[plane[1], plane[1]])
+    yield compare("fluctuation grains per layer", array[:, 1], table[:, 1], 1.0, True)
+    yield compare("fluctuation profile of layers", array[:, 2:], table[:, 2:], speed)
+
+
+def of_layering(vector, array, moment, axis=1, layers=40):
+    table, expected = series.layering(moment.grains.x[moment.chosen], moment.box, axis, layers)
+    yield compare("layering lags", array[:, 0], table[:, 0])
+    yield compare("layering C", array[:, 1], table[:, 1])
+    yield compare("layering peak", vector[0], expected[0], magnitude(table[:, 1]))
+    # Equal peaks: either lag is right.
+    lag = int(np.argmin(np.abs(table[:, 0] - vector[1])))
+    yield compare("layering lag of the peak", table[lag, 1], expected[0], magnitude(table[:, 1]))
+    yield compare("layering C(0), grains", vector[2:4], expected[2:4])
+
+
+def of_correlation(vector, array, moment, name="vy", bins=19, reach=None, flow=("box",), plane=(0, 1)):
+    grains, chosen, box = moment.grains, moment.chosen, moment.box
+    reach = reach or 0.5 * min(correlation.heights(box))
+    smallest = 2.0 * (grains.radius[chosen] if grains.shape is None else grains.shape[chosen].min(axis=1)).min()
+    values = correlation.component(*motion.of_group(grains, chosen, box, flow, plane), name)
+    numerator, pairs = correlation.pair_sums(grains.x[chosen], values, box, bins, reach, smallest)
+    r = (np.arange(bins) + 0.5) * reach / bins
+    table, expected = correlation.correlation_table(r, numerator, pairs, np.mean(values ** 2), len(values))
+    yield from of_correlation_table(f"C(r) of {name}", vector, array, table, expected)
+
+
+def of_correlation_table(label, vector, array, table, expected):
+    mean_square = expected[2]
+    yield compare(f"{label}: r", array[:, 0], table[:, 0])
+    # Terms of either sign: their sizes carry the rounding errors.
+    yield compare(f"{label}: numerator", array[:, 2], table[:, 2], max(mean_square, TINY) * math.sqrt(max(table[:, 3].max(), 1.0)))
+    yield compare(f"{label}: pairs", array[:, 3], table[:, 3], 1.0, True)
+    yield compare(f"{label}: C", array[:, 1], table[:, 1], 1.0)
+    yield from of_decay(label, vector[:2], vector[4], expected)
+    yield compare(f"{label}: <dv^2>, grains", vector[2:4], expected[2:4])
+
+
+def of_decay(label, found, bins, expected):
+    """The bottom of a parabola is known to the square root of the precision; both sides look for the zero of its slope."""
+    yield compare(f"{label}: bins in the fit", bins, expected[4], 1.0, True)
+    yield compare(f"{label}: decay length", found[0], expected[0], max(expected[0], TINY))
+    yield compare(f"{label}: its error", found[1], expected[1], max(expected[0], TINY))
