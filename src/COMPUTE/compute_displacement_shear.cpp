@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "compute_displacement_shear.h"
+#include "arguments.h"
+#include "box_state.h"
+#include "fix_grain_record.h"
+#include "plane.h"
+#include "strain_source.h"
+#include "atom.h"
+#include "domain.h"
+#include "update.h"
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using Eigen::Map;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using grainscope::BoxState;
+
+namespace {
+
+const char *const name = "compute displacement/shear";
+
+/** What is kept of a grain: X of the last call, d, and whether it was there at the start. */
+enum { POSITION = 0, DISPLACEMENT = 3, TRACKED = 6, WIDTH };
+
+/** What all ranks share: whether it has started, strain at the start and at the last call, that call's step and box, and the sums of
+ *  the fit: calls, strain, strain^2, and for x, y, z <d^2> and strain <d^2>; then the last means and the number of grains. */
+enum { STARTED = 0, STRAIN_0, STRAIN_1, STEP, EDGES, CALLS = EDGES + 9, STRAIN, STRAIN_STRAIN, SQUARE, STRAIN_SQUARE = SQUARE + 3,
+       MEAN = STRAIN_SQUARE + 3, GRAINS = MEAN + 3, SHARED };
+
+/** Position of grain i, unwrapped by its image flags, from the box centre. */
+Vector3d position(LAMMPS *lmp, const BoxState &box, int i) {
+  Vector3d x;
+  lmp->domain->unmap(lmp->atom->x[i], lmp->atom->image[i], x.data());
+  return x - box.centre;
+}
+
+}
+
+struct ComputeDisplacementShear::Impl {
+  explicit Impl(LAMMPS *lmp) : strain(lmp) {}
+  grainscope::StrainSource strain;
+  grainscope::Plane plane;
+  double start = 0.0;
+  FixGrainRecord *record = nullptr;
+
+  double *shared() { return record->shared().data(); }
+};
+
+ComputeDisplacementShear::ComputeDisplacementShear(LAMMPS *lmp, int &iarg, int narg, char **arg)
+    : Compute(lmp, iarg, narg, arg), impl_(new Impl(lmp)) {
+  grainscope::Arguments arguments(lmp, name, iarg, narg, arg);
+  while (!arguments.done()) {
+    const std::string keyword = arguments.choice("keyword", {"start", "plane", "strain"});
+    if (keyword == "start") impl_->start = arguments.number(keyword, "a strain", [](double) { return true; });
+    if (keyword == "plane") impl_->plane.read(arguments);
+    if (keyword == "strain") impl_->strain.read(arguments);
+  }
+  scalar_flag = vector_flag = 1;
+  extscalar = extvector = 0;
+  size_vector = 8;
+  vector = new double[size_vector]();
+  impl_->record = FixGrainRecord::of_compute(lmp, id, igroup, WIDTH, SHARED);
+}
+
+ComputeDisplacementShear::~ComputeDisplacementShear() {
+  delete[] vector;
+  FixGrainRecord::forget(lmp, id);
+}
+
+void ComputeDisplacementShear::init() {
+  impl_->strain.init(name);
+  impl_->record = FixGrainRecord::of_compute(lmp, id, igroup, WIDTH, SHARED);
+}
+
+void ComputeDisplacementShear::begin(double strain) {
+  const BoxState box(lmp);
+  double grains = 0.0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    double *record = impl_->record->of(i);
+    std::fill(record, record + WIDTH, 0.0);
+    if (!(atom->mask[i] & groupbit)) continue;
+    Map<Vector3d>(record + POSITION) = position(lmp, box, i);
+    record[TRACKED] = 1.0;
+    grains += 1.0;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &grains, 1, MPI_DOUBLE, MPI_SUM, world);
+  double *shared = impl_->shared();
+  std::fill(shared, shared + SHARED, 0.0);
+  shared[STARTED] = 1.0;
+  shared[STRAIN_0] = shared[STRAIN_1] = strain;
+  shared[GRAINS] = grains;
+  Map<Matrix3d>(shared + EDGES) = box.edges;
+}
+
+/** Carries every grain's displacement on to now. */
+void ComputeDisplacementShear::follow(double strain) {
+  const BoxState box(lmp);
+  double *shared = impl_->shared();
+  const Matrix3d before = Map<Matrix3d>(shared + EDGES);
+  Matrix3d after = box.edges;
+  const int flow = impl_->plane.flow, gradient = impl_->plane.gradient;
+  const double expected = before(flow, gradient) + (strain - shared[STRAIN_1]) * 0.5 * (before(gradient, gradient) + after(gradient, gradient));
+  after(flow, gradient) += std::round((expected - after(flow, gradient)) / after(flow, flow)) * after(flow, flow);
+
+  const Matrix3d to_s1 = before.inverse(), to_s2 = after.inverse(), mean = 0.5 * (before + after);
+  const double turn = 2.0 * IMGMAX;  // the host's image flags count modulo this
+  double sums[4] = {0.0, 0.0, 0.0, 0.0};
+  for (int i = 0; i < atom->nlocal; i++) {
+    double *record = impl_->record->of(i);
+    if (record[TRACKED] == 0.0) continue;
+    const Vector3d now = position(lmp, box, i);
+    Map<Vector3d> last(record + POSITION), d(record + DISPLACEMENT);
+    Vector3d ds = to_s2 * now - to_s1 * last;
+    for (int k = 0; k < 3; k++) ds[k] = std::remainder(ds[k], turn);
+    d += mean * ds;
+    last = now;
+    Map<Vector3d>(sums + 0) += d.cwiseAbs2();
+    sums[3] += 1.0;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, world);
+  for (int k = 0; k < 3; k++) shared[MEAN + k] = sums[3] > 0.0 ? sums[k] / sums[3] : 0.0;
+  shared[GRAINS] = sums[3];
+  shared[STRAIN_1] = strain;
+  Map<Matrix3d>(shared + EDGES) = box.edges;
+}
+
+/** A point of the least squares. */
+void ComputeDisplacementShear::measure(double strain) {
+  double *shared = impl_->shared();
+  if (shared[STARTED] == 0.0) begin(strain);
+  else follow(strain);
+  shared[STEP] = update->ntimestep;
+  const double since = strain - shared[STRAIN_0];
+  shared[CALLS] += 1.0;
+  shared[STRAIN] += since;
+  shared[STRAIN_STRAIN] += since * since;
+  for (int k = 0; k < 3; k++) {
+    shared[SQUARE + k] += shared[MEAN + k];
+    shared[STRAIN_SQUARE + k] += since * shared[MEAN + k];
+  }
+}
+
+void ComputeDisplacementShear::compute_vector() {
+  invoked_vector = update->ntimestep;
+  const double strain = impl_->strain.now();
+  double *shared = impl_->shared();
+  const bool started = shared[STARTED] != 0.0;
+  if (started ? shared[STEP] != update->ntimestep : std::fabs(strain) >= std::fabs(impl_->start) - 1e-9) measure(strain);
+
+  std::fill(vector, vector + size_vector, 0.0);
+  scalar = 0.0;
+  if (shared[STARTED] == 0.0) return;
+  vector[0] = shared[STRAIN_1] - shared[STRAIN_0];
+  const double n = shared[CALLS], spread = n * shared[STRAIN_STRAIN] - shared[STRAIN] * shared[STRAIN];
+  for (int k = 0; k < 3; k++) {
+    vector[1 + k] = shared[MEAN + k];
+    if (spread > 0.0) vector[4 + k] = 0.5 * (n * shared[STRAIN_SQUARE + k] - shared[STRAIN] * shared[SQUARE + k]) / spread;
+  }
+  vector[7] = shared[GRAINS];
+  scalar = vector[2];
+}
+
+double ComputeDisplacementShear::compute_scalar() {
+  invoked_scalar = update->ntimestep;
+  if (invoked_vector != update->ntimestep) compute_vector();
+  return scalar;
+}

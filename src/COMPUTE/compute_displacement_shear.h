@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifdef COMPUTE_CLASS
+
+ComputeStyle(displacement/shear,ComputeDisplacementShear)
+
+#else
+
+#ifndef LMP_COMPUTE_DISPLACEMENT_SHEAR_H
+#define LMP_COMPUTE_DISPLACEMENT_SHEAR_H
+
+#include "compute.h"
+#include <memory>
+
+namespace LAMMPS_NS {
+
+class FixGrainRecord;
+
+/** How far grains have moved against the affine motion of a sheared box since a given strain. Between two calls, X is a grain's position
+ *  with image flags from the box centre, H the box edges with the driven tilt continued through flips, s = H^-1 X:
+ *  d += (H_1 + H_2)/2 (s_2 - s_1).
+ *  scalar: <d_y^2> [distance^2], intensive.
+ *  vector (8, intensive): 1 strain since the start, 2-4 <d_x^2> <d_y^2> <d_z^2> [distance^2], 5-7 D_x D_y D_z, half the slope of 2-4 over
+ *  strain, least squares with free intercept over all calls [distance^2], 8 grains. Zero before the start and for an empty group.
+ *  Source: Bilotto, Trulsson & Molinari 2025, App. E, Fig. 16; doi 10.1103/tj41-6qqk. */
+class ComputeDisplacementShear : public Compute {
+ public:
+  ComputeDisplacementShear(class LAMMPS *lmp, int &iarg, int narg, char **arg);
+  ~ComputeDisplacementShear();
+  void init();
+  double compute_scalar();
+  void compute_vector();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+
+  void begin(double strain);
+  void follow(double strain);
+  void measure(double strain);
+};
+
+}
+
+#endif
+#endif

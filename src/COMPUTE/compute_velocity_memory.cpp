@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "compute_velocity_memory.h"
+#include "arguments.h"
+#include "decay_fit.h"
+#include "fix_grain_record.h"
+#include "fluctuations.h"
+#include "rows.h"
+#include "strain_source.h"
+#include "velocity_component.h"
+#include "update.h"
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using grainscope::Fluctuations;
+
+namespace {
+
+const char *const name = "compute velocity/memory";
+const int width = 4;
+
+/** What all ranks share: number of samples, strain of the first, number of the next multiple; then the strains of the last `lags` samples
+ *  (sample k at k modulo lags); then for each lag the sums of strains between samples, of products, and the number of products. */
+enum { SAMPLES = 0, STRAIN_0, NEXT, PAST };
+enum { STRAIN = 0, PRODUCTS, PAIRS, SUMS };
+
+bool is_lag_count(double n) { return n >= 1.0 && n <= 1e4 && n == std::floor(n); }
+
+}
+
+struct ComputeVelocityMemory::Impl {
+  explicit Impl(LAMMPS *lmp) : strain(lmp) {}
+  grainscope::StrainSource strain;
+  grainscope::MeanFlow flow;
+  grainscope::VelocityComponent component;
+  double every = 0.01;
+  int lags = 50;
+  FixGrainRecord *record = nullptr;
+  grainscope::Rows rows;
+
+  double *shared() { return record->shared().data(); }
+  double *past() { return shared() + PAST; }
+  double *sums(int lag) { return past() + lags + lag * SUMS; }
+  void find_record(LAMMPS *lmp, const char *id, int igroup) {
+    // Per grain: its values in the last samples, then 1 + the number of the first sample it was in.
+    record = FixGrainRecord::of_compute(lmp, id, igroup, lags + 1, PAST + lags + (lags + 1) * SUMS);
+  }
+};
+
+ComputeVelocityMemory::ComputeVelocityMemory(LAMMPS *lmp, int &iarg, int narg, char **arg)
+    : Compute(lmp, iarg, narg, arg), impl_(new Impl(lmp)) {
+  grainscope::Arguments arguments(lmp, name, iarg, narg, arg);
+  while (!arguments.done()) {
+    const std::string keyword = arguments.choice("keyword", {"component", "every", "lags", "strain", "flow", "plane"});
+    if (keyword == "component") impl_->component.read(arguments);
+    if (keyword == "every") impl_->every = arguments.number(keyword, "a positive strain", [](double x) { return x > 0.0; });
+    if (keyword == "lags") impl_->lags = static_cast<int>(arguments.number(keyword, "a whole number from 1 to 10000", is_lag_count));
+    if (keyword == "strain") impl_->strain.read(arguments);
+    if (keyword == "flow") impl_->flow.read(arguments);
+    if (keyword == "plane") impl_->flow.plane.read(arguments);
+  }
+  scalar_flag = vector_flag = array_flag = 1;
+  extscalar = extvector = extarray = 0;
+  size_vector = 3;
+  vector = new double[size_vector]();
+  size_array_rows = impl_->lags + 1;
+  size_array_cols = width;
+  array = impl_->rows.resize(size_array_rows, width);
+  impl_->find_record(lmp, id, igroup);
+}
+
+ComputeVelocityMemory::~ComputeVelocityMemory() {
+  delete[] vector;
+  FixGrainRecord::forget(lmp, id);
+}
+
+void ComputeVelocityMemory::init() {
+  impl_->strain.init(name);
+  impl_->find_record(lmp, id, igroup);
+}
+
+void ComputeVelocityMemory::sample_if_due() {
+  double *shared = impl_->shared();
+  const double strain = impl_->strain.now();
+  if (shared[SAMPLES] == 0.0) shared[STRAIN_0] = strain;
+  // 1e-9: a strain that is a sum of steps errs by ulps.
+  const double passed = std::fabs(strain - shared[STRAIN_0]) / impl_->every + 1e-9;
+  if (passed < shared[NEXT]) return;
+  shared[NEXT] = std::floor(passed) + 1.0;
+  sample(strain);
+}
+
+void ComputeVelocityMemory::sample(double strain) {
+  const int lags = impl_->lags;
+  const long count = std::lround(impl_->shared()[SAMPLES]);
+  const int known = std::min<long>(count, lags);  // lags that reach back to a sample
+  std::vector<double> sums(2 * (known + 1), 0.0);  // products, pairs
+  const Fluctuations motion(lmp, groupbit, grainscope::BoxState(lmp), impl_->flow);
+  for (const Fluctuations::Grain &g : motion.local()) {
+    double *past = impl_->record->of(g.index), &first = past[lags];
+    if (first == 0.0) first = count + 1;
+    const double now = impl_->component.of(g);
+    sums[0] += now * now;
+    sums[1] += 1.0;
+    for (int lag = 1; lag <= known && count - lag >= first - 1.0; lag++) {
+      sums[2 * lag] += now * past[(count - lag) % lags];
+      sums[2 * lag + 1] += 1.0;
+    }
+    past[count % lags] = now;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM, world);
+  for (int lag = 0; lag <= known; lag++) {
+    double *s = impl_->sums(lag);
+    if (lag > 0) s[STRAIN] += strain - impl_->past()[(count - lag) % lags];
+    s[PRODUCTS] += sums[2 * lag];
+    s[PAIRS] += sums[2 * lag + 1];
+  }
+  impl_->past()[count % lags] = strain;
+  impl_->shared()[SAMPLES] = count + 1;
+}
+
+void ComputeVelocityMemory::fill_array() {
+  const double samples = impl_->shared()[SAMPLES];
+  const double *zero = impl_->sums(0);
+  const double square = zero[PAIRS] > 0.0 ? zero[PRODUCTS] / zero[PAIRS] : 0.0;
+  for (int lag = 0; lag <= impl_->lags; lag++) {
+    const double *s = impl_->sums(lag);
+    const double strain = samples > lag ? s[STRAIN] / (samples - lag) : 0.0;
+    const double c = s[PAIRS] > 0.0 && square > 0.0 ? s[PRODUCTS] / s[PAIRS] / square : 0.0;
+    const double row[width] = {strain, c, s[PRODUCTS], s[PAIRS]};
+    std::copy(row, row + width, array[lag]);
+  }
+}
+
+void ComputeVelocityMemory::compute_array() {
+  invoked_array = update->ntimestep;
+  sample_if_due();
+  fill_array();
+}
+
+void ComputeVelocityMemory::compute_vector() {
+  invoked_vector = update->ntimestep;
+  compute_array();
+  std::vector<double> lag, c;
+  for (int k = 1; k <= impl_->lags; k++) {
+    lag.push_back(std::fabs(array[k][0]));
+    c.push_back(array[k][1]);
+  }
+  const grainscope::DecayFit fit = grainscope::fit_decay(lag, c);
+  vector[0] = fit.length;
+  vector[1] = fit.error;
+  vector[2] = impl_->shared()[SAMPLES];
+  scalar = vector[0];
+}
+
+double ComputeVelocityMemory::compute_scalar() {
+  invoked_scalar = update->ntimestep;
+  if (invoked_vector != update->ntimestep) compute_vector();
+  return scalar;
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifdef COMPUTE_CLASS
+
+ComputeStyle(velocity/memory,ComputeVelocityMemory)
+
+#else
+
+#ifndef LMP_COMPUTE_VELOCITY_MEMORY_H
+#define LMP_COMPUTE_VELOCITY_MEMORY_H
+
+#include "compute.h"
+#include <memory>
+
+namespace LAMMPS_NS {
+
+class FixGrainRecord;
+
+/** How long a grain's velocity fluctuation is remembered: C(lag) = <dv(strain) dv(strain + lag)> / <dv^2>, over grains and over all samples
+ *  as origins. A sample is taken when a call finds that the strain has passed another multiple of `every`.
+ *  array (lags + 1 rows x 4): 1 mean strain between the samples [-], 2 C [-], 3 sum of products, 4 number of products.
+ *  vector (3, intensive): 1 strain g of exp(-lag/g), least squares over C > 0.05, 2 its standard error, 3 samples. scalar: 1.
+ *  Zero for an empty group. Source: Bilotto, Trulsson & Molinari 2025, Eq. (7) in time; doi 10.1103/tj41-6qqk. */
+class ComputeVelocityMemory : public Compute {
+ public:
+  ComputeVelocityMemory(class LAMMPS *lmp, int &iarg, int narg, char **arg);
+  ~ComputeVelocityMemory();
+  void init();
+  double compute_scalar();
+  void compute_vector();
+  void compute_array();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+
+  void sample_if_due();
+  void sample(double strain);
+  void fill_array();
+};
+
+}
+
+#endif
+#endif

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "strain_source.h"
+#include "arguments.h"
+#include "fix.h"
+#include "input.h"
+#include "modify.h"
+#include "variable.h"
+#include <cstring>
+
+namespace grainscope {
+
+namespace {
+
+const char *const requirement = "f_ID[n] or v_name";
+
+}
+
+void StrainSource::read(Arguments &arguments) {
+  text_ = arguments.word(requirement);
+  if (text_.size() > 2 && text_.compare(0, 2, "v_") == 0) {
+    name_ = text_.substr(2);
+    return;
+  }
+  const std::size_t open = text_.find('['), close = text_.size() - 1;
+  double element = 0.0;
+  const bool element_given = text_.compare(0, 2, "f_") == 0 && open != std::string::npos && open > 2 && text_[close] == ']' &&
+      Arguments::is_number(text_.substr(open + 1, close - open - 1), element);
+  if (!element_given || element < 1.0 || element > 1e6 || element != static_cast<int>(element)) arguments.fail("strain", requirement, text_);
+  name_ = text_.substr(2, open - 2);
+  element_ = static_cast<int>(element) - 1;
+}
+
+void StrainSource::find_press_strain(const Arguments &complaints) {
+  for (int k = 0; k < modify->nfix; k++) {
+    if (strcmp(modify->fix[k]->style, "press/strain") != 0) continue;
+    if (fix_) complaints.fail("several fixes press/strain are there: name the one that tells the strain, 'strain f_ID[1]'");
+    fix_ = modify->fix[k];
+  }
+  if (!fix_) complaints.fail("needs to know the strain: use fix press/strain, or the keyword 'strain' with f_ID[n] or v_name");
+}
+
+void StrainSource::init(const std::string &style) {
+  const Arguments complaints(lmp, style, 0, 0, nullptr);
+  fix_ = nullptr;
+  variable_ = -1;
+  if (text_.empty()) {
+    find_press_strain(complaints);
+  } else if (text_[0] == 'v') {
+    variable_ = input->variable->find(const_cast<char *>(name_.c_str()));
+    if (variable_ < 0 || !input->variable->equalstyle(variable_)) complaints.fail("strain", "an equal-style variable that is defined", text_);
+  } else {
+    const int found = modify->find_fix(name_.c_str());
+    if (found < 0) complaints.fail("strain", "the element of a fix that is defined", text_);
+    fix_ = modify->fix[found];
+    if (!fix_->vector_flag || element_ >= fix_->size_vector) complaints.fail("strain", "an element of the fix's vector", text_);
+  }
+}
+
+double StrainSource::now() const { return fix_ ? fix_->compute_vector(element_) : input->variable->compute_equal(variable_); }
+
+}
