@@ -49,3 +49,11 @@ add_cases(motion-measures cases/motion_measures.py LABEL case RANKS 1 CASES
   spheres-at-rest spheres-polydisperse spheroid-0.33 spheroid-0.67 spheroid-1 spheroid-3 tilted-backward under-pressure-control sheared-in-xz
   sheared-in-yz group-of-one)
 add_cases(motion-measures cases/motion_measures.py LABEL case RANKS 1 2 CASES spheres spheroid-1.5 spheres-through-a-flip subgroup)
+add_cases(contact-analytic cases/contact_analytic.py LABEL case RANKS 1 CASES
+  three-of-four-along-z three-of-four-along-z-in-xz two-of-four-along-z one-of-four-less-along-x all-along-one angle-is-of-lines
+  area-of-prolate-polar area-of-prolate-parametric area-of-oblate-polar area-of-oblate-parametric area-of-sphere-polar
+  area-of-sphere-parametric area-about-another-axis area-about-another-axis-parametric every-bin-prolate-parametric every-bin-oblate-polar
+  pole-on-equator statistics-of-spheres)
+add_cases(contact-analytic cases/contact_analytic.py LABEL case RANKS 1 2 CASES
+  cubic-lattice every-bin-prolate-polar every-bin-oblate-parametric opposite-bins opposite-bins-of-spheroids powers-add-up
+  powers-of-spheres-add-up)
