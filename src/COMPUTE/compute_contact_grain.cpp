@@ -32,6 +32,11 @@ ComputeContactGrain::ComputeContactGrain(LAMMPS *lmp, int &iarg, int narg, char 
 
 ComputeContactGrain::~ComputeContactGrain() {}
 
+void ComputeContactGrain::init() {
+  ContactCompute::init();
+  require_known_losses();
+}
+
 void ComputeContactGrain::begin_contacts() {
   array_atom = impl_->rows.resize(atom->nmax, WIDTH);
   impl_->finished = false;

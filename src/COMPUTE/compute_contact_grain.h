@@ -21,6 +21,7 @@ class ComputeContactGrain : public grainscope::ContactCompute {
  public:
   ComputeContactGrain(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeContactGrain();
+  void init();
   void compute_peratom();
   double memory_usage();
 

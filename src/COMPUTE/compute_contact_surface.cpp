@@ -90,6 +90,7 @@ ComputeContactSurface::~ComputeContactSurface() { delete[] vector; }
 
 void ComputeContactSurface::init() {
   ContactCompute::init();
+  require_known_losses();
   require_one_shape();
   impl_->build = -1;
 }

@@ -38,11 +38,7 @@ ComputeDissipation::~ComputeDissipation() { delete[] vector; }
 
 void ComputeDissipation::init() {
   ContactCompute::init();
-  const grainscope::Arguments arguments(lmp, name_, 0, 0, nullptr);
-  if (observer_->law() == grainscope::ContactObserver::TangentialLaw::other)
-    arguments.fail("knows the friction of 'tangential' off, no_history and history only");
-  if (!observer_->elastic())
-    arguments.fail("knows the damping of the normal models hertz, hooke, hertz/stiffness and hooke/stiffness only");
+  require_known_losses();
 }
 
 bool ComputeDissipation::needs_images() const { return impl_->mode == Impl::Mode::step; }

@@ -38,6 +38,7 @@ std::pair<double, double> search_range(const Squares &squares) {
   const double endless = 1e17;
   double shortest = endless, longest = 0.0;
   for (std::size_t k = 0; k < squares.r.size(); k++) {
+    if (squares.r[k] == 0.0) continue;
     const double own = squares.c[k] < 1.0 ? std::min(-squares.r[k] / std::log(squares.c[k]), endless) : endless;
     shortest = std::min(shortest, own);
     longest = std::max(longest, own);
@@ -81,14 +82,14 @@ double best_length(const Squares &squares) {
 DecayFit fit_decay(const std::vector<double> &r, const std::vector<double> &c) {
   Squares squares;
   for (std::size_t k = 0; k < r.size(); k++) {
-    if (!(r[k] > 0.0 && c[k] > 0.05)) continue;
+    if (!(c[k] > 0.05)) continue;
     squares.r.push_back(r[k]);
     squares.c.push_back(c[k]);
   }
   DecayFit fit;
   fit.points = static_cast<int>(squares.r.size());
-  if (fit.points == 0) return fit;
-  const double scale = *std::max_element(squares.r.begin(), squares.r.end());
+  const double scale = fit.points > 0 ? *std::max_element(squares.r.begin(), squares.r.end()) : 0.0;
+  if (scale == 0.0) return fit;
   for (double &value : squares.r) value /= scale;
   const double length = best_length(squares);
   fit.length = scale * length;

@@ -5,11 +5,13 @@
 
 namespace grainscope {
 
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 namespace {
 
-constexpr int batch = 256;
+constexpr int batch = 256;  // distances at a time, a multiple of the lanes
+constexpr int lanes = 4;     // sums side by side: one that waits for the last to be stored takes half as long again
 
 struct Span {
   std::size_t begin, end;
@@ -99,8 +101,9 @@ PointValues sorted(const PointValues &points, const Grid &grid, std::vector<std:
 class RowSums {
  public:
   RowSums(const PeriodicCell &cell, const PointValues &points, const DistanceBins &bins)
-      : cell_(cell), points_(points), bins_(bins.count), per_length_(bins.count / bins.range), range2_(bins.range * bins.range),
-        radius2_(std::pow(cell.rounding_radius(), 2)), rounding_is_enough_(bins.range * bins.range <= radius2_), row_(2 * bins.count + 2) {
+      : cell_(cell), points_(points), bins_(bins.count), per_length_(bins.count / bins.range),
+        radius2_(std::pow(cell.rounding_radius(), 2)), rounding_is_enough_(bins.range <= cell.rounding_radius()),
+        row_(lanes * (bins.count + 1), Vector2d::Zero()) {
     for (int k = 0; k < 3; k++) wrap_[k] = cell.periodic[k] ? 1.0 : 0.0;
   }
 
@@ -110,33 +113,31 @@ class RowSums {
       squared_distances(i, j, n);
       if (!rounding_is_enough_) search_images(i, j, n);
       to_bins(n);
-      for (int m = 0; m < n; m++) {
-        double *at = &row_[2 * bin_[m]];
-        at[0] += points_.value[j + m];
-        at[1] += 1.0;
-      }
+      add_batch(&points_.value[j], n);
     }
   }
 
   /** Moves what was added for point i to `sums`. */
   void flush(std::size_t i, PairSums &sums) {
     for (int k = 0; k < bins_; k++) {
-      sums.products[k] += points_.value[i] * row_[2 * k];
-      sums.pairs[k] += row_[2 * k + 1];
+      Vector2d all = Vector2d::Zero();
+      for (int lane = 0; lane < lanes; lane++) all += row_[lane * (bins_ + 1) + k];
+      sums.products[k] += points_.value[i] * all[0];
+      sums.pairs[k] += all[1];
     }
-    std::fill(row_.begin(), row_.end(), 0.0);
+    std::fill(row_.begin(), row_.end(), Vector2d::Zero());
   }
 
  private:
   const PeriodicCell &cell_;
   const PointValues &points_;
   int bins_;
-  double per_length_, range2_, radius2_;
+  double per_length_, radius2_;
   bool rounding_is_enough_;
   double wrap_[3];
-  std::vector<double> row_;   // sum of values and pairs of each bin; the last is out of range
-  alignas(64) double r2_[batch];
-  alignas(64) int bin_[batch];
+  std::vector<Vector2d> row_;  // sum of values and pairs: per lane, of each bin; the last bin holds what is out of range
+  double r2_[batch];
+  int bin_[batch];
 
   void squared_distances(std::size_t i, std::size_t j, int n) {
     const double *sx = &points_.s[0][j], *sy = &points_.s[1][j], *sz = &points_.s[2][j];
@@ -168,6 +169,19 @@ class RowSums {
       const double at = std::sqrt(r2_[m]) * per_length_;
       bin_[m] = static_cast<int>(at < end ? at : end);
     }
+  }
+
+  void add_batch(const double *value, int n) {
+    Vector2d *lane[lanes];
+    for (int k = 0; k < lanes; k++) lane[k] = &row_[k * (bins_ + 1)];
+    int m = 0;
+    for (; m + lanes <= n; m += lanes)
+      for (int k = 0; k < lanes; k++) {
+        Vector2d &at = lane[k][bin_[m + k]];
+        at[0] += value[m + k];
+        at[1] += 1.0;
+      }
+    for (; m < n; m++) lane[0][bin_[m]] += Vector2d(value[m], 1.0);
   }
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact_compute.h"
+#include "arguments.h"
 #include "contact_observer.h"
 #include "pair_gran_insitu.h"
 #include "atom.h"
@@ -28,6 +29,14 @@ bool ContactCompute::wants_contacts() {
 bool ContactCompute::in_group(int i) const { return atom->mask[i] & groupbit; }
 
 bool ContactCompute::both_in_group(int i, int j) const { return atom->mask[i] & atom->mask[j] & groupbit; }
+
+void ContactCompute::require_known_losses() const {
+  const Arguments complaints(lmp, name_, 0, 0, nullptr);
+  if (observer_->law() == ContactObserver::TangentialLaw::other)
+    complaints.fail("knows the friction of 'tangential' off, no_history and history only");
+  if (!observer_->elastic())
+    complaints.fail("knows the damping of the normal models hertz, hooke, hertz/stiffness and hooke/stiffness only");
+}
 
 void ContactCompute::require_tally() const {
   if (attached() && tallied_ == update->ntimestep) return;

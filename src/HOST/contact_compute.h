@@ -25,6 +25,8 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
 
   bool both_in_group(int i, int j) const;
   bool in_group(int i) const;
+  /** Errors unless the damping and friction of the contact model are known: their powers are to be told. In init(). */
+  void require_known_losses() const;
   /** Errors unless the current step was tallied. */
   void require_tally() const;
   /** Sums `values` over all ranks, in place. */

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "compute_velocity_correlation.h"
+#include "arguments.h"
+#include "decay_fit.h"
+#include "fluctuations.h"
+#include "grain_shape.h"
+#include "mesh_correlation.h"
+#include "rows.h"
+#include "velocity_component.h"
+#include "comm.h"
+#include "domain.h"
+#include "update.h"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+using namespace LAMMPS_NS;
+using grainscope::Arguments;
+using grainscope::DistanceBins;
+using grainscope::Fluctuations;
+using grainscope::PairSums;
+using grainscope::PeriodicCell;
+using grainscope::PointValues;
+
+namespace {
+
+const char *const name = "compute velocity/correlation";
+const double most_mesh_cells = 1e9;
+
+bool is_bin_count(double n) { return n >= 1.0 && n <= 1e4 && n == std::floor(n); }
+bool is_mesh(double n) { return n >= 1.0 && n <= 100.0 && n == std::floor(n); }
+bool is_positive(double x) { return x > 0.0; }
+
+PeriodicCell periodic_cell(const grainscope::BoxState &box, const Domain &domain) {
+  return {box.edges, {{domain.xperiodic != 0, domain.yperiodic != 0, domain.zperiodic != 0}}};
+}
+
+double half_smallest_height(const PeriodicCell &cell) { return 0.5 * std::min({cell.height(0), cell.height(1), cell.height(2)}); }
+
+/** The points of all ranks, on each. */
+PointValues gathered(const PointValues &local, MPI_Comm world) {
+  int ranks, n = static_cast<int>(local.size());
+  MPI_Comm_size(world, &ranks);
+  std::vector<int> counts(ranks), starts(ranks, 0);
+  MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+  std::partial_sum(counts.begin(), counts.end() - 1, starts.begin() + 1);
+  PointValues all;
+  const auto gather = [&](const std::vector<double> &from, std::vector<double> &to) {
+    to.resize(starts.back() + counts.back());
+    MPI_Allgatherv(from.data(), n, MPI_DOUBLE, to.data(), counts.data(), starts.data(), MPI_DOUBLE, world);
+  };
+  for (int k = 0; k < 3; k++) gather(local.s[k], all.s[k]);
+  gather(local.value, all.value);
+  return all;
+}
+
+}
+
+struct ComputeVelocityCorrelation::Impl {
+  /** Over ranks; with `average running` over calls too. */
+  struct Totals {
+    PairSums sums{0};
+    double squares = 0.0, grains = 0.0, range = 0.0, calls = 0.0;
+
+    void add(const Totals &other) {
+      for (std::size_t k = 0; k < sums.pairs.size(); k++) {
+        sums.products[k] += other.sums.products[k];
+        sums.pairs[k] += other.sums.pairs[k];
+      }
+      squares += other.squares;
+      grains += other.grains;
+      range += other.range;
+      calls += other.calls;
+    }
+  };
+
+  grainscope::VelocityComponent component;
+  int bins = 19;
+  double range = 0.0;  // 0: half the smallest height of the box
+  int mesh_per_bin = 4;
+  bool running = false;
+  grainscope::MeanFlow flow;
+  std::unique_ptr<grainscope::MeshCorrelation> mesh;  // of method mesh
+  bigint measured = -1, counted = -1;  // steps of the last measurement and of the last that went into the running totals
+  Totals totals;
+  grainscope::Rows rows;
+  double bytes = 0.0;
+
+  Totals measure(LAMMPS *lmp, int groupbit);
+  PairSums share_of_pairs(LAMMPS *lmp, const PeriodicCell &cell, const PointValues &points, const DistanceBins &distances);
+};
+
+ComputeVelocityCorrelation::ComputeVelocityCorrelation(LAMMPS *lmp, int &iarg, int narg, char **arg)
+    : Compute(lmp, iarg, narg, arg), impl_(new Impl) {
+  Arguments arguments(lmp, name, iarg, narg, arg);
+  bool mesh_given = false;
+  while (!arguments.done()) {
+    const std::string keyword =
+        arguments.choice("keyword", {"component", "bins", "range", "method", "mesh", "flow", "plane", "average"});
+    if (keyword == "component") impl_->component.read(arguments);
+    if (keyword == "bins") impl_->bins = static_cast<int>(arguments.number(keyword, "a whole number from 1 to 10000", is_bin_count));
+    if (keyword == "range") impl_->range = arguments.number(keyword, "a positive length", is_positive);
+    if (keyword == "method")
+      impl_->mesh.reset(arguments.choice(keyword, {"direct", "mesh"}) == "mesh" ? new grainscope::MeshCorrelation(world) : nullptr);
+    if (keyword == "mesh") {
+      mesh_given = true;
+      impl_->mesh_per_bin = static_cast<int>(arguments.number(keyword, "a whole number from 1 to 100", is_mesh));
+    }
+    if (keyword == "flow") impl_->flow.read(arguments);
+    if (keyword == "plane") impl_->flow.plane.read(arguments);
+    if (keyword == "average") impl_->running = arguments.choice(keyword, {"one", "running"}) == "running";
+  }
+  if (mesh_given && !impl_->mesh) arguments.fail("'mesh' needs 'method mesh'");
+  if (!atom->superquadric_flag && !atom->sphere_flag) arguments.fail("needs atom_style superquadric or sphere");
+  scalar_flag = vector_flag = array_flag = 1;
+  extscalar = extvector = extarray = 0;
+  size_vector = 5;
+  vector = new double[size_vector]();
+  size_array_rows = impl_->bins;
+  size_array_cols = 4;
+  array = impl_->rows.resize(size_array_rows, size_array_cols);
+}
+
+ComputeVelocityCorrelation::~ComputeVelocityCorrelation() { delete[] vector; }
+
+void ComputeVelocityCorrelation::init() {
+  impl_->measured = -1;
+  if (impl_->mesh && !(domain->xperiodic && domain->yperiodic && domain->zperiodic))
+    Arguments(lmp, name, 0, 0, nullptr)
+        .fail("'method' must be direct in a box that is not periodic in all three directions, got 'mesh'");
+}
+
+/** This rank's share of the sums over pairs. */
+PairSums ComputeVelocityCorrelation::Impl::share_of_pairs(LAMMPS *lmp, const PeriodicCell &cell, const PointValues &points,
+                                                          const DistanceBins &distances) {
+  if (!mesh) {
+    const PointValues all = gathered(points, lmp->world);
+    bytes = 8.0 * sizeof(double) * all.size();  // and their copy in the order of cells
+    return grainscope::direct_pair_sums(cell, all, distances, lmp->comm->me, lmp->comm->nprocs);
+  }
+  std::array<int, 3> size;
+  try {
+    size = grainscope::mesh_size(cell, distances, mesh_per_bin, most_mesh_cells);
+  } catch (const std::length_error &wanted) {
+    Arguments(lmp, name, 0, 0, nullptr)
+        .fail("'mesh' " + std::to_string(mesh_per_bin) + " must ask for less than 1e9 cells, got " + wanted.what() +
+              ": take fewer bins or 'method direct', which is fast when the range is short");
+  }
+  PairSums sums = mesh->pair_sums(cell, points, distances, size);
+  bytes = mesh->memory_usage();
+  return sums;
+}
+
+ComputeVelocityCorrelation::Impl::Totals ComputeVelocityCorrelation::Impl::measure(LAMMPS *lmp, int groupbit) {
+  const grainscope::BoxState box(lmp);
+  const PeriodicCell cell = periodic_cell(box, *lmp->domain);
+  const DistanceBins distances{range > 0.0 ? range : half_smallest_height(cell), bins};
+  const Fluctuations motion(lmp, groupbit, box, flow);
+  PointValues points;
+  double smallest = std::numeric_limits<double>::infinity();
+  Totals now;
+  for (const Fluctuations::Grain &g : motion.local()) {
+    const double value = component.of(g);
+    points.add(box.fraction(Eigen::Map<const Eigen::Vector3d>(lmp->atom->x[g.index])), value);
+    smallest = std::min(smallest, 2.0 * grainscope::semi_axes(*lmp->atom, g.index).minCoeff());
+    now.squares += value * value;
+  }
+  now.sums = share_of_pairs(lmp, cell, points, distances);
+  MPI_Allreduce(MPI_IN_PLACE, &smallest, 1, MPI_DOUBLE, MPI_MIN, lmp->world);
+  MPI_Allreduce(MPI_IN_PLACE, &now.squares, 1, MPI_DOUBLE, MPI_SUM, lmp->world);
+  MPI_Allreduce(MPI_IN_PLACE, now.sums.products.data(), bins, MPI_DOUBLE, MPI_SUM, lmp->world);
+  MPI_Allreduce(MPI_IN_PLACE, now.sums.pairs.data(), bins, MPI_DOUBLE, MPI_SUM, lmp->world);
+  for (int k = 0; k < bins && (k + 1) * distances.width() <= smallest; k++) now.sums.products[k] = now.sums.pairs[k] = 0.0;
+  now.grains = motion.grains();
+  now.range = distances.range;
+  now.calls = 1.0;
+  return now;
+}
+
+void ComputeVelocityCorrelation::measure() {
+  Impl &all = *impl_;
+  if (all.measured == update->ntimestep || (all.running && all.counted == update->ntimestep)) return;
+  all.measured = all.counted = update->ntimestep;
+  const Impl::Totals now = all.measure(lmp, groupbit);
+  if (all.running && all.totals.calls > 0.0) all.totals.add(now);
+  else all.totals = now;
+
+  const Impl::Totals &t = all.totals;
+  const DistanceBins distances{t.range / t.calls, all.bins};
+  const double mean_square = t.grains > 0.0 ? t.squares / t.grains : 0.0;
+  std::vector<double> r(all.bins), c(all.bins, 0.0);
+  for (int k = 0; k < all.bins; k++) {
+    r[k] = distances.middle(k);
+    if (t.sums.pairs[k] > 0.0 && mean_square > 0.0) c[k] = t.sums.products[k] / t.sums.pairs[k] / mean_square;
+    const double row[4] = {r[k], c[k], t.sums.products[k], t.sums.pairs[k]};
+    std::copy(row, row + 4, array[k]);
+  }
+  const grainscope::DecayFit fit = grainscope::fit_decay(r, c);
+  const double values[5] = {fit.length, fit.error, mean_square, t.grains, static_cast<double>(fit.points)};
+  std::copy(values, values + 5, vector);
+  scalar = fit.length;
+}
+
+void ComputeVelocityCorrelation::compute_array() {
+  invoked_array = update->ntimestep;
+  measure();
+}
+
+void ComputeVelocityCorrelation::compute_vector() {
+  invoked_vector = update->ntimestep;
+  measure();
+}
+
+double ComputeVelocityCorrelation::compute_scalar() {
+  invoked_scalar = update->ntimestep;
+  measure();
+  return scalar;
+}
+
+double ComputeVelocityCorrelation::memory_usage() { return impl_->bytes + impl_->rows.bytes(); }

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "lag_mesh.h"
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace grainscope {
+
+using Eigen::Vector3d;
+
+namespace {
+
+bool is_fast(int n) {
+  for (int factor : {2, 3, 5, 7})
+    while (n % factor == 0) n /= factor;
+  return n == 1;
+}
+
+/** Lag m of n in units of the edge, in [-1/2, 1/2]. */
+double fraction(std::ptrdiff_t m, int n) { return static_cast<double>(2 * m > n ? m - n : m) / n; }
+
+}
+
+int fast_length(int at_least) {
+  int n = std::max(1, at_least);
+  while (!is_fast(n)) n++;
+  return n;
+}
+
+std::array<int, 3> mesh_size(const PeriodicCell &cell, const DistanceBins &bins, int per_bin, double most) {
+  std::array<double, 3> wanted;
+  for (int k = 0; k < 3; k++) wanted[k] = std::ceil(per_bin * cell.height(k) / bins.width() - 1e-6);  // rounding must not add a cell
+  if (wanted[0] * wanted[1] * wanted[2] > most)
+    throw std::length_error(std::to_string(std::llround(wanted[0])) + " x " + std::to_string(std::llround(wanted[1])) + " x " +
+                            std::to_string(std::llround(wanted[2])));
+  std::array<int, 3> size;
+  for (int k = 0; k < 3; k++) size[k] = fast_length(static_cast<int>(wanted[k]));
+  return size;
+}
+
+std::array<int, 3> LagMesh::cell_of(const PointValues &points, std::size_t i) const {
+  std::array<int, 3> cell;
+  for (int k = 0; k < 3; k++) {
+    const double s = points.s[k][i] - std::floor(points.s[k][i]);
+    cell[k] = std::min(static_cast<int>(s * size[k]), size[k] - 1);
+  }
+  return cell;
+}
+
+void add_lags(const PeriodicCell &cell, const LagMesh &mesh, const double *correlation, bool whole, const DistanceBins &bins,
+              std::vector<double> &sums) {
+  const double radius2 = std::pow(cell.rounding_radius(), 2), range2 = bins.range * bins.range, per_length = 1.0 / bins.width();
+  const bool rounding_is_enough = bins.range <= cell.rounding_radius();
+  const int n = mesh.size[2];
+  std::vector<double> along(n), r2(n);
+  for (int c = 0; c < n; c++) along[c] = fraction(c, n);
+
+  for (std::ptrdiff_t plane = 0; plane < mesh.planes; plane++)
+    for (int b = 0; b < mesh.size[1]; b++) {
+      const Vector3d start(fraction(mesh.first_plane + plane, mesh.size[0]), fraction(b, mesh.size[1]), 0.0);
+      const Vector3d from = cell.edges * start, step = cell.edges.col(2);
+      for (int c = 0; c < n; c++) {
+        const double x = from[0] + along[c] * step[0], y = from[1] + along[c] * step[1], z = along[c] * step[2];
+        r2[c] = x * x + y * y + z * z;
+      }
+      const double *values = correlation + (plane * mesh.size[1] + b) * mesh.row;
+      for (int c = 0; c < n; c++) {
+        if (!rounding_is_enough && r2[c] > radius2) r2[c] = cell.nearest_squared(start + Vector3d(0.0, 0.0, along[c]));
+        if (r2[c] >= range2) continue;
+        const int bin = std::min(static_cast<int>(std::sqrt(r2[c]) * per_length), bins.count - 1);
+        sums[bin] += whole ? std::nearbyint(values[c]) : values[c];
+      }
+    }
+}
+
+}
