@@ -68,3 +68,25 @@ def of_decay(label, found, bins, expected):
     yield compare(f"{label}: bins in the fit", bins, expected[4], 1.0, True)
     yield compare(f"{label}: decay length", found[0], expected[0], max(expected[0], TINY))
     yield compare(f"{label}: its error", found[1], expected[1], max(expected[0], TINY))
+
+
+def of_memory(vector, array, samples, strains, lags):
+    """`samples`: the values of all grains at each sample; both ends of the fit as in of_decay."""
+    expected, length, error = correlation.memory_table(samples, strains, lags)
+    size = max(float(np.mean(np.square(samples))), TINY) * math.sqrt(max(expected[0, 3], 1.0))
+    yield compare("memory: strain", array[:, 0], expected[:, 0], max(abs(strains[-1] - strains[0]), TINY))
+    yield compare("memory: C", array[:, 1], expected[:, 1], 1.0)
+    yield compare("memory: numerator", array[:, 2], expected[:, 2], size)
+    yield compare("memory: pairs", array[:, 3], expected[:, 3], 1.0, True)
+    yield compare("memory: decay strain, error", vector[:2], [length, error], max(length, TINY))
+    yield compare("memory: samples", vector[2], len(samples), 1.0, True)
+
+
+def of_displacement(vector, calls, plane=(0, 1)):
+    expected = series.displacement_vector(calls, plane)
+    # Differences of positions in the box carry the rounding errors: relative to a step's smallest useful square.
+    square = max(magnitude(expected[1:4]), TINY)
+    yield compare("displacement: strain", vector[0], expected[0], max(abs(expected[0]), TINY))
+    yield compare("displacement: <d^2>", vector[1:4], expected[1:4], square)
+    yield compare("displacement: D", vector[4:7], expected[4:7], magnitude(expected[4:7]))
+    yield compare("displacement: grains", vector[7], expected[7], 1.0, True)

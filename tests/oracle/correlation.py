@@ -90,7 +90,8 @@ def memory_table(samples, strains, lags):
     table[:, 0] /= origins
     per_pair = ratio(table[:, 2], table[:, 3])
     table[:, 1] = per_pair / per_pair[0] if per_pair[0] else 0.0
-    return table, *decay(table[:, 0], table[:, 1])[:2]
+    # Lag 0 is 1 by definition: nothing to fit.
+    return table, *decay(np.abs(table[1:, 0]), table[1:, 1])[:2]
 
 
 def samples_of(strains, every):

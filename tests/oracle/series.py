@@ -17,8 +17,15 @@ def unflipped(before, now, strain, plane):
 
 
 def reduced(x, image, box, edges):
-    """Unwrapped positions, from the centre of the box, in units of `edges`. Image flags count the edges that the box has now."""
-    return np.linalg.solve(edges, (x + image @ box.edges.T - box.centre).T).T
+    """Unwrapped positions, from the centre of the box with these `edges`, in their units. Image flags count the edges that the box has
+    now; the centre of a box that is turned back jumps by half an edge, that of the box continued does not."""
+    centre = box.origin + 0.5 * edges.sum(axis=1)
+    return np.linalg.solve(edges, (x + image @ box.edges.T - centre).T).T
+
+
+def modulo_images(step):
+    """The host's image flags count modulo 1024."""
+    return step - 1024.0 * np.round(step / 1024.0)
 
 
 def displacements(calls, plane=(0, 1)):
@@ -28,7 +35,7 @@ def displacements(calls, plane=(0, 1)):
         if k:
             x0, image0, box0, strain0 = calls[k - 1]
             edges = unflipped(box0, box, strain - strain0, plane)
-            step = reduced(x, image, box, edges) - reduced(x0, image0, box0, box0.edges)
+            step = modulo_images(reduced(x, image, box, edges) - reduced(x0, image0, box0, box0.edges))
             d = d + step @ (0.5 * (box0.edges + edges)).T
         found.append(d)
     return found

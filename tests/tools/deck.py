@@ -118,7 +118,7 @@ def box_columns():
 
 def dump_grains(packing, every, name="grains", columns=None):
     columns = columns or (SPHEROID_COLUMNS if packing.atom_style == "superquadric" else GRAIN_COLUMNS)
-    formats = " ".join("%d" if c in ("id", "type") else "%.17g" for c in columns.split())
+    formats = " ".join("%d" if c in ("id", "type", "ix", "iy", "iz") else "%.17g" for c in columns.split())
     return [f"dump {name} all custom {every} {name}.dump {columns}", f'dump_modify {name} sort id format "{formats}"']
 
 

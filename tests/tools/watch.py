@@ -84,14 +84,14 @@ def grain_columns(packing, *more):
     return " ".join([base, *more])
 
 
-def watched_deck(deck, computes, flow=Flow(), group="all", every=5, steps=20, settle=0, contacts=True, extra=()):
-    """`settle` steps of flow first, then `steps` with output every `every`; `extra`: further thermo columns."""
+def watched_deck(deck, computes, flow=Flow(), group="all", every=5, steps=20, settle=0, contacts=True, extra=(), told=1):
+    """`settle` steps of flow first, then `steps` with dumps every `every` and thermo every `told`; `extra`: further thermo columns."""
     start = [f"group chosen id {group}"] if group != "all" else ["group chosen union all"]
     start += [flow.line] if flow.line else []
-    start += [f"run {settle}"] if settle else []
+    start += [*thermo(100, "step"), f"run {settle}"] if settle else []
     more = ["ix", "iy", "iz", *(c for w in computes for c in w.atom_columns())]
     quantities = [*box_columns(), *extra, *([flow.length_rate] if flow.length_rate else []), *(q for w in computes for q in w.columns())]
-    output = [*thermo(1, *quantities), *dump_grains(deck.packing, every, columns=grain_columns(deck.packing, *more))]
+    output = [*thermo(told, *quantities), *dump_grains(deck.packing, every, columns=grain_columns(deck.packing, *more))]
     if contacts:
         output += ["compute rows chosen contact/local", *dump_local("rows", ROW_WIDTH, every, "rows")]
     return replace(deck, body=[*deck.body, *start, *(w.define("chosen") for w in computes), *output, f"run {steps}"])
@@ -109,13 +109,12 @@ def box_at(table, row, flow):
 
 def moments_of(result, flow=Flow(), group="all"):
     table = result.thermo()[-1]
-    first = int(table["step"][0]) if "step" in table else 0
     grains_dump = result.dump("grains.dump")
     rows_dump = result.dump("rows.dump") if (result.folder / "rows.dump").exists() else [(None, None)] * len(grains_dump)
     for (step, columns), (_, rows) in zip(grains_dump, rows_dump):
-        row, grains = step - first, grains_of(columns)
+        row, grains = int(np.searchsorted(table["step"], step)), grains_of(columns)
         low, high = map(int, group.split(":")) if group != "all" else (1, len(grains.ids))
-        # The force evaluation of a step saw the box that the end of the step before had left.
+        # The force evaluation of a step saw the box that the end of the step before had left (if that was told).
         yield Moment(step, {name: float(values[row]) for name, values in table.items()}, columns, grains,
                      None if rows is None else rows_of(rows, "rows"), box_at(table, row, flow), box_at(table, max(row - 1, 0), flow),
                      (grains.ids >= low) & (grains.ids <= high))
