@@ -85,10 +85,17 @@ TEST(decay_fit, one_point_is_met_exactly_and_has_no_error) {
 
 TEST(decay_fit, nothing_to_fit_is_zero) {
   for (const DecayFit &fit : {fit_decay({}, {}), fit_decay({1.0, 2.0}, {-0.2, 0.0}), fit_decay({0.0}, {1.0})}) {
-    EXPECT_EQ(fit.points, 0);
     EXPECT_EQ(fit.length, 0.0);
     EXPECT_EQ(fit.error, 0.0);
   }
+}
+
+TEST(decay_fit, a_point_at_no_distance_only_counts) {
+  const std::vector<double> r{0.0, 1.0, 2.0}, c{1.0, 0.5, 0.3};
+  const DecayFit with = fit_decay(r, c), without = fit_decay({1.0, 2.0}, {0.5, 0.3});
+  EXPECT_EQ(with.points, 3);
+  EXPECT_EQ(with.length, without.length);
+  EXPECT_NEAR(with.error, without.error / std::sqrt(2.0), 1e-15);
 }
 
 TEST(decay_fit, what_does_not_decay_has_no_length) {
