@@ -1,23 +1,20 @@
 #!/usr/bin/python3
-"""Pictures of simple-shear runs: series.png (what the flow does over strain) and dissipation.png (where its energy goes)."""
+"""Pictures of simple-shear runs: series.png (what the flow does over strain) and dissipation.png (where its energy goes); of runs with
+`-var measure all` also the figures of the paper, fig02.png to fig18.png, and memory.png and layering.png."""
 import argparse
 from pathlib import Path
 import sys
 
-import matplotlib
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+from figure_style import RUN_COLOURS
+from paper_figures import draw_figures
 from shear_output import InputError, read_run
 
-RUN_COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00"]
 NORMAL, FRICTION, INPUT = "#4477AA", "#EE9966", "#222222"
 PANELS = [("P", "pressure / target"), ("mu_eff", r"effective friction $\mu$"), ("phi", r"solid fraction $\phi$"),
           ("Z", "coordination $Z$"), ("S2", "nematic order $S_2$"), ("spin", r"$-2\,\langle\omega_z\rangle/\dot\gamma$")]
-
-plt.rcParams.update({"font.size": 10, "axes.spines.top": False, "axes.spines.right": False, "axes.linewidth": 0.8,
-                     "axes.titlelocation": "left", "legend.frameon": False, "savefig.dpi": 160, "savefig.bbox": "tight"})
 
 
 def running_mean(strain, values, width=0.25):
@@ -84,6 +81,16 @@ def plot_dissipation(runs, start, path):
     plt.close(figure)
 
 
+def draw_over_strain(runs, start, output):
+    """series.png and dissipation.png, and their paths; neither when there are too many runs to tell apart."""
+    if len(runs) > len(RUN_COLOURS):
+        print(f"plot_shear.py: {len(runs)} runs; series.png and dissipation.png are drawn for up to {len(RUN_COLOURS)}", file=sys.stderr)
+        return []
+    plot_series(runs, start, output / "series.png")
+    plot_dissipation(runs, start, output / "dissipation.png")
+    return [output / "series.png", output / "dissipation.png"]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("run", nargs="+", help="output folder of a run (it holds series.txt and parameters.txt)")
@@ -91,17 +98,17 @@ def main():
     parser.add_argument("--from", dest="start", type=float, metavar="STRAIN",
                         help="where the steady state starts (default: 6, or 4 below I = 0.01, at most half the run)")
     arguments = parser.parse_args()
-    if len(arguments.run) > len(RUN_COLOURS):
-        parser.error(f"at most {len(RUN_COLOURS)} runs in one picture, got {len(arguments.run)}")
     output = Path(arguments.output)
     try:
         output.mkdir(parents=True, exist_ok=True)
         runs = [read_run(folder) for folder in arguments.run]
-        plot_series(runs, arguments.start, output / "series.png")
-        plot_dissipation(runs, arguments.start, output / "dissipation.png")
+        paths = draw_over_strain(runs, arguments.start, output)
+        measured = [run for run in runs if run.measured_all]
+        if measured:
+            paths += draw_figures(measured, arguments.start, output)
     except (InputError, OSError) as error:
         sys.exit(f"plot_shear.py: {error}")
-    print(f"{output / 'series.png'}\n{output / 'dissipation.png'}")
+    print(*paths, sep="\n")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
-"""Reads what examples/simple_shear writes: series.txt, parameters.txt and grains.dump. Used by the other tools of this folder."""
-from dataclasses import dataclass
+"""Reads what examples/simple_shear writes: series.txt, parameters.txt, grains.dump, and the files of `measure all`. Used by the other
+tools of this folder."""
+from dataclasses import dataclass, field
 from pathlib import Path
 import re
 
@@ -17,11 +18,18 @@ class Run:
     parameters: dict
     columns: dict
     units: dict
+    folder: Path = field(default_factory=Path)
 
     def __getitem__(self, column):
         if column not in self.columns:
             raise InputError(f"{self.name}: no column '{column}' in series.txt; it has {', '.join(self.columns)}")
         return self.columns[column]
+
+    @property
+    def measured_all(self):
+        """Whether the run was made with `-var measure all`; files that an earlier run left in its folder do not count."""
+        path = self.folder / "micro.txt"
+        return path.exists() and read_table(path)[0]["step"][-1] in self["step"]
 
     @property
     def injected(self):
@@ -44,8 +52,8 @@ class Run:
         return rows
 
 
-def read_table(path):
-    """Columns and units of a text table whose last '#' line names its columns as name[unit]."""
+def read_rows(path):
+    """Names of the columns and their units, as the last '#' line gives them in the form name[unit], and the rows as lists of words."""
     try:
         lines = Path(path).read_text().splitlines()
     except OSError as error:
@@ -59,14 +67,38 @@ def read_table(path):
         name, unit = re.fullmatch(r"([^\[\]]+)(?:\[(.*)\])?", word).groups()
         names.append(name)
         units[name] = unit or ""
+    return names, units, rows
+
+
+def numbers(path, rows, names):
+    """The rows as an array of floats, one column per name."""
     for number, row in enumerate(rows, 1):
         if len(row) != len(names):
             raise InputError(f"{path}: row {number} has {len(row)} values, the header names {len(names)} columns")
     try:
-        values = np.array(rows, dtype=float)
+        return np.array(rows, dtype=float)
     except ValueError as error:
         raise InputError(f"{path}: {error}") from None
-    return dict(zip(names, values.T)), units
+
+
+def read_table(path):
+    """Columns and units of a text table whose last '#' line names its columns as name[unit]."""
+    names, units, rows = read_rows(path)
+    return dict(zip(names, numbers(path, rows, names).T)), units
+
+
+def read_blocks(path):
+    """Columns of a file of tables, each introduced by a line `step rows`, as arrays (tables, rows)."""
+    names, _, rows = read_rows(path)
+    try:
+        length = int(rows[0][1])
+    except (IndexError, ValueError):
+        raise InputError(f"{path}: a line with a step and a number of rows is needed before each table") from None
+    if len(rows) % (length + 1):
+        raise InputError(f"{path}: the last table is incomplete, {length} rows are needed")
+    body = [row for number, row in enumerate(rows) if number % (length + 1)]
+    values = numbers(path, body, names).reshape(-1, length, len(names))
+    return dict(zip(names, values.transpose(2, 0, 1)))
 
 
 def read_run(folder):
@@ -74,7 +106,16 @@ def read_run(folder):
     folder = Path(folder)
     columns, units = read_table(folder / "series.txt")
     parameters, _ = read_table(folder / "parameters.txt")
-    return Run(folder.resolve().name, {name: value[-1] for name, value in parameters.items()}, columns, units)
+    return Run(folder.resolve().name, {name: value[-1] for name, value in parameters.items()}, columns, units, folder)
+
+
+def mean_and_error(values):
+    """Mean and its standard error by blocking: blocks of 1, 2, 4 ... rows, at least 8 of them; the largest error counts."""
+    error, blocks = 0.0, np.asarray(values)
+    while len(blocks) >= 8:
+        error = max(error, blocks.std(ddof=1) / np.sqrt(len(blocks)))
+        blocks = blocks[: len(blocks) // 2 * 2].reshape(-1, 2).mean(axis=1)
+    return np.mean(values), error
 
 
 @dataclass

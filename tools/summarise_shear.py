@@ -5,22 +5,13 @@ import sys
 
 import numpy as np
 
-from shear_output import InputError, read_run
+from shear_output import InputError, mean_and_error, read_run
 
 # Column, title, factor
 ROWS = [("P", "pressure / target", 1), ("mu_eff", "effective friction", 1), ("phi", "solid fraction", 1), ("Z", "coordination", 1),
         ("sliding", "sliding contacts", 1), ("S2", "nematic order S2", 1), ("theta_x", "angle to the flow [deg]", 1),
         ("spin", "-2 omega_z / rate", 1), ("overlap_mean", "mean overlap / d [%]", 100),
         ("overlap_max", "largest overlap / d [%]", 100), ("kappa", "stiffness number", 1)]
-
-
-def mean_and_error(values):
-    """Mean and its standard error by blocking: blocks of 1, 2, 4 ... rows, at least 8 of them; the largest error counts."""
-    error, blocks = 0.0, np.asarray(values)
-    while len(blocks) >= 8:
-        error = max(error, blocks.std(ddof=1) / np.sqrt(len(blocks)))
-        blocks = blocks[: len(blocks) // 2 * 2].reshape(-1, 2).mean(axis=1)
-    return np.mean(values), error
 
 
 def with_error(values):
