@@ -30,11 +30,12 @@ enum { POSITION = 0, DISPLACEMENT = 3, TRACKED = 6, WIDTH };
 enum { STARTED = 0, STRAIN_0, STRAIN_1, STEP, EDGES, CALLS = EDGES + 9, STRAIN, STRAIN_STRAIN, SQUARE, STRAIN_SQUARE = SQUARE + 3,
        MEAN = STRAIN_SQUARE + 3, GRAINS = MEAN + 3, SHARED };
 
-/** Position of grain i, unwrapped by its image flags, from the box centre. */
+/** Position of grain i, unwrapped by its image flags, from the point that the box's flow leaves at rest: middle heights, and along the
+ *  flow a place that does not follow the tilt. */
 Vector3d position(LAMMPS *lmp, const BoxState &box, int i) {
   Vector3d x;
   lmp->domain->unmap(lmp->atom->x[i], lmp->atom->image[i], x.data());
-  return x - box.centre;
+  return x - Map<const Vector3d>(lmp->domain->boxlo) - 0.5 * box.edges.diagonal();
 }
 
 }

@@ -16,7 +16,7 @@ namespace LAMMPS_NS {
 class FixGrainRecord;
 
 /** How far grains have moved against the affine motion of a sheared box since a given strain. Between two calls, X is a grain's position
- *  with image flags from the box centre, H the box edges with the driven tilt continued through flips, s = H^-1 X:
+ *  with image flags from boxlo + (L_x, L_y, L_z)/2, H the box edges with the driven tilt continued through flips, s = H^-1 X:
  *  d += (H_1 + H_2)/2 (s_2 - s_1).
  *  scalar: <d_y^2> [distance^2], intensive.
  *  vector (8, intensive): 1 strain since the start, 2-4 <d_x^2> <d_y^2> <d_z^2> [distance^2], 5-7 D_x D_y D_z, half the slope of 2-4 over

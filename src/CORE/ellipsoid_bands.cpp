@@ -26,7 +26,7 @@ double parametric_element(const Vector3d &s, double psi, double phi) {
 
 template <class F>
 double integral(F f, double from, double to) {
-  return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(f, from, to, 15, 1e-14);
+  return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(f, from, to, 12, 1e-13);
 }
 
 }
@@ -39,14 +39,20 @@ double surface_angle(const Vector3d &x, const Vector3d &semi_axes, SurfaceAngle 
 int band_of(double psi, int bands) { return std::min(static_cast<int>(psi / M_PI_2 * bands), bands - 1); }
 
 std::vector<double> band_areas(const Vector3d &semi_axes, int bands, SurfaceAngle angle) {
-  const auto element = angle == SurfaceAngle::polar ? polar_element : parametric_element;
   const bool round = semi_axes[0] == semi_axes[1];
+  const bool polar = angle == SurfaceAngle::polar;
+  // On a spheroid a polar angle is one parametric angle, whose area element is the smoother one.
+  const auto element = polar && !round ? polar_element : parametric_element;
+  const auto edge = [&](int k) {
+    const double psi = k * M_PI_2 / bands;
+    return polar && round ? std::atan2(semi_axes[2] / semi_axes[0] * std::sin(psi), std::cos(psi)) : psi;
+  };
   const auto ring = [&](double psi) {
     if (round) return M_PI_2 * element(semi_axes, psi, 0.0);
     return integral([&](double phi) { return element(semi_axes, psi, phi); }, 0.0, M_PI_2);
   };
   std::vector<double> areas(bands);
-  for (int k = 0; k < bands; k++) areas[k] = 8.0 * integral(ring, k * M_PI_2 / bands, (k + 1) * M_PI_2 / bands);  // eight octants
+  for (int k = 0; k < bands; k++) areas[k] = 8.0 * integral(ring, edge(k), edge(k + 1));  // eight octants
   return areas;
 }
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "strain_source.h"
 #include "arguments.h"
-#include "fix.h"
+#include "fix_press_strain.h"
 #include "input.h"
 #include "modify.h"
 #include "variable.h"
-#include <cstring>
 
 namespace grainscope {
 
@@ -32,7 +31,7 @@ void StrainSource::read(Arguments &arguments) {
 
 void StrainSource::find_press_strain(const Arguments &complaints) {
   for (int k = 0; k < modify->nfix; k++) {
-    if (strcmp(modify->fix[k]->style, "press/strain") != 0) continue;
+    if (!dynamic_cast<LAMMPS_NS::FixPressStrain *>(modify->fix[k])) continue;
     if (fix_) complaints.fail("several fixes press/strain are there: name the one that tells the strain, 'strain f_ID[1]'");
     fix_ = modify->fix[k];
   }
