@@ -16,11 +16,13 @@ def unflipped(before, now, strain, plane):
     return edges
 
 
-def reduced(x, image, box, edges):
-    """Unwrapped positions, from the centre of the box with these `edges`, in their units. Image flags count the edges that the box has
-    now; the centre of a box that is turned back jumps by half an edge, that of the box continued does not."""
-    centre = box.origin + 0.5 * edges.sum(axis=1)
-    return np.linalg.solve(edges, (x + image @ box.edges.T - centre).T).T
+def reduced(x, image, box, edges, plane):
+    """Unwrapped positions in units of `edges`, from the point of the box's middle that the flow leaves where it is: the centre but for the
+    driven tilt, with which the centre moves (and jumps where the box is turned back). Image flags count the edges that the box has now."""
+    upright = box.edges.copy()
+    upright[plane] = 0.0
+    still = box.origin + 0.5 * upright.sum(axis=1)
+    return np.linalg.solve(edges, (x + image @ box.edges.T - still).T).T
 
 
 def modulo_images(step):
@@ -35,7 +37,7 @@ def displacements(calls, plane=(0, 1)):
         if k:
             x0, image0, box0, strain0 = calls[k - 1]
             edges = unflipped(box0, box, strain - strain0, plane)
-            step = modulo_images(reduced(x, image, box, edges) - reduced(x0, image0, box0, box0.edges))
+            step = modulo_images(reduced(x, image, box, edges, plane) - reduced(x0, image0, box0, box0.edges, plane))
             d = d + step @ (0.5 * (box0.edges + edges)).T
         found.append(d)
     return found
