@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""What pair_style gran/insitu costs, idle and with each observer in every step, over pair_style gran.
+"""What pair_style gran/insitu costs, idle, with each measurement in every step, and with all of them at the paper's sampling rate,
+over pair_style gran.
 
 On one dense sheared packing (N = 2000, alpha = 1.5, mu_p = 0.4, I = 0.1), in LIGGGHTS's time loop only, as a Markdown table:
 instructions per step counted by callgrind (repeatable, whatever else the machine does; needs valgrind), or with --time the wall time,
@@ -14,6 +15,7 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 EVERY_STEP = "fix mean all ave/time 1 1 1 {value} file /dev/null\n"
+STRAIN = "variable strain equal 0.00977*0.009*step\n"
 OBSERVERS = {
     "gran/insitu, idle": "",
     "stress/contact": "compute observer all stress/contact\n" + EVERY_STEP.format(value="c_observer[26]"),
@@ -22,11 +24,41 @@ OBSERVERS = {
     "contact/local overlap fn": "compute observer all contact/local overlap fn\ncompute largest all reduce max c_observer[1]\n"
                                 + EVERY_STEP.format(value="c_largest"),
     "nematic": "compute observer all nematic\n" + EVERY_STEP.format(value="c_observer"),
+    "fabric": "compute observer all fabric\n" + EVERY_STEP.format(value="c_observer"),
+    "fabric with weighted tensors": "compute observer all fabric branch force/normal force/tangential\n" + EVERY_STEP.format(value="c_observer"),
+    "contact/surface": "compute observer all contact/surface\n" + EVERY_STEP.format(value="c_observer mode vector"),
+    "contact/direction": "compute observer all contact/direction\n" + EVERY_STEP.format(value="c_observer mode vector"),
+    "contact/grain": "compute observer all contact/grain\ncompute largest all reduce max c_observer[1]\n" + EVERY_STEP.format(value="c_largest"),
+    "fluctuation": "compute observer all fluctuation\n" + EVERY_STEP.format(value="c_observer"),
+    "displacement/shear": STRAIN + "compute observer all displacement/shear strain v_strain\n" + EVERY_STEP.format(value="c_observer"),
+    "velocity/memory": STRAIN + "compute observer all velocity/memory strain v_strain every 8.8e-5\n" + EVERY_STEP.format(value="c_observer"),
+    "velocity/correlation, direct": "compute observer all velocity/correlation\n" + EVERY_STEP.format(value="c_observer"),
+    "velocity/correlation, mesh": "compute observer all velocity/correlation method mesh\n" + EVERY_STEP.format(value="c_observer"),
+    "layering": "compute observer all layering\n" + EVERY_STEP.format(value="c_observer"),
     "stress/contact + dissipation + nematic": "compute a all stress/contact\ncompute b all dissipation\ncompute c all nematic\n"
                                               + EVERY_STEP.format(value="c_a c_b c_c"),
     "fix press/strain, gain auto": "fix press all press/strain axis y target 50 shear xy rate 0.00977 every 4.6e-4\n",
     "fix deform (the host's)": "fix press all deform 1 xy erate 0.00977 remap v\n",
 }
+# Everything that examples/simple_shear measures, 100 times per unit strain: once in this many steps.
+PAPER_INTERVAL = 114
+PAPER = STRAIN + """compute a all stress/contact
+compute b all dissipation
+compute c all nematic
+compute d all fabric
+compute e all contact/surface
+compute f all contact/direction
+compute g all contact/grain
+compute h all fluctuation
+compute i all displacement/shear strain v_strain
+compute j all velocity/memory strain v_strain
+compute k all velocity/correlation component vy
+compute l all velocity/correlation component wz
+compute m all layering
+compute n all reduce max c_g[1]
+""" + "".join(f"fix {name} all ave/time {PAPER_INTERVAL} 1 {PAPER_INTERVAL} {value} file /dev/null\n" for name, value in (
+    ("scalars", "c_a c_b c_c c_d c_h c_i c_n"), ("surface", "c_e mode vector"), ("direction", "c_f mode vector"),
+    ("memory", "c_j mode vector"), ("linear", "c_k mode vector"), ("spin", "c_l mode vector"), ("layers", "c_m mode vector")))
 CONTACTS = "compute count all stress/contact\nthermo_style custom step c_count[30]\n"
 
 
@@ -69,6 +101,16 @@ def count_instructions(bench, steps):
         print(f"| {label} | {count:.4g} | {100 * (count / base - 1):+.2f} % |", flush=True)
 
 
+def count_whole_set(bench):
+    """Over two intervals, with one sample in each."""
+    steps = 2 * PAPER_INTERVAL
+    base, all_of_it = bench.instructions("gran", "", steps), bench.instructions("gran/insitu", PAPER, steps)
+    idle = bench.instructions("gran/insitu", "", steps)
+    print(f"| case | instructions per step | over gran |\n|---|---|---|\n| pair_style gran | {base:.5g} | |\n"
+          f"| gran/insitu, idle | {idle:.5g} | {100 * (idle / base - 1):+.2f} % |\n"
+          f"| the whole set, once in {PAPER_INTERVAL} steps | {all_of_it:.5g} | {100 * (all_of_it / base - 1):+.2f} % |")
+
+
 def take_time(bench, steps, repeats):
     contacts = bench.contacts()
     times = {label: [] for label in ("pair_style gran", *OBSERVERS)}
@@ -87,6 +129,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("binary", type=pathlib.Path, help="the grainscope binary")
     parser.add_argument("--time", action="store_true", help="wall time instead of instructions")
+    parser.add_argument("--paper", action="store_true", help="instructions of all measurements together at the paper's sampling rate (10 minutes)")
     parser.add_argument("--repeats", type=int, default=9, help="runs per case with --time (default %(default)s)")
     parser.add_argument("--state", type=pathlib.Path, help="restart file of bench/in.dense (made when not given: a minute)")
     arguments = parser.parse_args()
@@ -98,7 +141,9 @@ def main():
             subprocess.run([str(binary), "-in", str(HERE / "in.dense"), "-var", "out", str(state), "-log", "none"], cwd=folder,
                            check=True, stdout=subprocess.DEVNULL)
         bench = Bench(binary, state, folder)
-        if arguments.time:
+        if arguments.paper:
+            count_whole_set(bench)
+        elif arguments.time:
             take_time(bench, 100, arguments.repeats)
         else:
             count_instructions(bench, 20)
