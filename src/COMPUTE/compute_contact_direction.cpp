@@ -50,7 +50,8 @@ void ComputeContactDirection::begin_contacts() { impl_->sums.assign(impl_->half 
 void ComputeContactDirection::add_contact(const Contact &c) {
   if (!both_in_group(c.i, c.j)) return;
   const int a = impl_->plane.flow, b = impl_->plane.gradient;
-  const double length = std::hypot(c.normal[a], c.normal[b]);
+  const auto projected = [a, b](const Eigen::Vector3d &v) { return std::sqrt(v[a] * v[a] + v[b] * v[b]); };
+  const double length = projected(c.normal);
   if (length < 1e-9) return;
   // beta and beta + pi are one line; the component along (-sin beta, cos beta) is the same for both grains.
   double beta = std::atan2(c.normal[b], c.normal[a]);
@@ -60,7 +61,7 @@ void ComputeContactDirection::add_contact(const Contact &c) {
   double *s = &impl_->sums[bin * SUMS];
   s[CONTACTS] += c.weight;
   s[NORMAL] += c.weight * std::fabs(c.normal_force) * length;
-  s[TANGENTIAL] += c.weight * std::hypot(c.tangential_force[a], c.tangential_force[b]);
+  s[TANGENTIAL] += c.weight * projected(c.tangential_force);
   s[ALONG] += c.weight * along;
 }
 

@@ -33,7 +33,7 @@ double integral(F f, double from, double to) {
 
 double surface_angle(const Vector3d &x, const Vector3d &semi_axes, SurfaceAngle angle) {
   const Vector3d y = angle == SurfaceAngle::polar ? x : Vector3d(x.cwiseQuotient(semi_axes));
-  return std::atan2(std::hypot(y[0], y[1]), std::fabs(y[2]));
+  return std::atan2(y.head<2>().norm(), std::fabs(y[2]));
 }
 
 int band_of(double psi, int bands) { return std::min(static_cast<int>(psi / M_PI_2 * bands), bands - 1); }
