@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_displacement_shear.h"
 #include "arguments.h"
-#include "box_state.h"
 #include "fix_grain_record.h"
 #include "plane.h"
 #include "strain_source.h"
 #include "atom.h"
-#include "domain.h"
 #include "update.h"
 #include <Eigen/LU>
 #include <algorithm>
@@ -16,7 +14,6 @@ using namespace LAMMPS_NS;
 using Eigen::Map;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using grainscope::BoxState;
 
 namespace {
 
@@ -30,13 +27,24 @@ enum { POSITION = 0, DISPLACEMENT = 3, TRACKED = 6, WIDTH };
 enum { STARTED = 0, STRAIN_0, STRAIN_1, STEP, EDGES, CALLS = EDGES + 9, STRAIN, STRAIN_STRAIN, SQUARE, STRAIN_SQUARE = SQUARE + 3,
        MEAN = STRAIN_SQUARE + 3, GRAINS = MEAN + 3, SHARED };
 
-/** Position of grain i, unwrapped by its image flags, from the point that the box's flow leaves at rest: middle heights, and along the
- *  flow a place that does not follow the tilt. */
-Vector3d position(LAMMPS *lmp, const BoxState &box, int i) {
-  Vector3d x;
-  lmp->domain->unmap(lmp->atom->x[i], lmp->atom->image[i], x.data());
-  return x - Map<const Vector3d>(lmp->domain->boxlo) - 0.5 * box.edges.diagonal();
-}
+/** The box that grains' positions and image flags belong to. */
+struct Box {
+  explicit Box(const FixGrainRecord &record) {
+    const double *h = record.edges();
+    edges << h[0], h[5], h[4], 0.0, h[1], h[3], 0.0, 0.0, h[2];
+    // The point that the flow leaves at rest: middle heights, and along the flow a place that does not follow the tilt.
+    rest = Map<const Vector3d>(record.corner()) + 0.5 * edges.diagonal();
+  }
+  /** Position of grain i, unwrapped, from the point at rest. */
+  Vector3d position(const Atom &atom, int i) const {
+    const tagint image = atom.image[i];
+    const Vector3d boxes((image & IMGMASK) - IMGMAX, (image >> IMGBITS & IMGMASK) - IMGMAX, (image >> IMG2BITS) - IMGMAX);
+    return Map<const Vector3d>(atom.x[i]) + edges * boxes - rest;
+  }
+
+  Matrix3d edges;
+  Vector3d rest;
+};
 
 }
 
@@ -77,13 +85,13 @@ void ComputeDisplacementShear::init() {
 }
 
 void ComputeDisplacementShear::begin(double strain) {
-  const BoxState box(lmp);
+  const Box box(*impl_->record);
   double grains = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
     double *record = impl_->record->of(i);
     std::fill(record, record + WIDTH, 0.0);
     if (!(atom->mask[i] & groupbit)) continue;
-    Map<Vector3d>(record + POSITION) = position(lmp, box, i);
+    Map<Vector3d>(record + POSITION) = box.position(*atom, i);
     record[TRACKED] = 1.0;
     grains += 1.0;
   }
@@ -98,7 +106,7 @@ void ComputeDisplacementShear::begin(double strain) {
 
 /** Carries every grain's displacement on to now. */
 void ComputeDisplacementShear::follow(double strain) {
-  const BoxState box(lmp);
+  const Box box(*impl_->record);
   double *shared = impl_->shared();
   const Matrix3d before = Map<Matrix3d>(shared + EDGES);
   Matrix3d after = box.edges;
@@ -112,7 +120,7 @@ void ComputeDisplacementShear::follow(double strain) {
   for (int i = 0; i < atom->nlocal; i++) {
     double *record = impl_->record->of(i);
     if (record[TRACKED] == 0.0) continue;
-    const Vector3d now = position(lmp, box, i);
+    const Vector3d now = box.position(*atom, i);
     Map<Vector3d> last(record + POSITION), d(record + DISPLACEMENT);
     Vector3d ds = to_s2 * now - to_s1 * last;
     for (int k = 0; k < 3; k++) ds[k] = std::remainder(ds[k], turn);

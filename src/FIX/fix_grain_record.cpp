@@ -2,6 +2,7 @@
 #include "fix_grain_record.h"
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "group.h"
 #include "modify.h"
@@ -16,6 +17,7 @@ FixGrainRecord::FixGrainRecord(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, nar
   width_ = atoi(arg[3]);
   shared_.assign(atoi(arg[4]), 0.0);
   restart_global = restart_peratom = 1;
+  note_box();
   grow_arrays(atom->nmax);
   atom->add_callback(0);
   atom->add_callback(1);
@@ -24,6 +26,14 @@ FixGrainRecord::FixGrainRecord(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, nar
 FixGrainRecord::~FixGrainRecord() {
   atom->delete_callback(id, 0);
   atom->delete_callback(id, 1);
+}
+
+int FixGrainRecord::setmask() { return FixConst::PRE_FORCE; }
+
+void FixGrainRecord::note_box() {
+  std::copy(domain->h, domain->h + 6, edges_);
+  std::copy(domain->boxlo, domain->boxlo + 3, corner_);
+  if (!domain->triclinic) std::fill(edges_ + 3, edges_ + 6, 0.0);
 }
 
 std::string FixGrainRecord::id_for(const char *compute) { return std::string(compute) + "_record"; }

@@ -15,12 +15,16 @@ FixStyle(grain/record,FixGrainRecord)
 namespace LAMMPS_NS {
 
 /** The memory of a compute: `width` numbers per grain, which follow the grain from rank to rank, and numbers that all ranks share; both
- *  are kept in restart files. New grains have zeros. Made by computes, not by input scripts: arguments are width and shared size. */
+ *  are kept in restart files. New grains have zeros. It also notes the box at each force evaluation: a fix that deforms the box at the end of
+ *  the step moves it on before computes are asked, and grains' positions and image flags belong to the box before that.
+ *  Made by computes, not by input scripts: arguments are width and shared size. */
 class FixGrainRecord : public Fix {
  public:
   FixGrainRecord(class LAMMPS *lmp, int narg, char **arg);
   ~FixGrainRecord();
-  int setmask() { return 0; }
+  int setmask();
+  void setup_pre_force(int) { note_box(); }
+  void pre_force(int) { note_box(); }
 
   /** The record of compute `id`, made if there is none; what a restart file holds of it is restored. Collective. */
   static FixGrainRecord *of_compute(class LAMMPS *lmp, const char *id, int igroup, int width, int shared);
@@ -29,6 +33,9 @@ class FixGrainRecord : public Fix {
 
   double *of(int grain) { return &values_[static_cast<std::size_t>(grain) * width_]; }
   std::vector<double> &shared() { return shared_; }
+  /** Edges (upper triangle: xx yy zz yz xz xy) and lower corner of the box at the last force evaluation. */
+  const double *edges() const { return edges_; }
+  const double *corner() const { return corner_; }
 
   double memory_usage();
   void grow_arrays(int nmax);
@@ -46,7 +53,9 @@ class FixGrainRecord : public Fix {
  private:
   int width_;
   std::vector<double> values_, shared_;
+  double edges_[6], corner_[3];
 
+  void note_box();
   static std::string id_for(const char *compute);
   void require_size(int found, int expected) const;
 };
