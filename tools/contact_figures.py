@@ -70,7 +70,7 @@ def fabric(measures, path):
 
 
 def add_reciprocals(axis, runs):
-    """For shapes alpha and 1/alpha: the angle between their largest eigenvectors, and the ratio of the eigenvalues, long over flat."""
+    """Below the axis, for shapes alpha and 1/alpha: the angle between their largest eigenvectors, and the ratio of the eigenvalues, long over flat."""
     texts = []
     for prolate in (m for m in runs if m.alpha > 1):
         for oblate in (m for m in runs if m.alpha < 1 and m.I == prolate.I and abs(m.alpha * prolate.alpha - 1) < 0.02):
@@ -78,17 +78,15 @@ def add_reciprocals(axis, runs):
             (flat, *_), (second, _) = oblate.fabric_axes()
             angle = np.degrees(np.arccos(min(1.0, abs(first @ second))))
             texts.append(rf"$\alpha$ = {prolate.alpha:g}, {oblate.alpha:g}: $\eta$ = {angle:.1f}°, $\lambda^p/\lambda^o$ = {long / flat:.2f}")
-    if texts:
-        axis.text(0.02, 0.02, "\n".join(texts), transform=axis.transAxes, fontsize=8, va="bottom",
-                  bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1})
+    axis.set_xlabel("\n".join([axis.get_xlabel(), *texts]))
 
 
 def polar_panels(titles, measures, height=3.6):
     """A row of polar axes and their runs' legend on the right."""
-    figure, axes = plt.subplots(1, len(titles), figsize=(3.5 * len(titles), height), subplot_kw={"projection": "polar"},
+    figure, axes = plt.subplots(1, len(titles), figsize=(3.7 * len(titles), height), subplot_kw={"projection": "polar"},
                                 constrained_layout=True)
     for axis, title in zip(axes, titles):
-        axis.set_title(title, pad=22, loc="center")
+        axis.set_title(title, pad=18, loc="center")
         axis.grid(color="0.85", linewidth=0.6)
         axis.spines["polar"].set_color("0.7")
         axis.tick_params(labelsize=8, colors="0.35")
@@ -99,7 +97,8 @@ def mirrored(psi, values, left, right):
     """Steps over the bins of psi in (0, pi/2), mirrored to psi and -psi, and to pi - psi: angles and radii of the right or left half, or both."""
     edges = np.linspace(0, np.pi, 2 * len(psi) + 1)
     both = np.concatenate([values, values[::-1]])
-    angles, radii = np.repeat(edges, 2)[1:-1], np.repeat(both, 2)
+    angles = np.linspace(edges[:-1], edges[1:], 9, axis=1).ravel()
+    radii = np.repeat(both, 9)
     if left and right:
         return np.concatenate([angles, angles + np.pi]), np.concatenate([radii, radii[::-1]])
     return (angles, radii) if right else (-angles, radii)
@@ -122,10 +121,10 @@ def surface(measures, path):
         axis.set_theta_zero_location("N")
         axis.set_theta_direction(-1)
         axis.set_ylim(bottom=0)
-        axis.set_thetagrids(range(0, 360, 30), ["axis", "", "", "equator", "", "", "", "", "", "equator" if not split else "", "", ""])
+        axis.set_thetagrids(range(0, 360, 30), ["axis", "", "", "" if split else "equator", *[""] * 8])
         few_circles(axis)
         if split:
-            axis.set_thetagrids(range(0, 360, 30), ["axis", "", "", "long", "", "", "", "", "", "flat", "", ""])
+            axis.set_xlabel("flat grains        long grains", fontsize=9)
     figure.legend(*axes[0].get_legend_handles_labels(), loc="center left", bbox_to_anchor=(1.0, 0.5))
     save(figure, path)
 

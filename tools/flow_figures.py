@@ -36,9 +36,9 @@ def against_inertia(measures, rows):
 
 
 def orientation(measures, path):
-    """Fig. 2: nematic order, angle to the flow, rotation."""
+    """Fig. 2: nematic order, angle to the flow (spheres have none), rotation."""
     figure, axes = against_shape(measures, [(lambda m: m.series("S2"), r"nematic order $S_2$"),
-                                            (lambda m: m.series("theta_x"), r"angle to the flow $\theta_x$ [°]"),
+                                            (lambda m: (np.nan, 0) if m.alpha == 1 else m.series("theta_x"), r"angle to the flow $\theta_x$ [°]"),
                                             (lambda m: m.series("spin"), r"$-2\,\langle\omega_z\rangle/\dot\gamma$")])
     axes[0].set_ylim(bottom=0)
     axes[2].set_ylim(bottom=0)
@@ -165,7 +165,7 @@ def normal_stress_differences(measures, path):
 
 def diffusion(measures, path):
     """Fig. 16: mean square displacements over strain with their straight lines, and the diffusion coefficients against I."""
-    figure, axes, columns = friction_grid(measures, 4, height=2.3)
+    figure, axes, columns = friction_grid(measures, 4, width=4.0, height=2.1)
     for row, axis_name in ((0, "y"), (1, "z")):
         for axis, runs in zip(axes[row], columns):
             for m in runs:

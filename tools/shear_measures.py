@@ -123,6 +123,11 @@ class Measures:
     def N2(self):
         return self.stress_difference("yy", "zz")
 
+    @property
+    def idle(self):
+        """Grains with fewer than two contacts, in percent."""
+        return mean_and_error(100 * self.micro["idle"])
+
     def correlation(self, component="vy"):
         """r [m] and C(r) of vy or wz: ratio of sums over the steady state. Bins without pairs are left out."""
         table = self.blocks("correlation.txt")

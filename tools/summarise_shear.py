@@ -5,6 +5,7 @@ import sys
 
 import numpy as np
 
+from shear_measures import Measures
 from shear_output import InputError, mean_and_error, read_run
 
 # Column, title, factor
@@ -14,11 +15,29 @@ ROWS = [("P", "pressure / target", 1), ("mu_eff", "effective friction", 1), ("ph
         ("overlap_max", "largest overlap / d [%]", 100), ("kappa", "stiffness number", 1)]
 
 
-def with_error(values):
+# Title and (mean, error) of what `measure all` adds
+MEASURED = [("velocity fluctuation / rate d", lambda m: m.lever), ("spin fluctuation / rate", lambda m: m.spin_fluctuation),
+            ("rotational / transl. energy", lambda m: m.rotational_over_translational), ("N1 / P", lambda m: m.N1), ("N2 / P", lambda m: m.N2),
+            ("shear stress / P, tangential", lambda m: m.stress("t", "xy")), ("fabric deviator", lambda m: m.fabric_deviator),
+            ("correlation length / d", lambda m: np.array(m.correlation_length()) / m.diameter),
+            ("diffusion / rate d2, gradient", lambda m: m.diffusion("y")), ("diffusion / rate d2, vorticity", lambda m: m.diffusion("z")),
+            ("grains with < 2 contacts [%]", lambda m: m.idle)]
+
+
+def text_of(mean, error):
     """Mean and error as text, the error with two digits."""
-    mean, error = mean_and_error(values)
     digits = max(0, 1 - int(np.floor(np.log10(error)))) if error > 0 else 3
-    return f"{mean:.{digits}f} +- {error:.{digits}f}"
+    return f"{mean:.{digits}f} +- {error:.{digits}f}" if error > 0 else f"{mean:.3g}"
+
+
+def with_error(values):
+    return text_of(*mean_and_error(values))
+
+
+def measured(run, start):
+    """What `measure all` adds, as pairs (name, text)."""
+    found = Measures(run, start) if run.measured_all else None
+    return [(title, text_of(*value(found)) if found else "-") for title, value in MEASURED]
 
 
 def summary(run, start=None):
@@ -51,11 +70,13 @@ def main():
     try:
         runs = [read_run(folder) for folder in arguments.run]
         tables = [summary(run, arguments.start) for run in runs]
+        if any(run.measured_all for run in runs):
+            tables = [table + measured(run, arguments.start) for table, run in zip(tables, runs)]
     except InputError as error:
         sys.exit(f"summarise_shear.py: {error}")
-    print(" " * 30 + "".join(f"{run.name:>22}" for run in runs))
+    print(" " * 32 + "".join(f"{run.name:>23}" for run in runs))
     for cells in zip(*tables):
-        print(f"{cells[0][0]:<30}" + "".join(f"{text:>22}" for _, text in cells))
+        print(f"{cells[0][0]:<32}" + "".join(f" {text:>22}" for _, text in cells))
 
 
 if __name__ == "__main__":
