@@ -79,7 +79,7 @@ struct ComputeVelocityCorrelation::Impl {
   grainscope::VelocityComponent component;
   int bins = 19;
   double range = 0.0;  // 0: half the smallest height of the box
-  int mesh_per_bin = 3;
+  int mesh_per_bin = 4;
   bool running = false;
   grainscope::MeanFlow flow;
   std::unique_ptr<grainscope::MeshCorrelation> mesh;  // of method mesh
