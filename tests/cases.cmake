@@ -63,3 +63,7 @@ add_cases(motion-analytic cases/motion_analytic.py LABEL case RANKS 1 2 CASES
   affine drifting energies planes-of-grains random-walk later-grains)
 add_cases(series-measures cases/series_measures.py LABEL case RANKS 1 CASES spheroids backward backward-under-pressure-control)
 add_cases(series-measures cases/series_measures.py LABEL case RANKS 1 2 CASES spheres under-pressure-control sheared-in-yz subgroup)
+add_cases(correlation-measures cases/correlation_measures.py LABEL case RANKS 1 CASES
+  spheres-at-rest polydisperse spheroid-0.33 spheroid-3 tilted-backward sheared-in-xz sheared-in-yz group-of-one decays)
+add_cases(correlation-measures cases/correlation_measures.py LABEL case RANKS 1 2 CASES
+  spheres through-a-flip under-pressure-control subgroup running plane-wave plane-wave-on-a-mesh)

@@ -17,8 +17,8 @@ RATE, STRETCH = 0.2, 0.1
 
 
 def gas(**choices):
-    """Spheres that never touch."""
-    return dense_packing(atom_style="sphere", overlap=-0.3, speed=0.0, **choices)
+    """Spheres so far apart that they never touch, sheared by 1."""
+    return dense_packing(atom_style="sphere", overlap=-0.8, speed=0.0, **choices)
 
 
 def carried(packing, rate=RATE, stretch=STRETCH, drift=(0.0, 0.0, 0.0)):
@@ -77,20 +77,29 @@ def still(moment, computes, speed):
             require_close(vector[12:14], np.zeros(2), 1e-12, f"{watched.command}: profile, noise", 1.0)
 
 
+# The host wraps grains into the box of the step before, and the compute unwraps them from that of now: at each crossing of a y face
+# a grain seems to be carried along the flow by what the tilt grows in one step.
+LAG = True
+
+
 def drifting(sign):
     """Free flight with a drift u of all grains: d_x = u_x t - rate u_y t^2/2, d_y = u_y t, d_z = u_z t, through wraps of all faces and
     flips, however often it is asked."""
     def case(ranks):
         drift, rate = np.array([0.9, 1.6, -0.7]), sign * RATE
-        packing = carried(tilted(gas(), sign * 0.45), rate, 0.0, drift)
+        packing = carried(tilted(gas(), sign * 0.43), rate, 0.0, drift)
         for every in (10, 80):
             moments, dt = observed(packing, ranks, [MOVED], 800, every, rate=rate, stretch=0.0)
             for moment in moments:
                 t = moment.step * dt
-                d = np.array([drift[0] * t - 0.5 * rate * drift[1] * t * t, drift[1] * t, drift[2] * t])
+                d = np.tile([drift[0] * t - 0.5 * rate * drift[1] * t * t, drift[1] * t, drift[2] * t], (len(packing.grains), 1))
+                d[:, 0] += LAG * moment.columns["iy"] * rate * packing.edges[1] * dt
+                square = np.mean(d ** 2, axis=0)
                 # Positions of 10 grains are sums of 800 steps; squares.
-                require_close(moment.vector(MOVED)[1:4], d ** 2, 1e-10, f"step {moment.step}: <d^2>", max(1.0, (d ** 2).max()))
-            require(all(np.ptp(moments[-1].columns[i]) + abs(moments[-1].columns[i][0]) > 0 for i in ("ix", "iy", "iz")), "no wraps")
+                require_close(moment.vector(MOVED)[1:4], square, 1e-10, f"step {moment.step}: <d^2>", max(1.0, square.max()))
+            require(all(np.ptp(moments[-1].columns[i]) > 0 for i in ("ix", "iy", "iz")), "no wraps")
+            tilts = [m.box.edges[0, 1] for m in moments]
+            require(np.abs(np.diff(tilts)).max() > 0.7 * packing.edges[0], f"no flip: {tilts}")
     return case
 
 
@@ -199,9 +208,9 @@ def starts_late(ranks):
 
 
 CASES = {
-    "affine": affine(0.45),
-    "affine-backward": affine(-0.45, -1.0),
-    "affine-without-stretch": affine(0.45, stretch=0.0),
+    "affine": affine(0.43),
+    "affine-backward": affine(-0.43, -1.0),
+    "affine-without-stretch": affine(0.43, stretch=0.0),
     "drifting": drifting(1.0),
     "drifting-backward": drifting(-1.0),
     "rigid": rigid,

@@ -44,6 +44,25 @@ def pair_sums(x, values, box, bins, reach, smallest):
     return numerator, pairs
 
 
+def fast_length(n):
+    """The next product of 2, 3, 5 and 7."""
+    while True:
+        rest = n
+        for factor in (2, 3, 5, 7):
+            while rest % factor == 0:
+                rest //= factor
+        if rest == 1:
+            return n
+        n += 1
+
+
+def on_mesh(x, box, per_bin, width):
+    """Positions moved to the cells of a mesh of at least `per_bin` cells to a bin's width between opposite faces."""
+    size = np.array([fast_length(math.ceil(per_bin * h / width - 1e-6)) for h in heights(box)])
+    s = np.linalg.solve(box.edges, (x - box.origin).T).T
+    return np.minimum(np.floor((s - np.floor(s)) * size), size - 1) / size @ box.edges.T
+
+
 def decay(r, c):
     """(l, standard error, bins) of exp(-r/l) fitted to the bins with C > 0.05: the best of a fine grid of l, then the zero of the
     derivative by bisection."""
@@ -57,7 +76,7 @@ def decay(r, c):
         return np.sum((e - c) * e * r)
 
     grid = np.linspace(math.log(1e-3 * r.max()), math.log(1e4 * r.max()), 4001)
-    sums = [np.sum((np.exp(-r / math.exp(g)) - c) ** 2) for g in grid]
+    sums = np.sum((np.exp(-r[:, None] / np.exp(grid)) - c[:, None]) ** 2, axis=0)
     k = int(np.clip(np.argmin(sums), 1, len(grid) - 2))
     low, high = grid[k - 1], grid[k + 1]
     for _ in range(100):
@@ -77,7 +96,8 @@ def ratio(a, b):
 def correlation_table(r, numerator, pairs, mean_square, grains):
     """(array bins x 4, vector of 5) of compute velocity/correlation."""
     c = ratio(numerator, pairs) / mean_square if mean_square else np.zeros_like(r)
-    return np.column_stack([r, c, numerator, pairs]), np.array([*decay(r, c)[:2], mean_square, grains, decay(r, c)[2]])
+    length, error, fitted = decay(r, c)
+    return np.column_stack([r, c, numerator, pairs]), np.array([length, error, mean_square, grains, fitted])
 
 
 def memory_table(samples, strains, lags):
