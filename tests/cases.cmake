@@ -67,3 +67,8 @@ add_cases(correlation-measures cases/correlation_measures.py LABEL case RANKS 1 
   spheres-at-rest polydisperse spheroid-0.33 spheroid-3 tilted-backward sheared-in-xz sheared-in-yz group-of-one decays)
 add_cases(correlation-measures cases/correlation_measures.py LABEL case RANKS 1 2 CASES
   spheres through-a-flip under-pressure-control subgroup running plane-wave plane-wave-on-a-mesh)
+add_cases(same-everywhere cases/same_everywhere.py LABEL case RANKS 2 4 CASES spheres spheroids)
+add_cases(same-everywhere cases/same_everywhere.py LABEL case RANKS 4 CASES oblate-grains subgroup empty-ranks empty-group restart-on-other-ranks)
+add_cases(same-everywhere cases/same_everywhere.py LABEL case RANKS 1 CASES empty-group-of-spheres)
+add_cases(same-everywhere cases/same_everywhere.py LABEL case RANKS 1 2 CASES
+  does-not-disturb-spheres does-not-disturb-spheroids restart-continues restart-of-spheres-continues)
