@@ -72,3 +72,6 @@ add_cases(same-everywhere cases/same_everywhere.py LABEL case RANKS 4 CASES obla
 add_cases(same-everywhere cases/same_everywhere.py LABEL case RANKS 1 CASES empty-group-of-spheres)
 add_cases(same-everywhere cases/same_everywhere.py LABEL case RANKS 1 2 CASES
   does-not-disturb-spheres does-not-disturb-spheroids restart-continues restart-of-spheres-continues)
+add_cases(asking cases/asking.py LABEL case RANKS 1 CASES
+  as-pair-gran-local-spheres as-pair-gran-local-spheroids as-pair-gran-local-oblate dumped means variables)
+add_cases(asking cases/asking.py LABEL case RANKS 1 2 CASES scalars vectors)

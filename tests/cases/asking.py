@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Every way to ask for the measures gives the same numbers: thermo, variables, fix ave/time (scalars and vectors), dumps; and the host's own
+list of contacts agrees with ours."""
+from dataclasses import replace
+
+import numpy as np
+
+from case import main, require, require_close
+from catalogue import DIRECT, DISPLACEMENT, FABRIC, FLUCTUATION, GRAIN, LAYERING, MEMORY, SURFACE, strain_lines
+from deck import Deck, dump_local, shear, thermo
+from oracle.state import ROW_WIDTH, rows_of
+from packing import dense_packing
+from run import run
+
+# fix ave/time prints six digits.
+PRINTED = 1e-5
+RATE, STEPS, EVERY = 0.05, 20, 5
+GLOBAL = [FABRIC, SURFACE, FLUCTUATION, LAYERING, DIRECT, DISPLACEMENT, MEMORY]
+
+
+def asked(*lines):
+    deck = Deck(dense_packing(1.5))
+    computes = [*strain_lines(RATE), shear(RATE), *(w.define("all") for w in [*GLOBAL, GRAIN])]
+    return replace(deck, body=[*computes, *lines, f"run {STEPS}"])
+
+
+def blocks(path):
+    """A file of fix ave/time mode vector: {step: array}."""
+    found, lines = {}, iter(path.read_text().splitlines())
+    for line in lines:
+        if line.startswith("#"):
+            continue
+        step, count = map(int, line.split())
+        found[step] = np.array([[float(w) for w in next(lines).split()[1:]] for _ in range(count)])
+    return found
+
+
+def every(watched, entries):
+    """Thermo told in every step, and what fix ave/time says in a run of its own, by step."""
+    table = run(asked(*thermo(1, *entries))).thermo()[-1]
+    return {int(s): np.array([table[e][k] for e in entries]) for k, s in enumerate(table["step"])}
+
+
+def scalars(ranks):
+    """fix ave/time mode scalar, once every 5 steps, where nothing else asks: the compute is announced by the fix alone."""
+    entries = [f"c_{w.name}" for w in GLOBAL if w.scalar] + [f"c_{w.name}[{w.vector}]" for w in GLOBAL] + ["c_fabric[20]"]
+    # What adds up over calls is asked at other steps here, and left out.
+    entries = [e for e in entries if not e.startswith(("c_moved", "c_memory"))]
+    expected = every(GLOBAL, entries)
+    result = run(asked(f"fix mean all ave/time {EVERY} 1 {EVERY} {' '.join(entries)} file mean.txt", "thermo_style custom step"), ranks)
+    table = result.averages("mean.txt")
+    require(list(table["TimeStep"]) == list(range(0, STEPS + 1, EVERY)), f"steps {table['TimeStep']}")
+    for k, step in enumerate(table["TimeStep"]):
+        found = np.array([table[e][k] for e in entries])
+        # On several ranks the host's solver sees contacts between them from either side.
+        require_close(found, expected[int(step)], PRINTED if ranks == 1 else 1e-4, f"step {step}", max(1e-300, np.abs(expected[int(step)]).max()))
+
+
+def means(ranks):
+    """The mean over five steps that nothing else asks for."""
+    entries = ["c_fabric[1]", "c_fabric", "c_moving[4]", "c_surface[1]"]
+    expected = every(GLOBAL, entries)
+    result = run(asked(f"fix mean all ave/time 1 {EVERY} {EVERY} {' '.join(entries)} file mean.txt", "thermo_style custom step"), ranks)
+    table = result.averages("mean.txt")
+    for k, step in enumerate(table["TimeStep"]):
+        if step == 0:
+            continue
+        mean = np.mean([expected[s] for s in range(int(step) - EVERY + 1, int(step) + 1)], axis=0)
+        for name, value in zip(entries, mean):
+            require_close(table[name][k], value, PRINTED if ranks == 1 else 1e-4, f"step {step}, {name}", abs(value))
+
+
+def vectors(ranks):
+    """fix ave/time mode vector: the columns of an array, and a vector."""
+    rows, columns = SURFACE.array
+    entries = [f"c_surface[{r}][{c}]" for r in range(1, rows + 1) for c in range(1, columns + 1)]
+    fabric = [f"c_fabric[{k}]" for k in range(1, FABRIC.vector + 1)]
+    expected = every(GLOBAL, entries + fabric)
+    result = run(asked(f"fix bins all ave/time {EVERY} 1 {EVERY} {' '.join(f'c_surface[{c}]' for c in range(1, columns + 1))} mode vector file bins.txt",
+                       f"fix axes all ave/time {EVERY} 1 {EVERY} c_fabric mode vector file axes.txt", "thermo_style custom step"), ranks)
+    tables, lists = blocks(result.file("bins.txt")), blocks(result.file("axes.txt"))
+    require(sorted(tables) == sorted(lists) == list(range(0, STEPS + 1, EVERY)), f"steps {sorted(tables)}")
+    for step, table in tables.items():
+        told = expected[step][:rows * columns].reshape(rows, columns)
+        for c in range(columns):
+            require_close(table[:, c], told[:, c], PRINTED, f"step {step}, column {c + 1}", max(np.abs(told[:, c]).max(), 1e-300))
+        require_close(lists[step][:, 0], expected[step][rows * columns:], PRINTED, f"step {step}, c_fabric", 1.0)
+
+
+def variables(ranks):
+    """Equal-style variables of a scalar, an entry of a vector and one of an array; a per-grain column summed by compute reduce."""
+    lines = ["variable scalar equal 2*c_fabric", "variable entry equal c_moving[7]+c_moving[8]", "variable bin equal 3*c_surface[10][3]",
+             "compute contacts all reduce sum c_grain[1]",
+             *thermo(5, "c_fabric", "c_fabric[22]", "c_moving[7]", "c_moving[8]", "c_surface[10][3]", "v_scalar", "v_entry", "v_bin", "c_contacts")]
+    table = run(asked(*lines), ranks).thermo()[-1]
+    require_close(table["v_scalar"], 2.0 * table["c_fabric"], 1e-15, "variable of a scalar")
+    require_close(table["v_entry"], table["c_moving[7]"] + table["c_moving[8]"], 1e-15, "variable of a vector")
+    require_close(table["v_bin"], 3.0 * table["c_surface[10][3]"], 0.0, "variable of an array", 1.0)
+    require_close(table["c_contacts"], 2.0 * table["c_fabric[22]"], 1e-14, "contacts of all grains")
+
+
+def dumped(ranks):
+    """dump custom alone announces contact/grain."""
+    columns = " ".join(GRAIN.atom_columns())
+    result = run(asked(f"dump grains all custom {EVERY} grains.dump id {columns}", "thermo_style custom step"), ranks)
+    told = run(asked(*thermo(EVERY, "c_fabric[22]")), ranks).thermo()[-1]["c_fabric[22]"]
+    for (step, grains), contacts in zip(result.dump("grains.dump"), told):
+        require_close(grains["c_grain[1]"].sum(), 2.0 * contacts, 0.0, f"step {step}: contacts", 1.0)
+
+
+def as_pair_gran_local(packing):
+    """After a run, `run 0`: the same contacts with the same forces and points in the host's list, which evaluates them again."""
+    def case(ranks):
+        deck = Deck(packing, extra="tangential_damping off")
+        deck.body = [shear(RATE), "run 100", "unfix shear", "compute pairs all pair/gran/local id force contactPoint",
+                     "compute rows all contact/local", "thermo_style custom step",
+                     *dump_local("pairs", 9, 1, "pairs"), *dump_local("rows", ROW_WIDTH, 1, "rows"), "run 0"]
+        # The host wants this compute before the first run.
+        deck.body.insert(0, deck.body.pop(3))
+        result = run(deck, ranks)
+        rows = rows_of(result.dump("rows.dump")[0][1], "rows")
+        (_, pairs), = result.dump("pairs.dump")
+        pairs = np.stack([pairs[f"c_pairs[{k}]"] for k in range(1, 10)], axis=1)
+        inside = pairs[pairs[:, 2] == 0.0]
+        theirs = {tuple(sorted((int(a), int(b)))): (force if a < b else -force, point)
+                  for (a, b, _), force, point in zip(inside[:, :3], inside[:, 3:6], inside[:, 6:9])}
+        size = np.abs(rows["force"]).max()
+        compared = 0
+        for k in np.flatnonzero(~rows["image"].any(axis=1)):
+            pair = tuple(int(i) for i in rows["id"][k])
+            require(pair in theirs, f"pair/gran/local has no contact {pair}")
+            force, point = theirs[pair]
+            # 1e-5: the host's solver starts from another guess.
+            require_close(rows["force"][k], force, 1e-5, f"force of {pair}", size)
+            require_close(rows["point"][k], point, 1e-5, f"point of {pair}", 1.0)
+            compared += 1
+        require(compared == len(theirs) > 100, f"{compared} contacts, {len(theirs)} in the host's list")
+    return case
+
+
+CASES = {
+    "scalars": scalars,
+    "means": means,
+    "vectors": vectors,
+    "variables": variables,
+    "dumped": dumped,
+    "as-pair-gran-local-spheres": as_pair_gran_local(dense_packing(atom_style="sphere")),
+    "as-pair-gran-local-spheroids": as_pair_gran_local(dense_packing(1.5)),
+    "as-pair-gran-local-oblate": as_pair_gran_local(dense_packing(0.5)),
+}
+
+if __name__ == "__main__":
+    main(CASES)
