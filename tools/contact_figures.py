@@ -70,7 +70,8 @@ def fabric(measures, path):
 
 
 def add_reciprocals(axis, runs):
-    """Below the axis, for shapes alpha and 1/alpha: the angle between their largest eigenvectors, and the ratio of the eigenvalues, long over flat."""
+    """Below the axis, for shapes alpha and 1/alpha: the angle between their largest eigenvectors, and the ratio of the eigenvalues, long
+    over flat."""
     texts = []
     for prolate in (m for m in runs if m.alpha > 1):
         for oblate in (m for m in runs if m.alpha < 1 and m.I == prolate.I and abs(m.alpha * prolate.alpha - 1) < 0.02):
@@ -106,15 +107,16 @@ def mirrored(psi, values, left, right):
 
 def surface(measures, path):
     """Fig. 11: contact density, normal and tangential force on the grain by the angle to its symmetry axis (upward). With flat and long
-    grains together, flat ones are drawn on the left, long ones on the right, spheres on both sides."""
-    titles = [r"$\rho_s A_p$", r"$\overline{F}_n\,/\,PA_p$", r"$\overline{F}_t\,/\,PA_p$"]
+    grains together, flat ones are drawn on the left, long ones on the right, spheres on both sides. The density is drawn twice, over the exact
+    areas of the bins and over the area element that the paper prints."""
+    titles = [r"$\rho_s A_p$", r"$\rho_s A_p$, area as printed", r"$\overline{F}_n\,/\,PA_p$", r"$\overline{F}_t\,/\,PA_p$"]
     measures = legible(measures, mu=0.4)
     figure, axes = polar_panels(titles, measures)
     kinds = {np.sign(m.r_g) for m in measures}
     split = {-1.0, 1.0} <= kinds
     for m in measures:
         table = m.surface()
-        for axis, name in zip(axes, ("density", "F_n", "F_t")):
+        for axis, name in zip(axes, ("density", "printed density", "F_n", "F_t")):
             angles, radii = mirrored(table["psi"], table[name], left=not split or m.alpha <= 1, right=not split or m.alpha >= 1)
             axis.plot(angles, radii, linewidth=1.4, label=label_of(m, measures), **line_style(m, measures))
     for axis in axes:
@@ -175,25 +177,28 @@ def grain_picture(alpha, values, pixels=360, tilt=25.0):
 
 
 def surface_maps(measures, path):
-    """Fig. 12: friction mobilisation, and inhomogeneity of the dissipated power, on the grains."""
+    """Fig. 12: friction mobilisation, and inhomogeneity of the dissipated power, on the grains; the latter over the exact areas and over those
+    of the area element that the paper prints."""
     measures = legible(measures, mu=0.4)
-    figure, axes = plt.subplots(2, len(measures), figsize=(1.7 * len(measures) + 1.6, 3.6), squeeze=False, constrained_layout=True)
+    figure, axes = plt.subplots(3, len(measures), figsize=(1.7 * len(measures) + 1.6, 4.4), squeeze=False, constrained_layout=True)
     tables = [m.surface() for m in measures]
-    shares = np.concatenate([table["inhomogeneity"] for table in tables])
+    shares = np.concatenate([table[name] for table in tables for name in ("inhomogeneity", "printed inhomogeneity")])
     limit = max(2.0, shares.max(), 1 / max(shares[shares > 0].min(initial=1.0), 0.05))
-    rows = [("mobilisation", r"mobilisation $\mathcal{M}$", Normalize(0, max(table["mobilisation"].max() for table in tables) or 1), "viridis"),
-            ("inhomogeneity", r"inhomogeneity $\mathcal{I}$", LogNorm(1 / limit, limit), "RdBu_r")]
+    mobilised = 0.95 * min(table["mobilisation"].min() for table in tables), max(table["mobilisation"].max() for table in tables) or 1
+    rows = [("mobilisation", r"mobilisation $\mathcal{M}$", Normalize(*mobilised), "viridis"),
+            ("inhomogeneity", r"inhomogeneity $\mathcal{I}$", LogNorm(1 / limit, limit), "RdBu_r"),
+            ("printed inhomogeneity", "$\\mathcal{I}$, area as printed", LogNorm(1 / limit, limit), "RdBu_r")]
     widest = max(1.05 * max(m.alpha ** (-1 / 3), m.alpha ** (2 / 3)) / 2 for m in measures)
     for row, (name, label, norm, colours) in zip(axes, rows):
         for axis, m, table in zip(row, measures, tables):
-            values = np.maximum(table[name], norm.vmin) if name == "inhomogeneity" else table[name]
+            values = np.maximum(table[name], norm.vmin)
             picture, reach = grain_picture(m.alpha, values)
             image = axis.imshow(picture, norm=norm, cmap=colours, extent=[-reach, reach, -reach, reach], origin="lower",
                                 interpolation="nearest")
-            axis.set(xlim=(-widest, widest), ylim=(-widest, widest))
+            axis.set(xlim=(-widest, widest), ylim=(-0.56, 0.56))
             axis.axis("off")
         bar = figure.colorbar(image, ax=list(row), label=label, shrink=0.85)
-        if name == "inhomogeneity":
+        if isinstance(norm, LogNorm):
             ticks = [tick for tick in (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20) if 1 / limit <= tick <= limit]
             bar.set_ticks(ticks, labels=[f"{tick:g}" for tick in ticks])
             bar.ax.yaxis.set_minor_formatter(NullFormatter())

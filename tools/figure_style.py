@@ -82,16 +82,17 @@ def points(axis, x, pairs, **style):
 
 
 def curves_by_shape(axis, measures, value):
-    """`value` of each run against the shape ratio, a curve per friction coefficient (and inertial number, where there are several)."""
+    """`value` of each run that has it (not None) against the shape ratio, a curve per friction coefficient (and inertial number, where
+    there are several)."""
     several = len(values_of(measures, "I")) > 1
     for mu in values_of(measures, "mu"):
         for number, inertial in enumerate(values_of(measures, "I")):
-            runs = with_value(measures, mu=mu, I=inertial)
-            if not runs:
+            found = [(m.r_g, value(m)) for m in with_value(measures, mu=mu, I=inertial)]
+            found = [(r_g, pair) for r_g, pair in found if pair is not None]
+            if not found:
                 continue
             label = friction_label(mu) + (rf", $I = {inertial:g}$" if several else "")
-            points(axis, [m.r_g for m in runs], [value(m) for m in runs], color=friction_colour(mu), marker="o",
-                   linestyle=["-", "--", ":", "-."][number % 4], label=label)
+            points(axis, *zip(*found), color=friction_colour(mu), marker="o", linestyle=["-", "--", ":", "-."][number % 4], label=label)
     axis.axvline(0, color="0.85", linewidth=0.8, zorder=0)
     axis.set_xlim(-0.55, 0.55)
 

@@ -38,7 +38,7 @@ def against_inertia(measures, rows):
 def orientation(measures, path):
     """Fig. 2: nematic order, angle to the flow (spheres have none), rotation."""
     figure, axes = against_shape(measures, [(lambda m: m.series("S2"), r"nematic order $S_2$"),
-                                            (lambda m: (np.nan, 0) if m.alpha == 1 else m.series("theta_x"), r"angle to the flow $\theta_x$ [°]"),
+                                            (lambda m: None if m.alpha == 1 else m.series("theta_x"), r"angle to the flow $\theta_x$ [°]"),
                                             (lambda m: m.series("spin"), r"$-2\,\langle\omega_z\rangle/\dot\gamma$")])
     axes[0].set_ylim(bottom=0)
     axes[2].set_ylim(bottom=0)

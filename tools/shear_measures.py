@@ -26,6 +26,14 @@ def fit_decay(distance, correlation):
     return length, error
 
 
+def printed_shares(alpha, bins):
+    """Shares of the surface in `bins` equal bins of psi by the area element that the paper prints, a sin(psi) sqrt(a^2 cos^2 + c^2 sin^2). It is
+    that of the parametric angle; psi is the polar angle, so for alpha other than 1 these are not the areas of the bins."""
+    psi = (np.arange(200 * bins) + 0.5) * np.pi / (400 * bins)
+    element = np.sin(psi) * np.sqrt(np.cos(psi) ** 2 + (alpha * np.sin(psi)) ** 2)
+    return element.reshape(bins, -1).sum(axis=1) / element.sum()
+
+
 class Measures:
     """The steady state of one run. Pairs are (mean, standard error); blocks that begin before strain `start` are left out."""
 
@@ -179,15 +187,17 @@ class Measures:
         return values[order], axes * np.where(axes[:, :1] < 0, -1, 1)
 
     def surface(self):
-        """Contacts on the grain by psi, each column one array over the bins: sums over the blocks, conditional means weighted by contacts."""
+        """Contacts on the grain by psi, each column one array over the bins: sums over the blocks, conditional means weighted by contacts.
+        Densities are over the exact areas; the `printed` ones over those of printed_shares."""
         table = self.blocks("surface.txt")
         contacts, area = table["contacts"].sum(axis=0), table["A"].mean(axis=0)
         power = (table["P_n"] + table["P_t"]).sum(axis=0)
         share = area / area.sum()
         columns = {name: (table[name] * table["contacts"]).sum(axis=0) / np.maximum(contacts, 1e-300)
                    for name in ("F_n", "F_t", "mobilisation", "sliding")}
-        return {"psi": table["psi"][0], "density": contacts / contacts.sum() / share,
-                "inhomogeneity": power / power.sum() / share, **columns}
+        printed = printed_shares(self.alpha, len(area))
+        return {"psi": table["psi"][0], "density": contacts / contacts.sum() / share, "inhomogeneity": power / power.sum() / share,
+                "printed density": contacts / contacts.sum() / printed, "printed inhomogeneity": power / power.sum() / printed, **columns}
 
     def directions(self):
         """Contact normals by the angle to the flow: beta, density, F_n/PA_p, F_t/PA_p."""

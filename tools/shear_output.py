@@ -27,9 +27,12 @@ class Run:
 
     @property
     def measured_all(self):
-        """Whether the run was made with `-var measure all`; files that an earlier run left in its folder do not count."""
-        path = self.folder / "micro.txt"
-        return path.exists() and read_table(path)[0]["step"][-1] in self["step"]
+        """Whether the run has steady means of `-var measure all`; files that an earlier run left in its folder do not count."""
+        try:
+            steps = read_table(self.folder / "micro.txt")[0]["step"]
+        except InputError:
+            return False
+        return steps[-1] in self["step"]
 
     @property
     def injected(self):
