@@ -77,11 +77,6 @@ def still(moment, computes, speed):
             require_close(vector[12:14], np.zeros(2), 1e-12, f"{watched.command}: profile, noise", 1.0)
 
 
-# The host wraps grains into the box of the step before, and the compute unwraps them from that of now: at each crossing of a y face
-# a grain seems to be carried along the flow by what the tilt grows in one step.
-LAG = True
-
-
 def drifting(sign):
     """Free flight with a drift u of all grains: d_x = u_x t - rate u_y t^2/2, d_y = u_y t, d_z = u_z t, through wraps of all faces and
     flips, however often it is asked."""
@@ -92,9 +87,7 @@ def drifting(sign):
             moments, dt = observed(packing, ranks, [MOVED], 800, every, rate=rate, stretch=0.0)
             for moment in moments:
                 t = moment.step * dt
-                d = np.tile([drift[0] * t - 0.5 * rate * drift[1] * t * t, drift[1] * t, drift[2] * t], (len(packing.grains), 1))
-                d[:, 0] += LAG * moment.columns["iy"] * rate * packing.edges[1] * dt
-                square = np.mean(d ** 2, axis=0)
+                square = np.array([drift[0] * t - 0.5 * rate * drift[1] * t * t, drift[1] * t, drift[2] * t]) ** 2
                 # Positions of 10 grains are sums of 800 steps; squares.
                 require_close(moment.vector(MOVED)[1:4], square, 1e-10, f"step {moment.step}: <d^2>", max(1.0, square.max()))
             require(all(np.ptp(moments[-1].columns[i]) > 0 for i in ("ix", "iy", "iz")), "no wraps")

@@ -65,7 +65,7 @@ def on_mesh(x, box, per_bin, width):
 
 def decay(r, c):
     """(l, standard error, bins) of exp(-r/l) fitted to the bins with C > 0.05: the best of a fine grid of l, then the zero of the
-    derivative by bisection."""
+    derivative by bisection. l = 0 where an endless one is best."""
     chosen = c > WORTH_FITTING
     r, c = r[chosen], c[chosen]
     if not len(r):
@@ -78,6 +78,8 @@ def decay(r, c):
     grid = np.linspace(math.log(1e-3 * r.max()), math.log(1e4 * r.max()), 4001)
     sums = np.sum((np.exp(-r[:, None] / np.exp(grid)) - c[:, None]) ** 2, axis=0)
     k = int(np.clip(np.argmin(sums), 1, len(grid) - 2))
+    if np.sum((1.0 - c) ** 2) <= sums[k]:
+        return 0.0, 0.0, len(r)
     low, high = grid[k - 1], grid[k + 1]
     for _ in range(100):
         middle = 0.5 * (low + high)

@@ -16,13 +16,14 @@ def unflipped(before, now, strain, plane):
     return edges
 
 
-def reduced(x, image, box, edges, plane):
+def reduced(x, image, box, wrapping, edges, plane):
     """Unwrapped positions in units of `edges`, from the point of the box's middle that the flow leaves where it is: the centre but for the
-    driven tilt, with which the centre moves (and jumps where the box is turned back). Image flags count the edges that the box has now."""
+    driven tilt, with which the centre moves (and jumps where the box is turned back). Image flags count the edges of the box `wrapping`
+    that grains were last wrapped into: that of the force evaluation, one step behind."""
     upright = box.edges.copy()
     upright[plane] = 0.0
     still = box.origin + 0.5 * upright.sum(axis=1)
-    return np.linalg.solve(edges, (x + image @ box.edges.T - still).T).T
+    return np.linalg.solve(edges, (x + image @ wrapping.edges.T - still).T).T
 
 
 def modulo_images(step):
@@ -31,13 +32,15 @@ def modulo_images(step):
 
 
 def displacements(calls, plane=(0, 1)):
-    """Non-affine displacements d (grains x 3) after each of the calls (x, image, box, strain), zero at the first."""
+    """Non-affine displacements d (grains x 3) after each of the calls (x, image, box, box of the force evaluation, strain), zero at the
+    first."""
     d, found = np.zeros_like(calls[0][0]), []
-    for k, (x, image, box, strain) in enumerate(calls):
+    for k, (x, image, box, wrapping, strain) in enumerate(calls):
         if k:
-            x0, image0, box0, strain0 = calls[k - 1]
+            x0, image0, box0, wrapping0, strain0 = calls[k - 1]
             edges = unflipped(box0, box, strain - strain0, plane)
-            step = modulo_images(reduced(x, image, box, edges, plane) - reduced(x0, image0, box0, box0.edges, plane))
+            before = reduced(x0, image0, box0, wrapping0, box0.edges, plane)
+            step = modulo_images(reduced(x, image, box, wrapping, edges, plane) - before)
             d = d + step @ (0.5 * (box0.edges + edges)).T
         found.append(d)
     return found
@@ -52,7 +55,7 @@ def half_slope(strain, values):
 def displacement_vector(calls, plane=(0, 1)):
     """The 8 entries of compute displacement/shear after the last of the calls."""
     squares = np.array([np.mean(d ** 2, axis=0) for d in displacements(calls, plane)])
-    strain = np.array([call[3] for call in calls]) - calls[0][3]
+    strain = np.array([call[-1] for call in calls]) - calls[0][-1]
     return np.array([strain[-1], *squares[-1], *half_slope(strain, squares), len(calls[0][0])])
 
 

@@ -79,6 +79,11 @@ class Moment:
         return np.stack([self.columns[c] for c in watched.atom_columns()], axis=1)
 
 
+def image_of(moment):
+    """Image flags of all grains."""
+    return np.stack([moment.columns[name] for name in ("ix", "iy", "iz")], axis=1)
+
+
 def grain_columns(packing, *more):
     base = SPHEROID_COLUMNS if packing.atom_style == "superquadric" else GRAIN_COLUMNS
     return " ".join([base, *more])
