@@ -49,23 +49,24 @@ std::array<int, 3> LagMesh::cell_of(const PointValues &points, std::size_t i) co
 
 void add_lags(const PeriodicCell &cell, const LagMesh &mesh, const double *correlation, bool whole, const DistanceBins &bins,
               std::vector<double> &sums) {
-  const double radius2 = std::pow(cell.rounding_radius(), 2), range2 = bins.range * bins.range, per_length = 1.0 / bins.width();
-  const bool rounding_is_enough = bins.range <= cell.rounding_radius();
+  const NearestImages images(cell, bins.range);
+  const double range2 = bins.range * bins.range, per_length = 1.0 / bins.width();
   const int n = mesh.size[2];
-  std::vector<double> along(n), r2(n);
+  std::vector<double> along(n), x(n), y(n), z(n), r2(n);
   for (int c = 0; c < n; c++) along[c] = fraction(c, n);
-
   for (std::ptrdiff_t plane = 0; plane < mesh.planes; plane++)
     for (int b = 0; b < mesh.size[1]; b++) {
-      const Vector3d start(fraction(mesh.first_plane + plane, mesh.size[0]), fraction(b, mesh.size[1]), 0.0);
-      const Vector3d from = cell.edges * start, step = cell.edges.col(2);
+      const Vector3d from =
+          cell.edges * Vector3d(fraction(mesh.first_plane + plane, mesh.size[0]), fraction(b, mesh.size[1]), 0.0);
       for (int c = 0; c < n; c++) {
-        const double x = from[0] + along[c] * step[0], y = from[1] + along[c] * step[1], z = along[c] * step[2];
-        r2[c] = x * x + y * y + z * z;
+        x[c] = from[0] + along[c] * cell.edges(0, 2);
+        y[c] = from[1] + along[c] * cell.edges(1, 2);
+        z[c] = along[c] * cell.edges(2, 2);
+        r2[c] = x[c] * x[c] + y[c] * y[c] + z[c] * z[c];
       }
+      images.lower(n, x.data(), y.data(), z.data(), r2.data());
       const double *values = correlation + (plane * mesh.size[1] + b) * mesh.row;
       for (int c = 0; c < n; c++) {
-        if (!rounding_is_enough && r2[c] > radius2) r2[c] = cell.nearest_squared(start + Vector3d(0.0, 0.0, along[c]));
         if (r2[c] >= range2) continue;
         const int bin = std::min(static_cast<int>(std::sqrt(r2[c]) * per_length), bins.count - 1);
         sums[bin] += whole ? std::nearbyint(values[c]) : values[c];

@@ -101,8 +101,7 @@ PointValues sorted(const PointValues &points, const Grid &grid, std::vector<std:
 class RowSums {
  public:
   RowSums(const PeriodicCell &cell, const PointValues &points, const DistanceBins &bins)
-      : cell_(cell), points_(points), bins_(bins.count), per_length_(bins.count / bins.range),
-        radius2_(std::pow(cell.rounding_radius(), 2)), rounding_is_enough_(bins.range <= cell.rounding_radius()),
+      : cell_(cell), images_(cell, bins.range), points_(points), bins_(bins.count), per_length_(bins.count / bins.range),
         row_(lanes * (bins.count + 1), Vector2d::Zero()) {
     for (int k = 0; k < 3; k++) wrap_[k] = cell.periodic[k] ? 1.0 : 0.0;
   }
@@ -111,7 +110,7 @@ class RowSums {
     for (std::size_t j = others.begin; j < others.end; j += batch) {
       const int n = static_cast<int>(std::min<std::size_t>(batch, others.end - j));
       squared_distances(i, j, n);
-      if (!rounding_is_enough_) search_images(i, j, n);
+      images_.lower(n, x_, y_, z_, r2_);
       to_bins(n);
       add_batch(&points_.value[j], n);
     }
@@ -130,13 +129,13 @@ class RowSums {
 
  private:
   const PeriodicCell &cell_;
+  NearestImages images_;
   const PointValues &points_;
   int bins_;
-  double per_length_, radius2_;
-  bool rounding_is_enough_;
+  double per_length_;
   double wrap_[3];
   std::vector<Vector2d> row_;  // sum of values and pairs: per lane, of each bin; the last bin holds what is out of range
-  double r2_[batch];
+  double x_[batch], y_[batch], z_[batch], r2_[batch];
   int bin_[batch];
 
   void squared_distances(std::size_t i, std::size_t j, int n) {
@@ -151,16 +150,11 @@ class RowSums {
       a -= wx * ((a + rounder) - rounder);
       b -= wy * ((b + rounder) - rounder);
       c -= wz * ((c + rounder) - rounder);
-      const double dx = xx * a + xy * b + xz * c, dy = yy * b + yz * c, dz = zz * c;
-      r2_[m] = dx * dx + dy * dy + dz * dz;
+      x_[m] = xx * a + xy * b + xz * c;
+      y_[m] = yy * b + yz * c;
+      z_[m] = zz * c;
+      r2_[m] = x_[m] * x_[m] + y_[m] * y_[m] + z_[m] * z_[m];
     }
-  }
-
-  void search_images(std::size_t i, std::size_t j, int n) {
-    for (int m = 0; m < n; m++)
-      if (r2_[m] > radius2_)
-        r2_[m] = cell_.nearest_squared({points_.s[0][j + m] - points_.s[0][i], points_.s[1][j + m] - points_.s[1][i],
-                                        points_.s[2][j + m] - points_.s[2][i]});
   }
 
   void to_bins(int n) {

@@ -21,25 +21,31 @@ double PeriodicCell::rounding_radius() const {
   return smallest;
 }
 
-double PeriodicCell::nearest_squared(Vector3d separation) const {
-  for (int k = 0; k < 3; k++)
-    if (periodic[k]) separation[k] -= std::nearbyint(separation[k]);
-  double nearest = (edges * separation).squaredNorm();
-  if (nearest <= std::pow(rounding_radius(), 2)) return nearest;
+NearestImages::NearestImages(const PeriodicCell &cell, double range) {
+  if (range <= cell.rounding_radius()) return;
+  const Eigen::Matrix3d metric = cell.edges.transpose() * cell.edges;
+  Vector3d largest;  // components of a separation: rounded, or across the box and beyond
+  for (int k = 0; k < 3; k++) largest[k] = cell.periodic[k] ? 0.5 : 1.5;
+  const double longest = (cell.edges.cwiseAbs() * largest).norm();
+  int most[3];
+  for (int k = 0; k < 3; k++) most[k] = cell.periodic[k] ? static_cast<int>(2.0 * longest / cell.height(k)) : 0;
+  for (int a = -most[0]; a <= most[0]; a++)
+    for (int b = -most[1]; b <= most[1]; b++)
+      for (int c = -most[2]; c <= most[2]; c++) {
+        const Vector3d n(a, b, c), product = metric * n;
+        // |H(s + n)|^2 - |H s|^2 = 2 s.product + n.product is least in a corner of all s.
+        if (2.0 * largest.dot(product.cwiseAbs()) > n.dot(product) * (1.0 + 1e-12)) shifts_.push_back(cell.edges * n);
+      }
+}
 
-  // Nothing nearer than d lies further than d/height along an edge.
-  int from[3] = {}, to[3] = {};
-  for (int k = 0; k < 3; k++) {
-    if (!periodic[k]) continue;
-    const double reach = std::sqrt(nearest) / height(k);
-    from[k] = static_cast<int>(std::ceil(-reach - separation[k]));
-    to[k] = static_cast<int>(std::floor(reach - separation[k]));
+void NearestImages::lower(int n, const double *x, const double *y, const double *z, double *r2) const {
+  for (const Vector3d &shift : shifts_) {
+    const double a = shift[0], b = shift[1], c = shift[2];
+    for (int m = 0; m < n; m++) {
+      const double other = (x[m] + a) * (x[m] + a) + (y[m] + b) * (y[m] + b) + (z[m] + c) * (z[m] + c);
+      r2[m] = other < r2[m] ? other : r2[m];
+    }
   }
-  for (int a = from[0]; a <= to[0]; a++)
-    for (int b = from[1]; b <= to[1]; b++)
-      for (int c = from[2]; c <= to[2]; c++)
-        nearest = std::min(nearest, (edges * (separation + Vector3d(a, b, c))).squaredNorm());
-  return nearest;
 }
 
 }

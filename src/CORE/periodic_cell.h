@@ -4,22 +4,33 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <vector>
 
 namespace grainscope {
 
-/** A sheared box, its edge vectors in the columns of an upper triangular matrix, and the edges along which it repeats itself.
- *  Separations are given in units of the edges. */
+/** A sheared box, its edge vectors in the columns of an upper triangular matrix, and the edges along which it repeats itself. */
 struct PeriodicCell {
   Eigen::Matrix3d edges = Eigen::Matrix3d::Identity();
   std::array<bool, 3> periodic{{true, true, true}};
 
   /** Distance between the two faces that cut edge k. */
   double height(int k) const;
-  /** Half the smallest height across periodic edges, infinite without any. The one image nearer than this, if there is one, is that
-   *  with each component rounded into [-1/2, 1/2]. */
+  /** Half the smallest height across periodic edges, infinite without any. The one image of a separation that is shorter than this, if
+   *  there is one, is that whose components along the edges are rounded into [-1/2, 1/2]. */
   double rounding_radius() const;
-  /** Square of the distance to the nearest image, at any distance. */
-  double nearest_squared(Eigen::Vector3d separation) const;
+};
+
+/** Nearest images at any distance up to a range: those with rounded components, moved by the few lattice vectors that bring one of them
+ *  nearer. There are none up to the rounding radius, nor in a box with right angles. */
+class NearestImages {
+ public:
+  NearestImages(const PeriodicCell &cell, double range);
+
+  /** Lowers the squared lengths r2 of n rounded separations (x, y, z) to those of their nearest images. */
+  void lower(int n, const double *x, const double *y, const double *z, double *r2) const;
+
+ private:
+  std::vector<Eigen::Vector3d> shifts_;
 };
 
 }

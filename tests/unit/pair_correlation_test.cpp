@@ -83,11 +83,17 @@ TEST(periodic_cell, heights_of_a_sheared_cell) {
 }
 
 TEST(periodic_cell, nearest_image_at_any_distance) {
-  const PointValues p = random_points(500, -1.5, 1.5);
-  // The flat cell needs images two and three cells away along x, where it leans over by more than its height.
-  for (const PeriodicCell &c : {sheared, cell(10.0, 1.0, 3.0, 0.3, 2.0, 4.9)})
-    for (std::size_t i = 0; i < p.size(); i++)
-      EXPECT_NEAR(std::sqrt(c.nearest_squared(position(p, i))), nearest(c, position(p, i), 6), 1e-14);
+  const PointValues p = random_points(500, -0.5, 0.5);
+  // In the flat cell, which leans over by more than its height, they are up to three cells away.
+  for (const PeriodicCell &c : {sheared, cell(7.0, 8.0, 6.5), cell(10.0, 1.0, 3.0, 0.3, 2.0, 4.9), cell(5.0, 5.0, 5.0, 2.5, -2.5, 2.5)}) {
+    const grainscope::NearestImages images(c, 100.0);
+    for (std::size_t i = 0; i < p.size(); i++) {
+      const Vector3d d = c.edges * position(p, i);
+      double r2 = d.squaredNorm();
+      images.lower(1, &d[0], &d[1], &d[2], &r2);
+      EXPECT_NEAR(std::sqrt(r2), nearest(c, position(p, i), 6), 1e-14);
+    }
+  }
 }
 
 TEST(direct_pair_sums, two_points_across_a_sheared_face) {
@@ -138,10 +144,10 @@ TEST(direct_pair_sums, short_ranges_are_sorted_into_cells_and_lose_no_pair) {
 }
 
 TEST(direct_pair_sums, edges_that_do_not_repeat) {
-  PeriodicCell c = cell(9.0, 8.0, 30.0, 0.0, 0.0, 2.0);
+  PeriodicCell c = cell(9.0, 8.0, 30.0, 0.0, 0.0, 4.4);
   c.periodic = {{true, false, false}};
   const PointValues p = random_points(900, -0.1, 1.1);
-  for (double range : {0.7, 3.0, 12.0}) expect_equal(direct_pair_sums(c, p, {range, 6}), brute_force(c, p, {range, 6}), std::to_string(range));
+  for (double range : {0.7, 3.0, 12.0, 30.0}) expect_equal(direct_pair_sums(c, p, {range, 6}), brute_force(c, p, {range, 6}), std::to_string(range));
 }
 
 TEST(direct_pair_sums, shares_of_the_ranks_add_up) {
