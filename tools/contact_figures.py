@@ -78,7 +78,8 @@ def add_reciprocals(axis, runs):
             (long, *_), (first, _) = prolate.fabric_axes()
             (flat, *_), (second, _) = oblate.fabric_axes()
             angle = np.degrees(np.arccos(min(1.0, abs(first @ second))))
-            texts.append(rf"$\alpha$ = {prolate.alpha:g}, {oblate.alpha:g}: $\eta$ = {angle:.1f}°, $\lambda^p/\lambda^o$ = {long / flat:.2f}")
+            texts.append(rf"$\alpha$ = {prolate.alpha:g}, {oblate.alpha:g}: $\eta$ = {angle:.1f}°, "
+                         rf"$\lambda^p/\lambda^o$ = {long / flat:.2f}")
     axis.set_xlabel("\n".join([axis.get_xlabel(), *texts]))
 
 
@@ -95,7 +96,7 @@ def polar_panels(titles, measures, height=3.6):
 
 
 def mirrored(psi, values, left, right):
-    """Steps over the bins of psi in (0, pi/2), mirrored to psi and -psi, and to pi - psi: angles and radii of the right or left half, or both."""
+    """Steps over the bins of psi in (0, pi/2), mirrored to -psi and pi - psi: angles and radii of the right half, the left half, or both."""
     edges = np.linspace(0, np.pi, 2 * len(psi) + 1)
     both = np.concatenate([values, values[::-1]])
     angles = np.linspace(edges[:-1], edges[1:], 9, axis=1).ravel()
@@ -107,8 +108,8 @@ def mirrored(psi, values, left, right):
 
 def surface(measures, path):
     """Fig. 11: contact density, normal and tangential force on the grain by the angle to its symmetry axis (upward). With flat and long
-    grains together, flat ones are drawn on the left, long ones on the right, spheres on both sides. The density is drawn twice, over the exact
-    areas of the bins and over the area element that the paper prints."""
+    grains together, flat ones are drawn on the left, long ones on the right, spheres on both sides. The density is drawn twice, over the
+    exact areas of the bins and over the area element that the paper prints."""
     titles = [r"$\rho_s A_p$", r"$\rho_s A_p$, area as printed", r"$\overline{F}_n\,/\,PA_p$", r"$\overline{F}_t\,/\,PA_p$"]
     measures = legible(measures, mu=0.4)
     figure, axes = polar_panels(titles, measures)
@@ -177,8 +178,8 @@ def grain_picture(alpha, values, pixels=360, tilt=25.0):
 
 
 def surface_maps(measures, path):
-    """Fig. 12: friction mobilisation, and inhomogeneity of the dissipated power, on the grains; the latter over the exact areas and over those
-    of the area element that the paper prints."""
+    """Fig. 12: friction mobilisation, and inhomogeneity of the dissipated power, on the grains; the latter over the exact areas and over
+    those of the area element that the paper prints."""
     measures = legible(measures, mu=0.4)
     figure, axes = plt.subplots(3, len(measures), figsize=(1.7 * len(measures) + 1.6, 4.4), squeeze=False, constrained_layout=True)
     tables = [m.surface() for m in measures]
@@ -214,12 +215,14 @@ def memory(measures, path):
     figure, axis = plt.subplots(figsize=(4.6, 3.3), constrained_layout=True)
     for m in measures:
         strain, c = m.memory()
-        axis.plot(strain, c, marker=shape_marker(m.alpha), markersize=3, linewidth=1.0, label=label_of(m, measures), **line_style(m, measures))
+        axis.plot(strain, c, marker=shape_marker(m.alpha), markersize=3, linewidth=1.0, label=label_of(m, measures),
+                  **line_style(m, measures))
         length = fit_decay(strain[1:], c[1:])[0]
         if length > 0:
             axis.plot(strain, np.exp(-strain / length), color=shape_colour(m.alpha), linewidth=0.8, linestyle="--")
     axis.axhline(0, color="0.6", linewidth=0.8)
-    axis.set(xlabel=r"strain difference", ylabel=r"$\langle\delta v_y(0)\,\delta v_y(\gamma)\rangle\,/\,\langle\delta v_y^2\rangle$", xlim=(0, None))
+    axis.set(xlim=(0, None), xlabel=r"strain difference",
+             ylabel=r"$\langle\delta v_y(0)\,\delta v_y(\gamma)\rangle\,/\,\langle\delta v_y^2\rangle$")
     figure.legend(*axis.get_legend_handles_labels(), loc="center left", bbox_to_anchor=(1.0, 0.5))
     save(figure, path)
 

@@ -3,8 +3,8 @@ from matplotlib.colors import TwoSlopeNorm
 import matplotlib.pyplot as plt
 import numpy as np
 
-from figure_style import (curves_by_inertia, curves_by_shape, friction_colour, friction_grid, friction_label, legible, log_scale, nearest, save,
-                          shape_colour, shape_legend, values_of, with_value)
+from figure_style import (curves_by_inertia, curves_by_shape, friction_colour, friction_grid, friction_label, legible, log_scale, nearest,
+                          save, shape_colour, shape_legend, values_of, with_value)
 
 SHAPE_RATIO = r"shape ratio $r_g$"
 INERTIA = r"inertial number $I$"
@@ -133,7 +133,8 @@ def fit_with_exponent(x, y, basis, trials):
 def rheology(measures, path):
     """Fig. 7: effective friction, solid fraction and coordination against the inertial number; mu(I) and phi(I) fitted to four or more runs
     of a shape."""
-    rows = [(lambda m: m.series("mu_eff"), r"$\mu = \sigma_{xy}/P$"), (lambda m: m.series("phi"), r"$\phi$"), (lambda m: m.series("Z"), r"$Z$")]
+    rows = [(lambda m: m.series("mu_eff"), r"$\mu = \sigma_{xy}/P$"), (lambda m: m.series("phi"), r"$\phi$"),
+            (lambda m: m.series("Z"), r"$Z$")]
     figure, axes, columns = against_inertia(measures, rows)
     bases = [(lambda x, t: 1 / (1 + t / x), np.geomspace(1e-3, 10, 200)), (lambda x, t: x**t, np.linspace(0.1, 2, 200))]
     for row, (value, _), (basis, trials) in zip(axes, rows, bases):

@@ -27,8 +27,8 @@ def fit_decay(distance, correlation):
 
 
 def printed_shares(alpha, bins):
-    """Shares of the surface in `bins` equal bins of psi by the area element that the paper prints, a sin(psi) sqrt(a^2 cos^2 + c^2 sin^2). It is
-    that of the parametric angle; psi is the polar angle, so for alpha other than 1 these are not the areas of the bins."""
+    """Shares of the surface in `bins` equal bins of psi by the area element that the paper prints, a sin(psi) sqrt(a^2 cos^2 + c^2 sin^2).
+    It is that of the parametric angle; psi is the polar angle, so for alpha other than 1 these are not the areas of the bins."""
     psi = (np.arange(200 * bins) + 0.5) * np.pi / (400 * bins)
     element = np.sin(psi) * np.sqrt(np.cos(psi) ** 2 + (alpha * np.sin(psi)) ** 2)
     return element.reshape(bins, -1).sum(axis=1) / element.sum()
@@ -52,14 +52,16 @@ class Measures:
         begins = ends - (np.diff(ends).mean() if len(ends) > 1 else ends[-1] / 16)
         self.kept = np.ones(len(ends), dtype=bool) if self.start is None else begins > self.start - 1e-3
         if not self.kept.any():
-            raise InputError(f"{self.run.folder}: no block of micro.txt begins after strain {self.start:g}; the last one begins at {begins[-1]:.2f}")
+            raise InputError(f"{self.run.folder}: no block of micro.txt begins after strain {self.start:g}; "
+                             f"the last one begins at {begins[-1]:.2f}")
         return {name: values[self.kept] for name, values in micro.items()}
 
     def blocks(self, name):
         """Columns of a file of tables, one table per block, as arrays (blocks, rows)."""
         columns = read_blocks(self.run.folder / name)
         if len(columns["bin"]) != len(self.kept):
-            raise InputError(f"{self.run.folder}: {name} has {len(columns['bin'])} tables, micro.txt {len(self.kept)} rows; they must be of one run")
+            raise InputError(f"{self.run.folder}: {name} has {len(columns['bin'])} tables, micro.txt {len(self.kept)} rows; "
+                             "they must be of one run")
         return {column: values[self.kept] for column, values in columns.items()}
 
     @property

@@ -17,7 +17,8 @@ ROWS = [("P", "pressure / target", 1), ("mu_eff", "effective friction", 1), ("ph
 
 # Title and (mean, error) of what `measure all` adds
 MEASURED = [("velocity fluctuation / rate d", lambda m: m.lever), ("spin fluctuation / rate", lambda m: m.spin_fluctuation),
-            ("rotational / transl. energy", lambda m: m.rotational_over_translational), ("N1 / P", lambda m: m.N1), ("N2 / P", lambda m: m.N2),
+            ("rotational / transl. energy", lambda m: m.rotational_over_translational), ("N1 / P", lambda m: m.N1),
+            ("N2 / P", lambda m: m.N2),
             ("shear stress / P, tangential", lambda m: m.stress("t", "xy")), ("fabric deviator", lambda m: m.fabric_deviator),
             ("correlation length / d", lambda m: np.array(m.correlation_length()) / m.diameter),
             ("diffusion / rate d2, gradient", lambda m: m.diffusion("y")), ("diffusion / rate d2, vorticity", lambda m: m.diffusion("z")),
