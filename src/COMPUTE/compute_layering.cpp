@@ -5,6 +5,7 @@
 #include "rows.h"
 #include "atom.h"
 #include "update.h"
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -67,6 +68,9 @@ void ComputeLayering::compute_array() {
 void ComputeLayering::compute_vector() {
   invoked_vector = update->ntimestep;
   compute_array();
+  std::fill(vector, vector + size_vector, 0.0);
+  scalar = 0.0;
+  if (impl_->grains == 0.0) return;
   int peak = 1;
   for (int lag = 2; lag < size_array_rows; lag++)
     if (array[lag][1] > array[peak][1]) peak = lag;
