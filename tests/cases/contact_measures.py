@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """fabric, contact/surface, contact/direction and contact/grain against the oracle, on sheared packings."""
 from dataclasses import replace
+import math
 
 from case import main, require, require_close
 from deck import Deck, Material
@@ -90,6 +91,25 @@ def length_moved(moments):
     require(abs(moments[-1].box.edges[1, 1] - moments[0].box.edges[1, 1]) > 1e-6, "L_y did not move")
 
 
+def about_body_x(packing):
+    """The same grains with the axis of symmetry along x of their own frames."""
+    def turned(grain):
+        w, x, y, z = grain.quaternion
+        root = math.sqrt(0.5)  # times a turn by -90 degrees about y, which takes x to z
+        a, _, c = grain.semi_axes
+        return replace(grain, semi_axes=(c, a, a), quaternion=(root * (w + y), root * (x + z), root * (y - w), root * (z - x)))
+    return replace(packing, grains=[turned(g) for g in packing.grains])
+
+
+def walled():
+    """Between two walls, whose contacts are not counted."""
+    packing = replace(dense_packing(atom_style="sphere"), triclinic=False)
+    wall = "wall/gran model hertz tangential history primitive type 1 zplane"
+    low, high = 0.1, packing.edges[2] - 0.1
+    return Deck(packing, boundary="p p f", extra="tangential_damping off",
+                body=[f"fix floor all {wall} {low}", f"fix ceiling all {wall} {high}"])
+
+
 def friction(mu):
     return Material(friction=(mu,))
 
@@ -119,6 +139,8 @@ CASES = {
     "under-pressure-control": agrees(undamped(dense_packing(atom_style="sphere")), pressed(0.05), settle=100, check=length_moved),
     "subgroup": agrees(undamped(cluster(1.5)), group="20:80", fewest=0.5),
     "group-of-one": agrees(undamped(cluster(1.5)), group="20:20", fewest=0.0),
+    "axis-along-body-x": agrees(undamped(about_body_x(cluster(1.5)))),
+    "walls-not-counted": agrees(walled(), settle=5, fewest=0.5),
     "units-cgs": agrees(replace(undamped(cluster(1.5), material=Material(young=(5e7,))), units="cgs")),
 }
 

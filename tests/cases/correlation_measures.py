@@ -17,6 +17,7 @@ from watch import Flow, Watched, deforming, pressed, watch
 EXACT = 1e-9
 # Not a whole number of bins or mesh cells in any height: no lag of the mesh falls on the edge of a bin.
 RANGE = 4.037
+SPHERES = dense_packing(atom_style="sphere")
 PLANES = {"xy": (0, 1), "xz": (0, 2), "yz": (1, 2)}
 
 
@@ -29,6 +30,7 @@ def variants(plane):
     known = {"default": ("", {}), "vx": ("component vx flow fit", {"name": "vx", "flow": ("fit",)}),
              "wz": ("component wz flow layers 4", {"name": "wz", "flow": ("layers", 4)}),
              "near": (f"component vz flow rate 0.03 range {RANGE}", {"name": "vz", "flow": ("rate", 0.03), "reach": RANGE}),
+             "far": ("range 6.53", {"reach": 6.53}),
              "mesh": (f"method mesh range {RANGE}", {"mesh": 4, "reach": RANGE}),
              "fine": (f"method mesh mesh 7 range {RANGE} component wx", {"mesh": 7, "reach": RANGE, "name": "wx"})}
     bins = {"near": 7, "fine": 5, "mesh": 11}
@@ -75,6 +77,15 @@ def running(ranks):
         table, expected = correlation.correlation_table(sum(t[:, 0] for t in tables[:k]) / k, numerator, pairs, square, grains)
         for c in comparison.of_correlation_table("running", moment.vector(watched), moment.array(watched), table, expected):
             require_close(c.found, c.expected, 0.0 if c.counted else EXACT, f"step {moment.step}, {c.name}", c.scale)
+
+
+def not_periodic(ranks):
+    """No images across faces that are none, also beyond half the box."""
+    watched = correlation_of("open", "range 6.53")
+    packing = Packing(SPHERES.edges, SPHERES.grains, atom_style="sphere", triclinic=False)
+    moment = watch(Deck(packing, boundary="p f p"), [watched], ranks=ranks, steps=0, contacts=False)[0]
+    for c in comparison.of_correlation(moment.vector(watched), moment.array(watched), moment, reach=6.53, periodic=(True, False, True)):
+        require_close(c.found, c.expected, 0.0 if c.counted else EXACT, c.name, c.scale)
 
 
 def plane_wave(words):
@@ -125,7 +136,6 @@ def decays(ranks):
     require_close(moment.vector(watched)[[0, 1, 4]], expected, 1e-9, "l, its error, bins")
 
 
-SPHERES = dense_packing(atom_style="sphere")
 CASES = {
     "spheres": agrees(Deck(SPHERES), deforming(0.05)),
     "spheres-at-rest": agrees(Deck(SPHERES)),
@@ -140,6 +150,7 @@ CASES = {
     "subgroup": agrees(Deck(SPHERES), deforming(0.05), group="20:80"),
     "group-of-one": agrees(Deck(SPHERES), deforming(0.05), group="20:20"),
     "running": running,
+    "not-periodic": not_periodic,
     "plane-wave": plane_wave("method direct"),
     "plane-wave-on-a-mesh": plane_wave("method mesh"),
     "decays": decays,

@@ -187,6 +187,42 @@ def later_grains(ranks):
     require_close(table["c_moved[2]"][-1], (0.5 * 10 * deck.dt()) ** 2, 1e-10, "<d_x^2>")
 
 
+def in_rows():
+    """Spheres in rows along x, each row with a velocity of its own: they cross the box and never touch."""
+    random = np.random.default_rng(8)
+    packing = gas()
+    speeds = {}
+    for g in packing.grains:
+        speeds.setdefault(tuple(np.round(g.position[1:], 6)), float(random.normal(scale=5.0)))
+    return replace(packing, grains=[replace(g, velocity=(speeds[tuple(np.round(g.position[1:], 6))], 0.0, 0.0)) for g in packing.grains])
+
+
+def remembers(ranks):
+    """Grains in free flight keep their velocities: C is 1 at every lag, wherever they went."""
+    packing, samples = in_rows(), 9
+    watched = Watched("memory", "velocity/memory component vx strain v_strain every 0.5 lags 4", True, 3, (5, 4))
+    deck = Deck(packing, body=["variable strain equal step*0.01"])
+    moment = watch(deck, [watched], ranks=ranks, steps=50 * (samples - 1), every=50 * (samples - 1), told=10, contacts=False)[-1]
+    require(np.ptp(moment.columns["ix"]) > 1, "the grains did not cross the box")
+    count = len(packing.grains)
+    expected = [[0.5 * k, 1.0, count * (samples - k)] for k in range(5)]
+    require_close(moment.array(watched)[:, [0, 1, 3]], expected, 1e-12, "strain, C, pairs")
+    require_close(moment.vector(watched)[2], samples, 0.0, "samples", 1.0)
+
+
+def remembers_later_grains(ranks):
+    """A grain that comes later counts from its first sample on."""
+    packing = in_rows()
+    first, *rest = packing.grains
+    watched = Watched("memory", "velocity/memory component vx strain v_strain every 0.01 lags 2", True, 3, (3, 4))
+    deck = Deck(replace(packing, grains=rest), body=["variable strain equal step*0.01", watched.define("all"), *thermo(1, *watched.columns()),
+                "run 3", f"create_atoms 1 single {numbers(first.position)} units box", f"set atom {len(packing.grains)} diameter 2 density 1000",
+                "run 3"])
+    table, old = run(deck, ranks).thermo()[-1], len(rest)
+    # Seven samples, steps 0 to 6; the new grain is in the last three (run 2 begins without a sample at its first step).
+    require_equal([table[f"c_memory[{k}][4]"][-1] for k in (1, 2, 3)], [7 * old + 3, 6 * old + 2, 5 * old + 1], "pairs")
+
+
 def starts_late(ranks):
     """With `start`, nothing before that strain; the strain counts from the first call at or beyond it."""
     packing = carried(gas(), 0.0, 0.0, (0.5, 0.0, 0.0))
@@ -213,6 +249,8 @@ CASES = {
     "random-walk": random_walk,
     "later-grains": later_grains,
     "starts-late": starts_late,
+    "remembers": remembers,
+    "remembers-later-grains": remembers_later_grains,
 }
 
 if __name__ == "__main__":

@@ -41,17 +41,18 @@ def of_layering(vector, array, moment, axis=1, layers=40):
     yield compare("layering C(0), grains", vector[2:4], expected[2:4])
 
 
-def of_correlation(vector, array, moment, name="vy", bins=19, reach=None, flow=("box",), plane=(0, 1), mesh=0):
+def of_correlation(vector, array, moment, name="vy", bins=19, reach=None, flow=("box",), plane=(0, 1), mesh=0,
+                   periodic=(True, True, True)):
     """`mesh`: cells to a bin's width, 0 for the direct sum."""
     grains, chosen, box = moment.grains, moment.chosen, moment.box
     reach = reach or 0.5 * min(correlation.heights(box))
     smallest = 2.0 * (grains.radius[chosen] if grains.shape is None else grains.shape[chosen].min(axis=1)).min()
     values = correlation.component(*motion.of_group(grains, chosen, box, flow, plane), name)
     x = correlation.on_mesh(grains.x[chosen], box, mesh, reach / bins) if mesh else grains.x[chosen]
-    numerator, pairs = correlation.pair_sums(x, values, box, bins, reach, smallest)
+    numerator, pairs = correlation.pair_sums(x, values, box, bins, reach, smallest, periodic)
     r = (np.arange(bins) + 0.5) * reach / bins
     table, expected = correlation.correlation_table(r, numerator, pairs, np.mean(values ** 2), len(values))
-    yield from of_correlation_table(f"C(r) of {name}", vector, array, table, expected)
+    yield from of_correlation_table(f"C(r) of {name}" + (" on a mesh" if mesh else ""), vector, array, table, expected)
 
 
 def of_correlation_table(label, vector, array, table, expected):

@@ -20,21 +20,21 @@ def heights(box):
     return np.array([box.volume / np.linalg.norm(np.cross(h[(k + 1) % 3], h[(k + 2) % 3])) for k in range(3)])
 
 
-def distances(x, box):
-    """N x N, to the nearest image of each; exact below half the smallest height once images of neighbouring cells are tried."""
+def distances(x, box, periodic=(True, True, True)):
+    """N x N, to the nearest image of each, found among those of the neighbouring cells."""
     s = np.linalg.solve(box.edges, x.T).T
     nearest = s[:, None, :] - s[None, :, :]
-    nearest -= np.round(nearest)
+    nearest -= np.where(periodic, np.round(nearest), 0.0)
     best = np.full((len(x), len(x)), np.inf)
-    for shift in itertools.product((-1, 0, 1), repeat=3):
+    for shift in itertools.product(*((-1, 0, 1) if p else (0,) for p in periodic)):
         best = np.minimum(best, np.linalg.norm((nearest + np.array(shift)) @ box.edges.T, axis=2))
     return best
 
 
-def pair_sums(x, values, box, bins, reach, smallest):
+def pair_sums(x, values, box, bins, reach, smallest, periodic=(True, True, True)):
     """(numerator, pairs) per bin of width reach/bins, each pair once; none in bins that end at or below `smallest`."""
     i, j = np.triu_indices(len(x), 1)
-    r = distances(x, box)[i, j]
+    r = distances(x, box, periodic)[i, j]
     inside = r < reach
     where = np.minimum((r[inside] * bins / reach).astype(int), bins - 1)
     numerator = np.bincount(where, (values[i] * values[j])[inside], bins)
