@@ -5,6 +5,7 @@
 #include "plane.h"
 #include "strain_source.h"
 #include "atom.h"
+#include "domain.h"
 #include "update.h"
 #include <Eigen/LU>
 #include <algorithm>
@@ -27,23 +28,28 @@ enum { POSITION = 0, DISPLACEMENT = 3, TRACKED = 6, WIDTH };
 enum { STARTED = 0, STRAIN_0, STRAIN_1, STEP, EDGES, CALLS = EDGES + 9, STRAIN, STRAIN_STRAIN, SQUARE, STRAIN_SQUARE = SQUARE + 3,
        MEAN = STRAIN_SQUARE + 3, GRAINS = MEAN + 3, SHARED };
 
-/** The box that grains' positions and image flags belong to. */
+/** The box now, and where grains are in it. */
 struct Box {
-  explicit Box(const FixGrainRecord &record) {
-    const double *h = record.edges();
-    edges << h[0], h[5], h[4], 0.0, h[1], h[3], 0.0, 0.0, h[2];
+  Box(const Domain &domain, const FixGrainRecord &record) : edges(upper_triangular(domain.h)), wrapped(upper_triangular(record.edges())) {
     // The point that the flow leaves at rest: middle heights, and along the flow a place that does not follow the tilt.
-    rest = Map<const Vector3d>(record.corner()) + 0.5 * edges.diagonal();
+    rest = Map<const Vector3d>(domain.boxlo) + 0.5 * edges.diagonal();
   }
-  /** Position of grain i, unwrapped, from the point at rest. */
+  /** Position of grain i from the point at rest, unwrapped with the edges that its image flags count. */
   Vector3d position(const Atom &atom, int i) const {
     const tagint image = atom.image[i];
     const Vector3d boxes((image & IMGMASK) - IMGMAX, (image >> IMGBITS & IMGMASK) - IMGMAX, (image >> IMG2BITS) - IMGMAX);
-    return Map<const Vector3d>(atom.x[i]) + edges * boxes - rest;
+    return Map<const Vector3d>(atom.x[i]) + wrapped * boxes - rest;
   }
 
-  Matrix3d edges;
+  Matrix3d edges, wrapped;
   Vector3d rest;
+
+ private:
+  static Matrix3d upper_triangular(const double *h) {
+    Matrix3d m;
+    m << h[0], h[5], h[4], 0.0, h[1], h[3], 0.0, 0.0, h[2];
+    return m;
+  }
 };
 
 }
@@ -85,7 +91,7 @@ void ComputeDisplacementShear::init() {
 }
 
 void ComputeDisplacementShear::begin(double strain) {
-  const Box box(*impl_->record);
+  const Box box(*domain, *impl_->record);
   double grains = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
     double *record = impl_->record->of(i);
@@ -106,7 +112,7 @@ void ComputeDisplacementShear::begin(double strain) {
 
 /** Carries every grain's displacement on to now. */
 void ComputeDisplacementShear::follow(double strain) {
-  const Box box(*impl_->record);
+  const Box box(*domain, *impl_->record);
   double *shared = impl_->shared();
   const Matrix3d before = Map<Matrix3d>(shared + EDGES);
   Matrix3d after = box.edges;

@@ -30,11 +30,7 @@ FixGrainRecord::~FixGrainRecord() {
 
 int FixGrainRecord::setmask() { return FixConst::PRE_FORCE; }
 
-void FixGrainRecord::note_box() {
-  std::copy(domain->h, domain->h + 6, edges_);
-  std::copy(domain->boxlo, domain->boxlo + 3, corner_);
-  if (!domain->triclinic) std::fill(edges_ + 3, edges_ + 6, 0.0);
-}
+void FixGrainRecord::note_box() { std::copy(domain->h, domain->h + 6, edges_); }
 
 std::string FixGrainRecord::id_for(const char *compute) { return std::string(compute) + "_record"; }
 

@@ -15,8 +15,8 @@ FixStyle(grain/record,FixGrainRecord)
 namespace LAMMPS_NS {
 
 /** The memory of a compute: `width` numbers per grain, which follow the grain from rank to rank, and numbers that all ranks share; both
- *  are kept in restart files. New grains have zeros. It also notes the box at each force evaluation: a fix that deforms the box at the end of
- *  the step moves it on before computes are asked, and grains' positions and image flags belong to the box before that.
+ *  are kept in restart files. New grains have zeros. It also notes the box of each force evaluation, the one that image flags count in:
+ *  a fix that deforms the box at the end of the step moves it on before computes are asked.
  *  Made by computes, not by input scripts: arguments are width and shared size. */
 class FixGrainRecord : public Fix {
  public:
@@ -33,9 +33,8 @@ class FixGrainRecord : public Fix {
 
   double *of(int grain) { return &values_[static_cast<std::size_t>(grain) * width_]; }
   std::vector<double> &shared() { return shared_; }
-  /** Edges (upper triangle: xx yy zz yz xz xy) and lower corner of the box at the last force evaluation. */
+  /** Edges (upper triangle: xx yy zz yz xz xy) of the box at the last force evaluation. */
   const double *edges() const { return edges_; }
-  const double *corner() const { return corner_; }
 
   double memory_usage();
   void grow_arrays(int nmax);
@@ -53,7 +52,7 @@ class FixGrainRecord : public Fix {
  private:
   int width_;
   std::vector<double> values_, shared_;
-  double edges_[6], corner_[3];
+  double edges_[6];
 
   void note_box();
   static std::string id_for(const char *compute);
