@@ -13,7 +13,7 @@ using grainscope::Contact;
 
 namespace {
 
-const int width = 6;
+const int width = 9;
 
 enum { CONTACTS, NORMAL, TANGENTIAL, ALONG, SUMS };
 
@@ -77,7 +77,7 @@ void ComputeContactDirection::compute_array() {
     const double *s = &all[k % impl_->half * SUMS];
     const double per_contact = s[CONTACTS] > 0.0 ? 1.0 / s[CONTACTS] : 0.0;
     const double row[width] = {(k + 0.5) * bin, s[CONTACTS], contacts > 0.0 ? s[CONTACTS] / (2.0 * contacts * bin) : 0.0,
-                               s[NORMAL] * per_contact, s[TANGENTIAL] * per_contact, s[ALONG] * per_contact};
+                               s[NORMAL] * per_contact, s[TANGENTIAL] * per_contact, s[ALONG] * per_contact, s[NORMAL], s[TANGENTIAL], s[ALONG]};
     std::copy(row, row + width, array[k]);
   }
 }

@@ -25,7 +25,7 @@ using grainscope::SurfaceAngle;
 
 namespace {
 
-const int width = 13;
+const int width = 17;
 
 /** Sums over the contacts of one bin: each grain of a contact adds its own. */
 enum { CONTACTS, NORMAL, TANGENTIAL, MOBILISATION, SLIDING, NORMAL_POWER, FRICTION_POWER, SUMS };
@@ -193,7 +193,8 @@ void ComputeContactSurface::reduce() {
     const double inhomogeneity = power != 0.0 ? (s[NORMAL_POWER] + s[FRICTION_POWER]) / power * whole_over_part : 0.0;
     const double row[width] = {(k + 0.5) * M_PI_2 / impl_->bins, area, s[CONTACTS], area > 0.0 ? share / area : 0.0, share * whole_over_part,
                                s[NORMAL] * per_contact * per_pressure, s[TANGENTIAL] * per_contact * per_pressure, s[MOBILISATION] * per_contact,
-                               s[SLIDING] * per_contact, s[NORMAL_POWER], s[FRICTION_POWER], inhomogeneity, inhomogeneity * whole_over_part};
+                               s[SLIDING] * per_contact, s[NORMAL_POWER], s[FRICTION_POWER], inhomogeneity, inhomogeneity * whole_over_part,
+                               s[NORMAL] * per_pressure, s[TANGENTIAL] * per_pressure, s[MOBILISATION], s[SLIDING]};
     std::copy(row, row + width, array[k]);
   }
   vector[0] = pressure * force->nktv2p;
