@@ -5,7 +5,7 @@ Points at random in a sheared box (a cube, tilt 0.3), with velocities from a ran
 Tables in Markdown, and a chart. Times are processor times of one rank, which other work on the machine hardly disturbs.
 """
 import argparse
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 import os
 import pathlib
 import resource
@@ -54,16 +54,16 @@ class Points:
     file: pathlib.Path
     size: float = 0.0
     diameter: float = 0.0
-    field: Field = field(default=None)
+    waves: Field = None
 
     def __post_init__(self):
         random = np.random.default_rng(2025)
         self.size = 15.0 * (self.count / FIRST) ** (1.0 / 3.0)
         self.diameter = (6.0 * SOLID / np.pi / self.count) ** (1.0 / 3.0) * self.size
         edges = self.size * np.array([[1.0, TILT, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
-        self.field = Field(edges, LENGTH * self.size, random)
+        self.waves = Field(edges, LENGTH * self.size, random)
         x = random.random((self.count, 3)) @ edges.T
-        v = self.field.at(x)
+        v = self.waves.at(x)
         number = np.arange(1, self.count + 1)
         with self.file.open("w") as out:
             out.write(f"points\n\n{self.count} atoms\n1 atom types\n")
@@ -77,7 +77,7 @@ class Points:
     def known(self, r, width):
         """Mean of the field's correlation over each bin."""
         inside = r[:, None] + width * (np.arange(41) - 20.0) / 41.0
-        c = self.field.correlation(inside.ravel()).reshape(inside.shape)
+        c = self.waves.correlation(inside.ravel()).reshape(inside.shape)
         return (c * inside ** 2).sum(axis=1) / (inside ** 2).sum(axis=1)
 
 
