@@ -42,12 +42,12 @@ add_cases(press-analytic cases/press_analytic.py LABEL case RANKS 1 2 CASES
 add_cases(contact-measures cases/contact_measures.py LABEL case RANKS 1 CASES
   spheres-mu-0 spheres-mu-10 spheres-polydisperse spheroid-0.33-in-the-open spheroid-0.67-in-the-open spheroid-1-in-the-open
   spheroid-3-in-the-open spheroid-1.5-mu-0 spheroid-1.5-mu-10 spheroid-0.33 polydisperse two-types with-tangential-damping no-history
-  tilted-backward subgroup group-of-one units-cgs)
+  tilted-backward subgroup group-of-one axis-along-body-x walls-not-counted units-cgs)
 add_cases(contact-measures cases/contact_measures.py LABEL case RANKS 1 2 CASES
   spheres spheroid-1.5-in-the-open spheroid-1.5 spheres-through-a-flip spheroids-through-a-flip under-pressure-control)
 add_cases(motion-measures cases/motion_measures.py LABEL case RANKS 1 CASES
-  spheres-at-rest spheres-polydisperse spheroid-0.33 spheroid-0.67 spheroid-1 spheroid-3 tilted-backward under-pressure-control sheared-in-xz
-  sheared-in-yz group-of-one)
+  spheres-at-rest spheres-polydisperse spheroid-0.33 spheroid-0.67 spheroid-1 spheroid-3 triaxial tilted-backward under-pressure-control
+  sheared-in-xz sheared-in-yz group-of-one)
 add_cases(motion-measures cases/motion_measures.py LABEL case RANKS 1 2 CASES spheres spheroid-1.5 spheres-through-a-flip subgroup)
 add_cases(contact-analytic cases/contact_analytic.py LABEL case RANKS 1 CASES
   three-of-four-along-z three-of-four-along-z-in-xz two-of-four-along-z one-of-four-less-along-x all-along-one angle-is-of-lines
@@ -60,18 +60,19 @@ add_cases(contact-analytic cases/contact_analytic.py LABEL case RANKS 1 2 CASES
 add_cases(motion-analytic cases/motion_analytic.py LABEL case RANKS 1 CASES
   affine-backward affine-without-stretch drifting-backward rigid lever starts-late)
 add_cases(motion-analytic cases/motion_analytic.py LABEL case RANKS 1 2 CASES
-  affine drifting energies planes-of-grains random-walk later-grains)
+  affine drifting energies planes-of-grains random-walk later-grains remembers remembers-later-grains)
 add_cases(series-measures cases/series_measures.py LABEL case RANKS 1 CASES spheroids backward backward-under-pressure-control)
 add_cases(series-measures cases/series_measures.py LABEL case RANKS 1 2 CASES spheres under-pressure-control sheared-in-yz subgroup)
 add_cases(correlation-measures cases/correlation_measures.py LABEL case RANKS 1 CASES
-  spheres-at-rest polydisperse spheroid-0.33 spheroid-3 tilted-backward sheared-in-xz sheared-in-yz group-of-one decays)
+  spheres-at-rest polydisperse spheroid-0.33 spheroid-3 tilted-backward sheared-in-xz sheared-in-yz group-of-one not-periodic decays)
 add_cases(correlation-measures cases/correlation_measures.py LABEL case RANKS 1 2 CASES
   spheres through-a-flip under-pressure-control subgroup running plane-wave plane-wave-on-a-mesh)
 add_cases(same-everywhere cases/same_everywhere.py LABEL case RANKS 2 4 CASES spheres spheroids)
-add_cases(same-everywhere cases/same_everywhere.py LABEL case RANKS 4 CASES oblate-grains subgroup empty-ranks empty-group restart-on-other-ranks)
+add_cases(same-everywhere cases/same_everywhere.py LABEL case RANKS 4 CASES
+  oblate-grains subgroup empty-ranks empty-group restart-on-other-ranks)
 add_cases(same-everywhere cases/same_everywhere.py LABEL case RANKS 1 CASES empty-group-of-spheres)
 add_cases(same-everywhere cases/same_everywhere.py LABEL case RANKS 1 2 CASES
   does-not-disturb-spheres does-not-disturb-spheroids restart-continues restart-of-spheres-continues)
 add_cases(asking cases/asking.py LABEL case RANKS 1 CASES
-  as-pair-gran-local-spheres as-pair-gran-local-spheroids as-pair-gran-local-oblate dumped means variables)
-add_cases(asking cases/asking.py LABEL case RANKS 1 2 CASES scalars vectors)
+  as-pair-gran-local-spheres as-pair-gran-local-spheroids as-pair-gran-local-oblate dumped means variables orthogonal-box)
+add_cases(asking cases/asking.py LABEL case RANKS 1 2 CASES scalars vectors come-and-go)

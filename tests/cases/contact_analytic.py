@@ -28,7 +28,7 @@ def simple_cubic(count=4, spacing=1.9375):
 
 
 def cubic_lattice(ranks):
-    direction = Watched("direction", "contact/direction bins 36", array=(36, 6))
+    direction = Watched("direction", "contact/direction bins 36", array=(36, 9))
     grain = Watched("grain", "contact/grain", peratom=6)
     packing = simple_cubic()
     moment = ask(packing, FABRIC, direction, grain, ranks=ranks)
@@ -78,7 +78,7 @@ def at_degrees(angle):
 
 def area(shape, angle, axis="auto"):
     def case(ranks):
-        watched = Watched("surface", f"contact/surface angle {angle} axis {axis} bins 10", vector=3, array=(10, 13))
+        watched = Watched("surface", f"contact/surface angle {angle} axis {axis} bins 10", vector=3, array=(10, 17))
         packing = Packing((40.0,) * 3, [Grain((10.0, 10.0, 10.0), shape), Grain((30.0, 30.0, 30.0), tuple(2.0 * s for s in shape))])
         moment = ask(packing, watched, ranks=ranks)
         # The second grain has four times the area of the first; the bins hold the mean.
@@ -123,7 +123,7 @@ def every_bin(shape, angle, bins=10):
             psi = (j + 0.2 + 0.3 * k) * 0.5 * math.pi / bins
             middle = np.array([9.0 * (len(grains) // 2) + 4.5, 9.0, 9.0])
             grains += [Grain(tuple(middle + x), shape, tuple(q)) for x, q in touching_at(psi, shape, angle, random)]
-        watched = Watched("surface", f"contact/surface angle {angle} bins {bins}", vector=3, array=(bins, 13))
+        watched = Watched("surface", f"contact/surface angle {angle} bins {bins}", vector=3, array=(bins, 17))
         table = ask(Packing((9.0 * len(grains) / 2, 18.0, 18.0), grains), watched, ranks=ranks).array(watched)
         require_equal(table[:, 2], 2.0 * np.array(hits), "contacts per bin")
         share = np.array(hits) / sum(hits)
@@ -137,7 +137,7 @@ def pole_on_equator(ranks):
     root = math.sqrt(0.5)
     shape = (1.0, 1.0, 2.0)
     grains = [Grain((10.0, 10.0, 10.0), shape), Grain((10.0, 10.0, 12.98), shape, (root, 0.0, root, 0.0))]
-    watched = Watched("surface", "contact/surface", vector=3, array=(10, 13))
+    watched = Watched("surface", "contact/surface", vector=3, array=(10, 17))
     table = ask(Packing((20.0,) * 3, grains), watched, ranks=ranks).array(watched)
     require_equal(table[:, 2], [1.0, *[0.0] * 8, 1.0], "contacts per bin")
     require_close(table[0, 5], table[-1, 5], 1e-12, "both see the same normal force")
@@ -149,7 +149,7 @@ def statistics_of_spheres(ranks):
     packing = dense_packing(1.0, minimum=1000)
     for grain in packing.grains:
         grain.quaternion = tuple(quaternion_of(random))
-    watched = Watched("surface", "contact/surface bins 6", vector=3, array=(6, 13))
+    watched = Watched("surface", "contact/surface bins 6", vector=3, array=(6, 17))
     table = ask(packing, watched, ranks=ranks).array(watched)
     expected = table[:, 2].sum() * table[:, 1] / table[:, 1].sum()
     require(table[:, 2].sum() > 10000, f"only {table[:, 2].sum()} contacts")
@@ -160,7 +160,7 @@ def statistics_of_spheres(ranks):
 def opposite_bins(packing):
     """Each contact counts at beta and beta + pi: the two halves of the table are equal to the last bit."""
     def case(ranks):
-        watched = Watched("direction", "contact/direction", array=(72, 6))
+        watched = Watched("direction", "contact/direction", array=(72, 9))
         moments = watch(Deck(packing), [watched], deforming(0.05), ranks, settle=100, contacts=False)
         for moment in moments:
             table = moment.array(watched)
@@ -175,7 +175,7 @@ def powers_add_up(packing, material=Material()):
     """Over bins, and over grains, to compute dissipation mode instantaneous."""
     def case(ranks):
         power = Watched("power", "dissipation mode instantaneous", True, 5)
-        surface = Watched("surface", "contact/surface", vector=3, array=(10, 13))
+        surface = Watched("surface", "contact/surface", vector=3, array=(10, 17))
         grain = Watched("grain", "contact/grain", peratom=6)
         computes = [power, grain, *([surface] if packing.atom_style == "superquadric" else [])]
         deck = Deck(packing, extra="tangential_damping off", material=material)

@@ -20,11 +20,11 @@ TWO_SIDED_FEW = 1e-5
 DOUBT = 1e-4
 
 FABRIC = Watched("fabric", "fabric branch force/normal force/tangential", True, 40)
-DIRECTION = Watched("direction", "contact/direction bins 24", array=(24, 6))
+DIRECTION = Watched("direction", "contact/direction bins 24", array=(24, 9))
 GRAIN = Watched("grain", "contact/grain", peratom=6)
-POLAR = Watched("polar", "contact/surface", vector=3, array=(10, 13))
-PARAMETRIC = Watched("parametric", "contact/surface angle parametric bins 7", vector=3, array=(7, 13))
-BY_X = Watched("by_x", "contact/surface axis x", vector=3, array=(10, 13))
+POLAR = Watched("polar", "contact/surface", vector=3, array=(10, 17))
+PARAMETRIC = Watched("parametric", "contact/surface angle parametric bins 7", vector=3, array=(7, 17))
+BY_X = Watched("by_x", "contact/surface axis x", vector=3, array=(10, 17))
 
 
 def computes_for(packing):

@@ -117,13 +117,13 @@ def plane_wave(words):
 def decays(ranks):
     """Values with exp(-r/l) in the fitted bins give l: pairs far apart, one in each bin, products a_i b_i = exp(-r_i/l)."""
     length, bins, reach = 2.5, 6, 9.0
-    grains, mean = [], 0.0
+    grains = []
     for j in range(bins):
         r = (j + 0.5) * reach / bins
         speed = math.exp(-0.5 * r / length)
-        for x, sign in ((0.0, 1.0), (r, 1.0)):
+        for x in (0.0, r):
             for row, mirrored in ((0, 1.0), (1, -1.0)):  # the mean is zero
-                grains.append(Grain((5.0 + x, 30.0 * j + 10.0, 40.0 * row + 10.0), (0.4,) * 3, velocity=(0.0, sign * mirrored * speed, 0.0)))
+                grains.append(Grain((5.0 + x, 30.0 * j + 10.0, 40.0 * row + 10.0), (0.4,) * 3, velocity=(0.0, mirrored * speed, 0.0)))
     watched = correlation_of("fit", f"range {reach}", bins)
     packing = Packing((60.0, 30.0 * bins, 80.0), grains, atom_style="sphere")
     moment = watch(Deck(packing), [watched], ranks=ranks, steps=0, contacts=False)[0]

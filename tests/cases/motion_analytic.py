@@ -33,8 +33,8 @@ def carried(packing, rate=RATE, stretch=STRETCH, drift=(0.0, 0.0, 0.0)):
 
 
 def affine_flow(packing, rate=RATE, stretch=STRETCH):
-    """The host's fix: tilt grows by `rate` x (first L_y), L_y at `stretch` x (first L_y): straight lines in time, so that grains at constant
-    velocities move affinely."""
+    """The host's fix: tilt grows by `rate` x (first L_y), L_y at `stretch` x (first L_y): straight lines in time, so that grains at
+    constant velocities move affinely."""
     velocity = f"y vel {number(stretch * packing.edges[1])} " if stretch else ""
     return Flow(f"fix flow all deform 1 xy erate {number(rate)} {velocity}remap v", rate)
 
@@ -215,9 +215,10 @@ def remembers_later_grains(ranks):
     packing = in_rows()
     first, *rest = packing.grains
     watched = Watched("memory", "velocity/memory component vx strain v_strain every 0.01 lags 2", True, 3, (3, 4))
-    deck = Deck(replace(packing, grains=rest), body=["variable strain equal step*0.01", watched.define("all"), *thermo(1, *watched.columns()),
-                "run 3", f"create_atoms 1 single {numbers(first.position)} units box", f"set atom {len(packing.grains)} diameter 2 density 1000",
-                "run 3"])
+    deck = Deck(replace(packing, grains=rest))
+    deck.body = ["variable strain equal step*0.01", watched.define("all"), *thermo(1, *watched.columns()), "run 3",
+                 f"create_atoms 1 single {numbers(first.position)} units box", f"set atom {len(packing.grains)} diameter 2 density 1000",
+                 "run 3"]
     table, old = run(deck, ranks).thermo()[-1], len(rest)
     # Seven samples, steps 0 to 6; the new grain is in the last three (run 2 begins without a sample at its first step).
     require_equal([table[f"c_memory[{k}][4]"][-1] for k in (1, 2, 3)], [7 * old + 3, 6 * old + 2, 5 * old + 1], "pairs")

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """fluctuation, layering and velocity/correlation against the oracle, on sheared packings and in every mean flow."""
+from dataclasses import replace
+
 from case import main, require, require_close
 from deck import Deck
 from oracle import comparison_motion as comparison
@@ -18,7 +20,8 @@ def fluctuations(plane):
             for k, (words, flow) in enumerate(FLOWS.items())}
 
 
-LAYERINGS = {Watched("across", "layering", True, 4, (21, 2)): (1, 40), Watched("along", "layering axis x layers 12", True, 4, (7, 2)): (0, 12)}
+LAYERINGS = {Watched("across", "layering", True, 4, (21, 2)): (1, 40),
+             Watched("along", "layering axis x layers 12", True, 4, (7, 2)): (0, 12)}
 
 
 def agrees(deck, flow=Flow(), plane="xy", group="all", settle=50, check=None):
@@ -62,11 +65,19 @@ def length_moved(moments):
 
 
 SPHERES = dense_packing(atom_style="sphere")
+
+
+def triaxial():
+    packing = dense_packing(1.5, wobble=2.0)
+    return replace(packing, grains=[replace(g, semi_axes=(0.6, 0.8, 1.1)) for g in packing.grains])
+
+
 CASES = {
     "spheres": agrees(Deck(SPHERES), deforming(0.05)),
     "spheres-at-rest": agrees(Deck(SPHERES)),
     "spheres-polydisperse": agrees(Deck(dense_packing(atom_style="sphere", sizes=(0.8, 1.0, 1.2), overlap=0.1)), deforming(0.05)),
     **{f"spheroid-{alpha:g}": agrees(Deck(dense_packing(alpha)), deforming(0.05)) for alpha in (0.33, 0.67, 1.0, 1.5, 3.0)},
+    "triaxial": agrees(Deck(triaxial()), deforming(0.05)),
     "spheres-through-a-flip": flipping(Deck(tilted(SPHERES, 0.499))),
     "tilted-backward": agrees(Deck(tilted(SPHERES, -0.48)), deforming(-0.05)),
     "under-pressure-control": agrees(Deck(SPHERES), pressed(0.05), settle=100, check=length_moved),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the computes of fabric, surface, direction, fluctuation, displacement and correlation refuse: keyword, requirement, value received."""
+"""What the computes of fabric, surface, direction, fluctuation, displacement and correlation refuse: keyword, requirement, value."""
 from dataclasses import replace
 
 from case import main
@@ -73,7 +73,8 @@ CASES = {
                              packing=all_shaped((1.0, 1.2, 1.5))),
     "surface-boxy": line("contact/surface", "compute contact/surface: needs ellipsoids, blockiness 2 2",
                          packing=dense_packing(1.5, blockiness=(4.0, 3.0), overlap=-0.12)),
-    "surface-needs-gran-insitu": line("contact/surface", "compute contact/surface requires pair_style gran/insitu, got 'gran'", pair="gran"),
+    "surface-needs-gran-insitu": line("contact/surface", "compute contact/surface requires pair_style gran/insitu, got 'gran'",
+                                      pair="gran"),
     "direction-keyword": unknown("contact/direction", "plane or bins"),
     "direction-bins-odd": value("contact/direction", "bins", EVEN, "7"),
     "direction-bins-zero": value("contact/direction", "bins", EVEN, "0"),
@@ -103,7 +104,8 @@ CASES = {
     "correlation-method": value("velocity/correlation", "method", "direct or mesh", "fft"),
     "correlation-mesh": value("velocity/correlation", "mesh", "a whole number from 1 to 100", "0.5", rest="method mesh "),
     "correlation-mesh-not-asked": line("velocity/correlation mesh 4", "compute velocity/correlation: 'mesh' needs 'method mesh'"),
-    "correlation-mesh-not-periodic": line("velocity/correlation method mesh", "compute velocity/correlation: 'method' must be direct in a box",
+    "correlation-mesh-not-periodic": line("velocity/correlation method mesh",
+                                          "compute velocity/correlation: 'method' must be direct in a box",
                                           packing=replace(SPHERES, triclinic=False), boundary="p p f"),
     "correlation-mesh-too-fine": line("velocity/correlation method mesh mesh 100 bins 1000", "must ask for less than 1e9 cells, got",
                                       after=thermo(1, "c_c")),

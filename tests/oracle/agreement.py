@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Prints, as a Markdown table, the largest difference between grainscope and the oracle for each quantity, relative to its size, by aspect ratio:
-the largest over friction coefficients and snapshots of sheared packings.
+"""Prints, as a Markdown table, the largest difference between grainscope and the oracle for each quantity, relative to its size, by aspect
+ratio: the largest over friction coefficients and snapshots of sheared packings.
 
     GRAINSCOPE_BINARY=build/release/bin/grainscope PYTHONPATH=tests/tools:tests python3 tests/oracle/agreement.py [ranks] [open|periodic]
 

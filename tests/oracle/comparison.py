@@ -107,6 +107,8 @@ def of_surface(found, vector, moment, angle="polar", axis="auto", doubt=0.0):
     yield from of_bins("surface", found, expected, {10: "P_t"}, 2, steady, (10,), rubbing(rows))
     yield from of_bins("surface", found, expected, {5: "F_n", 6: "F_t"}, 2, steady, (), SMALL * magnitude(expected[:, 5]))
     yield from of_bins("surface", found, expected, {7: "mobilisation", 8: "sliding"}, 2, steady, (), SMALL)
+    sums, least = {13: "sum of F_n", 14: "sum of F_t", 15: "sum of mobilisation", 16: "sum of sliding"}, SMALL * magnitude(expected[:, 13])
+    yield from of_bins("surface", found, expected, sums, 2, steady, (13, 14, 15, 16), least)
     power = expected[:, 9] + expected[:, 10]
     # The total power is a difference where single contacts gain energy.
     blown_up = np.sum(np.abs(power)) / max(abs(power.sum()), TINY) if power.any() else 1.0
@@ -129,6 +131,8 @@ def of_direction(found, rows, plane=(0, 1), doubt=0.0):
     yield from of_bins("direction", found, expected, {2: "density"}, 1, steady, (2,))
     forces = {3: "F_n", 4: "F_t", 5: "F_t signed"}
     yield from of_bins("direction", found, expected, forces, 1, steady, (), SMALL * magnitude(expected[:, 3]))
+    sums = {6: "sum of F_n", 7: "sum of F_t", 8: "sum of F_t signed"}
+    yield from of_bins("direction", found, expected, sums, 1, steady, (6, 7, 8), SMALL * magnitude(expected[:, 6]))
 
 
 def of_grains(found, rows, grains, chosen):

@@ -15,8 +15,8 @@ def in_plane(vectors, plane):
 
 
 def direction_table(rows, bins=72, plane=(0, 1)):
-    """bins x 6 of compute contact/direction."""
-    table, width = np.zeros((bins, 6)), 2.0 * math.pi / bins
+    """bins x 9 of compute contact/direction."""
+    table, width = np.zeros((bins, 9)), 2.0 * math.pi / bins
     table[:, 0] = (np.arange(bins) + 0.5) * width
     normal, tangential = in_plane(rows["normal"], plane), in_plane(rows["ft"], plane)
     for n, t, fn in zip(normal, tangential, rows["fn"]):
@@ -27,8 +27,9 @@ def direction_table(rows, bins=72, plane=(0, 1)):
         signed = (t[1] * n[0] - t[0] * n[1]) / length
         first = min(int(beta / width), bins // 2 - 1)
         for k in (first, first + bins // 2):
-            table[k, 1:] += (1.0, 0.0, abs(fn) * length, math.hypot(*t), signed)
-    table[:, 3:] /= np.maximum(table[:, 1:2], 1.0)
+            table[k, 1] += 1.0
+            table[k, 6:] += (abs(fn) * length, math.hypot(*t), signed)
+    table[:, 3:6] = table[:, 6:] / np.maximum(table[:, 1:2], 1.0)
     total = table[:, 1].sum()
     if total:
         table[:, 2] = table[:, 1] / total / width

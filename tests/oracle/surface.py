@@ -86,8 +86,8 @@ def powers(rows):
 
 
 def surface_table(rows, grains, volume, chosen, bins=10, angle="polar", axis="auto"):
-    """(array bins x 13, vector P, mean area, grains) of compute contact/surface; `rows` are the group's."""
-    table, members = np.zeros((bins, 13)), np.flatnonzero(chosen)
+    """(array bins x 17, vector P, mean area, grains) of compute contact/surface; `rows` are the group's."""
+    table, members = np.zeros((bins, 17)), np.flatnonzero(chosen)
     table[:, 0] = (np.arange(bins) + 0.5) * 0.5 * math.pi / bins
     if not len(members):
         return table, np.zeros(3)
@@ -116,6 +116,7 @@ def fill(table, sums, area, whole):
         table[:, 4] = sums[:, 0] / contacts / (area / whole)
     table[:, 5:9] = sums[:, 1:5] / np.maximum(sums[:, :1], 1.0)
     table[:, 9:11] = sums[:, 5:]
+    table[:, 13:] = sums[:, 1:5]
     if power.sum():
         table[:, 11] = power / area / (power.sum() / whole)
         table[:, 12] = table[:, 11] * whole / area

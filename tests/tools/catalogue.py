@@ -3,8 +3,8 @@
 from watch import Watched
 
 FABRIC = Watched("fabric", "fabric branch force/normal force/tangential", True, 40)
-DIRECTION = Watched("direction", "contact/direction bins 12", array=(12, 6))
-SURFACE = Watched("surface", "contact/surface", vector=3, array=(10, 13))
+DIRECTION = Watched("direction", "contact/direction bins 12", array=(12, 9))
+SURFACE = Watched("surface", "contact/surface", vector=3, array=(10, 17))
 FLUCTUATION = Watched("moving", "fluctuation layers 4", True, 14, (4, 5))
 LAYERING = Watched("layers", "layering layers 10", True, 4, (6, 2))
 DIRECT = Watched("direct", "velocity/correlation bins 6", True, 5, (6, 4))
