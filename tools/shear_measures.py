@@ -4,7 +4,7 @@ from functools import cached_property
 
 import numpy as np
 
-from shear_output import InputError, mean_and_error, read_blocks, read_table
+from shear_output import Columns, InputError, mean_and_error, read_blocks, read_table
 
 FILES = ["micro.txt", "displacement.txt", "surface.txt", "direction.txt", "correlation.txt", "layering.txt", "memory.txt"]
 
@@ -54,7 +54,7 @@ class Measures:
         if not self.kept.any():
             raise InputError(f"{self.run.folder}: no block of micro.txt begins after strain {self.start:g}; "
                              f"the last one begins at {begins[-1]:.2f}")
-        return {name: values[self.kept] for name, values in micro.items()}
+        return Columns(micro.path, ((name, values[self.kept]) for name, values in micro.items()))
 
     def blocks(self, name):
         """Columns of a file of tables, one table per block, as arrays (blocks, rows)."""
@@ -62,7 +62,7 @@ class Measures:
         if len(columns["bin"]) != len(self.kept):
             raise InputError(f"{self.run.folder}: {name} has {len(columns['bin'])} tables, micro.txt {len(self.kept)} rows; "
                              "they must be of one run")
-        return {column: values[self.kept] for column, values in columns.items()}
+        return Columns(columns.path, ((column, values[self.kept]) for column, values in columns.items()))
 
     @property
     def r_g(self):
@@ -189,13 +189,13 @@ class Measures:
         return values[order], axes * np.where(axes[:, :1] < 0, -1, 1)
 
     def surface(self):
-        """Contacts on the grain by psi, each column one array over the bins: sums over the blocks, conditional means weighted by contacts.
+        """Contacts on the grain by psi, each column one array over the bins: ratios of sums over all contacts of the steady state.
         Densities are over the exact areas; the `printed` ones over those of printed_shares."""
         table = self.blocks("surface.txt")
         contacts, area = table["contacts"].sum(axis=0), table["A"].mean(axis=0)
         power = (table["P_n"] + table["P_t"]).sum(axis=0)
         share = area / area.sum()
-        columns = {name: (table[name] * table["contacts"]).sum(axis=0) / np.maximum(contacts, 1e-300)
+        columns = {name: table[f"sum_{name}"].sum(axis=0) / np.maximum(contacts, 1e-300)
                    for name in ("F_n", "F_t", "mobilisation", "sliding")}
         printed = printed_shares(self.alpha, len(area))
         return {"psi": table["psi"][0], "density": contacts / contacts.sum() / share, "inhomogeneity": power / power.sum() / share,
@@ -207,8 +207,8 @@ class Measures:
         contacts = table["contacts"].sum(axis=0)
         width = 2 * np.pi / contacts.size
         scale = self.pressure.mean() * self.micro["A_p"].mean()
-        weighted = {name: (table[name] * table["contacts"]).sum(axis=0) / np.maximum(contacts, 1e-300) / scale for name in ("F_n", "F_t")}
-        return {"beta": table["beta"][0], "density": contacts / contacts.sum() / width, **weighted}
+        forces = {name: table[f"sum_{name}"].sum(axis=0) / np.maximum(contacts, 1e-300) / scale for name in ("F_n", "F_t")}
+        return {"beta": table["beta"][0], "density": contacts / contacts.sum() / width, **forces}
 
     def displacement(self, axis):
         """Strain, mean square displacement over d^2, and its straight line, of axis x, y or z."""

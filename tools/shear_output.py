@@ -11,6 +11,17 @@ class InputError(Exception):
     """A file that is missing or is not what it should be; the message says which and why."""
 
 
+class Columns(dict):
+    """Columns of a file, by name."""
+
+    def __init__(self, path, columns):
+        super().__init__(columns)
+        self.path = path
+
+    def __missing__(self, column):
+        raise InputError(f"{self.path}: no column '{column}'; it has {', '.join(self)}")
+
+
 @dataclass
 class Run:
     """One run: its name, its parameters by name, its columns by name (arrays over rows) and their units."""
@@ -21,8 +32,6 @@ class Run:
     folder: Path = field(default_factory=Path)
 
     def __getitem__(self, column):
-        if column not in self.columns:
-            raise InputError(f"{self.name}: no column '{column}' in series.txt; it has {', '.join(self.columns)}")
         return self.columns[column]
 
     @property
@@ -51,7 +60,8 @@ class Run:
             start = min(6.0 if self.parameters["I"] >= 0.01 else 4.0, 0.5 * strain[-1])
         rows = strain > start
         if rows.sum() < 16:
-            raise InputError(f"{self.name}: {rows.sum()} rows beyond strain {start:g}, at least 16 are needed; the run ends at {strain[-1]:g}")
+            raise InputError(f"{self.name}: {rows.sum()} rows beyond strain {start:g}, at least 16 are needed; "
+                             f"the run ends at {strain[-1]:g}")
         return rows
 
 
@@ -87,7 +97,7 @@ def numbers(path, rows, names):
 def read_table(path):
     """Columns and units of a text table whose last '#' line names its columns as name[unit]."""
     names, units, rows = read_rows(path)
-    return dict(zip(names, numbers(path, rows, names).T)), units
+    return Columns(path, zip(names, numbers(path, rows, names).T)), units
 
 
 def read_blocks(path):
@@ -101,7 +111,7 @@ def read_blocks(path):
         raise InputError(f"{path}: the last table is incomplete, {length} rows are needed")
     body = [row for number, row in enumerate(rows) if number % (length + 1)]
     values = numbers(path, body, names).reshape(-1, length, len(names))
-    return dict(zip(names, values.transpose(2, 0, 1)))
+    return Columns(path, zip(names, values.transpose(2, 0, 1)))
 
 
 def read_run(folder):
@@ -109,7 +119,8 @@ def read_run(folder):
     folder = Path(folder)
     columns, units = read_table(folder / "series.txt")
     parameters, _ = read_table(folder / "parameters.txt")
-    return Run(folder.resolve().name, {name: value[-1] for name, value in parameters.items()}, columns, units, folder)
+    last = Columns(parameters.path, ((name, values[-1]) for name, values in parameters.items()))
+    return Run(folder.resolve().name, last, columns, units, folder)
 
 
 def mean_and_error(values):
