@@ -58,9 +58,9 @@ add_cases(contact-analytic cases/contact_analytic.py LABEL case RANKS 1 2 CASES
   cubic-lattice every-bin-prolate-polar every-bin-oblate-parametric opposite-bins opposite-bins-of-spheroids powers-add-up
   powers-of-spheres-add-up)
 add_cases(motion-analytic cases/motion_analytic.py LABEL case RANKS 1 CASES
-  affine-backward affine-without-stretch drifting-backward rigid lever starts-late)
+  affine-backward affine-without-stretch drifting-backward drifting-in-xz drifting-in-yz rigid lever starts-late)
 add_cases(motion-analytic cases/motion_analytic.py LABEL case RANKS 1 2 CASES
-  affine drifting energies planes-of-grains random-walk later-grains remembers remembers-later-grains)
+  affine drifting drifting-under-press-strain energies planes-of-grains random-walk later-grains remembers remembers-later-grains)
 add_cases(series-measures cases/series_measures.py LABEL case RANKS 1 CASES spheroids backward backward-under-pressure-control)
 add_cases(series-measures cases/series_measures.py LABEL case RANKS 1 2 CASES spheres under-pressure-control sheared-in-yz subgroup)
 add_cases(correlation-measures cases/correlation_measures.py LABEL case RANKS 1 CASES

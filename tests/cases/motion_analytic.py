@@ -9,7 +9,7 @@ from case import main, require, require_close, require_equal
 from deck import Deck, number, thermo
 from packing import DENSITY, Grain, Packing, dense_packing, numbers, tilted
 from run import run
-from watch import Flow, Watched, watch
+from watch import Flow, Watched, deforming, watch
 
 FLUCTUATION = Watched("moving", "fluctuation", True, 14, (10, 5))
 MOVED = Watched("moved", "displacement/shear strain v_strain", True, 8)
@@ -21,13 +21,15 @@ def gas(**choices):
     return dense_packing(atom_style="sphere", overlap=-0.8, speed=0.0, **choices)
 
 
-def carried(packing, rate=RATE, stretch=STRETCH, drift=(0.0, 0.0, 0.0)):
+def carried(packing, rate=RATE, stretch=STRETCH, drift=(0.0, 0.0, 0.0), plane=(0, 1)):
     """With the velocities of the affine flow, and a drift."""
-    middle = 0.5 * np.array(packing.edges)
+    (a, b), middle = plane, 0.5 * np.array(packing.edges)
 
     def velocity(grain):
-        y = grain.position[1] - middle[1]
-        return tuple(np.array([rate * y, stretch * y, 0.0]) + drift)
+        y, v = grain.position[b] - middle[b], np.array(drift, dtype=float)
+        v[a] += rate * y
+        v[b] += stretch * y
+        return tuple(v)
 
     return replace(packing, grains=[replace(g, velocity=velocity(g), omega=(0.1, -0.2, 0.3)) for g in packing.grains])
 
@@ -39,10 +41,9 @@ def affine_flow(packing, rate=RATE, stretch=STRETCH):
     return Flow(f"fix flow all deform 1 xy erate {number(rate)} {velocity}remap v", rate)
 
 
-def observed(packing, ranks, computes, steps=400, every=40, **flow):
-    deck = Deck(packing, body=[f"variable strain equal step*dt*{number(flow.get('rate', RATE))}"])
-    moments = watch(deck, computes, affine_flow(packing, **flow), ranks, steps=steps, every=every, told=every, contacts=False)
-    return moments, deck.dt()
+def observed(packing, ranks, computes, flow, steps=400, every=40):
+    deck = Deck(packing, body=[f"variable strain equal step*dt*{number(flow.rate)}"])
+    return watch(deck, computes, flow, ranks, steps=steps, every=every, told=every, contacts=False), deck.dt()
 
 
 def affine(fraction, sign=1.0, stretch=STRETCH):
@@ -53,7 +54,7 @@ def affine(fraction, sign=1.0, stretch=STRETCH):
         computes = [FLUCTUATION, MOVED, Watched("fitted", "fluctuation flow fit", True, 14, (10, 5)),
                     Watched("layered", "fluctuation flow layers 5", True, 14, (10, 5)),
                     Watched("memory", "velocity/memory strain v_strain lags 4", True, 3, (5, 4))]
-        moments, _ = observed(packing, ranks, computes, rate=rate, stretch=stretch)
+        moments, _ = observed(packing, ranks, computes, affine_flow(packing, rate, stretch))
         tilts = [m.box.edges[0, 1] for m in moments]
         require(np.abs(np.diff(tilts)).max() > 0.8 * packing.edges[0], f"no flip: {tilts}")
         speed = RATE * packing.edges[1]
@@ -77,22 +78,33 @@ def still(moment, computes, speed):
             require_close(vector[12:14], np.zeros(2), 1e-12, f"{watched.command}: profile, noise", 1.0)
 
 
-def drifting(sign):
+def without_gain(rate):
+    """fix press/strain as a mere shear."""
+    line = f"fix flow all press/strain axis y target 1 shear xy rate {number(rate)} every 1e-3 gain 0 momentum no"
+    return Flow(line, rate)
+
+
+def drifting(sign, plane="xy", by=lambda rate, plane: deforming(rate, plane)):
     """Free flight with a drift u of all grains: d_x = u_x t - rate u_y t^2/2, d_y = u_y t, d_z = u_z t, through wraps of all faces and
     flips, however often it is asked."""
+    a, b = axes = tuple("xyz".index(k) for k in plane)
+    watched = Watched("moved", f"displacement/shear strain v_strain plane {plane}", True, 8)
+
     def case(ranks):
-        drift, rate = np.array([0.9, 1.6, -0.7]), sign * RATE
-        packing = carried(tilted(gas(), sign * 0.43), rate, 0.0, drift)
+        drift, rate = np.array([1.7, 2.6, -2.3]), sign * RATE
+        packing = carried(tilted(gas(), sign * 0.43), rate, 0.0, drift, axes)
         for every in (10, 80):
-            moments, dt = observed(packing, ranks, [MOVED], 800, every, rate=rate, stretch=0.0)
+            moments, dt = observed(packing, ranks, [watched], by(rate, axes), 800, every)
             for moment in moments:
                 t = moment.step * dt
-                square = np.array([drift[0] * t - 0.5 * rate * drift[1] * t * t, drift[1] * t, drift[2] * t]) ** 2
+                square = drift * t
+                square[a] -= 0.5 * rate * drift[b] * t * t
+                square **= 2
                 # Positions of 10 grains are sums of 800 steps; squares.
-                require_close(moment.vector(MOVED)[1:4], square, 1e-10, f"step {moment.step}: <d^2>", max(1.0, square.max()))
-            require(all(np.ptp(moments[-1].columns[i]) > 0 for i in ("ix", "iy", "iz")), "no wraps")
-            tilts = [m.box.edges[0, 1] for m in moments]
-            require(np.abs(np.diff(tilts)).max() > 0.7 * packing.edges[0], f"no flip: {tilts}")
+                require_close(moment.vector(watched)[1:4], square, 1e-10, f"step {moment.step}: <d^2>", max(1.0, square.max()))
+            require(all(moments[-1].columns[i].any() for i in ("ix", "iy", "iz")), "no wraps")
+            tilts = [m.box.edges[a, b] for m in moments]
+            require(np.abs(np.diff(tilts)).max() > 0.7 * packing.edges[a], f"no flip: {tilts}")
     return case
 
 
@@ -243,6 +255,9 @@ CASES = {
     "affine-without-stretch": affine(0.43, stretch=0.0),
     "drifting": drifting(1.0),
     "drifting-backward": drifting(-1.0),
+    "drifting-in-xz": drifting(1.0, "xz"),
+    "drifting-in-yz": drifting(-1.0, "yz"),
+    "drifting-under-press-strain": drifting(1.0, by=lambda rate, _: without_gain(rate)),
     "rigid": rigid,
     "energies": energies,
     "lever": lever,

@@ -9,20 +9,17 @@ from oracle.motion import fractions
 def unflipped(before, now, strain, plane):
     """Edges of the box `now` with the driven tilt as if it had not been turned back since `before`; `strain`: what was sheared."""
     a, b = plane
-    flow_length = now.edges[a, a]
     expected = before.edges[a, b] + strain * 0.5 * (before.edges[b, b] + now.edges[b, b])
     edges = now.edges.copy()
-    edges[a, b] += round((expected - now.edges[a, b]) / flow_length) * flow_length
+    edges[:, b] += round((expected - now.edges[a, b]) / now.edges[a, a]) * now.edges[:, a]
     return edges
 
 
-def reduced(x, image, box, wrapping, edges, plane):
-    """Unwrapped positions in units of `edges`, from the point of the box's middle that the flow leaves where it is: the centre but for the
-    driven tilt, with which the centre moves (and jumps where the box is turned back). Image flags count the edges of the box `wrapping`
+def reduced(x, image, box, wrapping, edges):
+    """Unwrapped positions in units of `edges`, from a point that the flow leaves where it is: the centre but for the tilts, with which the
+    centre moves (and jumps where the box is turned back). Image flags count the edges of the box `wrapping`
     that grains were last wrapped into: that of the force evaluation, one step behind."""
-    upright = box.edges.copy()
-    upright[plane] = 0.0
-    still = box.origin + 0.5 * upright.sum(axis=1)
+    still = box.origin + 0.5 * np.diag(box.edges)
     return np.linalg.solve(edges, (x + image @ wrapping.edges.T - still).T).T
 
 
@@ -39,8 +36,8 @@ def displacements(calls, plane=(0, 1)):
         if k:
             x0, image0, box0, wrapping0, strain0 = calls[k - 1]
             edges = unflipped(box0, box, strain - strain0, plane)
-            before = reduced(x0, image0, box0, wrapping0, box0.edges, plane)
-            step = modulo_images(reduced(x, image, box, wrapping, edges, plane) - before)
+            before = reduced(x0, image0, box0, wrapping0, box0.edges)
+            step = modulo_images(reduced(x, image, box, wrapping, edges) - before)
             d = d + step @ (0.5 * (box0.edges + edges)).T
         found.append(d)
     return found

@@ -112,6 +112,13 @@ def box_at(table, row, flow):
     return Box(edges, np.array([value["xlo"], value["ylo"], value["zlo"]]), rate)
 
 
+def force_box(table, row, flow):
+    before, now = (box_at(table, r, flow) for r in (max(row - 1, 0), row))
+    for a, b in ((1, 2), (0, 2), (0, 1)):
+        before.edges[:, b] += round((now.edges[a, b] - before.edges[a, b]) / now.edges[a, a]) * before.edges[:, a]
+    return before
+
+
 def moments_of(result, flow=Flow(), group="all"):
     table = result.thermo()[-1]
     grains_dump = result.dump("grains.dump")
@@ -119,9 +126,9 @@ def moments_of(result, flow=Flow(), group="all"):
     for (step, columns), (_, rows) in zip(grains_dump, rows_dump):
         row, grains = int(np.searchsorted(table["step"], step)), grains_of(columns)
         low, high = map(int, group.split(":")) if group != "all" else (1, len(grains.ids))
-        # The force evaluation of a step saw the box that the end of the step before had left (if that was told).
+        # The force evaluation of a step saw the box that the end of the step before had left (if that was told), turned back if due.
         yield Moment(step, {name: float(values[row]) for name, values in table.items()}, columns, grains,
-                     None if rows is None else rows_of(rows, "rows"), box_at(table, row, flow), box_at(table, max(row - 1, 0), flow),
+                     None if rows is None else rows_of(rows, "rows"), box_at(table, row, flow), force_box(table, row, flow),
                      (grains.ids >= low) & (grains.ids <= high))
 
 
