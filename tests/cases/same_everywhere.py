@@ -13,7 +13,7 @@ from watch import grain_columns
 
 # Sums in another order; for non-spheres the host's solver, stopped at about 1e-7, sees a contact from one side or the other. Angles,
 # eigenvectors and single grains or bins, where nothing averages, amplify either.
-SUMS, SOLVER = 1e-9, 2e-5
+SUMS, SOLVER = 1e-9, 5e-5
 RATE, STEPS = 0.05, 3
 
 
