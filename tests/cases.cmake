@@ -58,9 +58,9 @@ add_cases(contact-analytic cases/contact_analytic.py LABEL case RANKS 1 2 CASES
   cubic-lattice every-bin-prolate-polar every-bin-oblate-parametric opposite-bins opposite-bins-of-spheroids powers-add-up
   powers-of-spheres-add-up)
 add_cases(motion-analytic cases/motion_analytic.py LABEL case RANKS 1 CASES
-  affine-backward affine-without-stretch drifting-backward drifting-in-xz drifting-in-yz rigid lever starts-late)
+  rarely-asked affine-backward affine-without-stretch drifting-backward drifting-in-xz drifting-in-yz rigid lever starts-late)
 add_cases(motion-analytic cases/motion_analytic.py LABEL case RANKS 1 2 CASES
-  affine drifting drifting-under-press-strain energies planes-of-grains random-walk later-grains remembers remembers-later-grains)
+  replaced-grains rarely-asked-backward affine drifting drifting-under-press-strain energies planes-of-grains random-walk later-grains remembers remembers-later-grains)
 add_cases(series-measures cases/series_measures.py LABEL case RANKS 1 CASES spheroids backward backward-under-pressure-control)
 add_cases(series-measures cases/series_measures.py LABEL case RANKS 1 2 CASES spheres under-pressure-control sheared-in-yz subgroup)
 add_cases(correlation-measures cases/correlation_measures.py LABEL case RANKS 1 CASES
@@ -72,7 +72,7 @@ add_cases(same-everywhere cases/same_everywhere.py LABEL case RANKS 4 CASES
   oblate-grains subgroup empty-ranks empty-group restart-on-other-ranks)
 add_cases(same-everywhere cases/same_everywhere.py LABEL case RANKS 1 CASES empty-group-of-spheres)
 add_cases(same-everywhere cases/same_everywhere.py LABEL case RANKS 1 2 CASES
-  does-not-disturb-spheres does-not-disturb-spheroids restart-continues restart-of-spheres-continues)
+  does-not-disturb-spheres does-not-disturb-spheroids restart-refused restart-continues restart-of-spheres-continues)
 add_cases(asking cases/asking.py LABEL case RANKS 1 CASES
   as-pair-gran-local-spheres as-pair-gran-local-spheroids as-pair-gran-local-oblate dumped means variables orthogonal-box)
 add_cases(asking cases/asking.py LABEL case RANKS 1 2 CASES scalars vectors come-and-go)

@@ -15,7 +15,7 @@ add_cases(build errors/build.py LABEL error CASES
   folder-without-liggghts root-or-src source-left-untouched styles-are-listed mended-where-needed not-mended-where-right
   configured-twice-rebuilds-nothing own-whitelist missing-whitelist)
 add_cases(error-measures errors/measures.py LABEL error RANKS 1 CASES
-  fabric-keyword fabric-plane fabric-plane-missing fabric-between-runs surface-keyword surface-bins surface-bins-fraction
+  fabric-keyword fabric-plane fabric-plane-missing fabric-twice fabric-between-runs surface-bins-too-many surface-keyword surface-bins surface-bins-fraction
   surface-bins-nan surface-bins-missing surface-angle surface-axis surface-sphere-among-spheroids surface-boxy
   surface-needs-gran-insitu direction-keyword direction-bins-odd direction-bins-zero direction-bins-missing direction-plane
   grain-takes-no-keywords grain-needs-gran-insitu fluctuation-keyword fluctuation-layers fluctuation-diameter
@@ -24,7 +24,8 @@ add_cases(error-measures errors/measures.py LABEL error RANKS 1 CASES
   layering-layers-missing correlation-keyword correlation-component correlation-component-missing correlation-bins
   correlation-range correlation-method correlation-mesh correlation-mesh-not-asked correlation-mesh-too-fine correlation-average
   correlation-flow correlation-plane memory-keyword memory-component memory-every memory-every-nan memory-lags memory-lags-missing
-  memory-flow memory-plane displacement-keyword displacement-start displacement-start-nan displacement-plane displacement-strain
+  memory-flow memory-plane displacement-keyword displacement-start displacement-start-nan displacement-record-taken displacement-record-gone record-by-hand
+  memory-too-much displacement-strain
   displacement-strain-of-a-fix displacement-strain-element displacement-strain-missing displacement-strain-not-an-equal-variable
   displacement-strain-no-such-fix displacement-strain-beyond-the-vector displacement-without-strain)
 add_cases(error-measures errors/measures.py LABEL error RANKS 1 2 CASES

@@ -33,7 +33,7 @@ enum { CONTACTS, NORMAL, TANGENTIAL, MOBILISATION, SLIDING, NORMAL_POWER, FRICTI
 /** v seen along body axis `axis`: that component last, the others before it. */
 Vector3d along(int axis, const Vector3d &v) { return {v[(axis + 1) % 3], v[(axis + 2) % 3], v[axis]}; }
 
-bool is_bin_count(double n) { return n >= 1.0 && n <= 1e6 && n == std::floor(n); }
+bool is_bin_count(double n) { return n >= 1.0 && n <= 1000.0 && n == std::floor(n); }
 
 }
 
@@ -41,7 +41,8 @@ struct ComputeContactSurface::Impl {
   int bins = 10;
   SurfaceAngle angle = SurfaceAngle::polar;
   int axis = -1;                      // body axis; -1: the symmetry axis
-  std::vector<double> unit_areas;     // of the bands of a grain of semi-axis 1 along the axis
+  Vector3d proportions = Vector3d::Zero();  // semi-axes of a grain of the group's shape, 1 along the axis; zero for an empty group
+  std::vector<double> unit_areas;     // of its bands
   double unit_area = 0.0;             // their sum
   double grains = 0.0, mean_square = 0.0;  // of the group: number, mean of (semi-axis along the axis)^2
   bigint build = -1;                  // the neighbour list that the four above are of
@@ -68,7 +69,7 @@ ComputeContactSurface::ComputeContactSurface(LAMMPS *lmp, int &iarg, int narg, c
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   while (!arguments.done()) {
     const std::string keyword = arguments.choice("keyword", {"bins", "angle", "axis"});
-    if (keyword == "bins") impl_->bins = static_cast<int>(arguments.number(keyword, "a whole number of at least 1", is_bin_count));
+    if (keyword == "bins") impl_->bins = static_cast<int>(arguments.number(keyword, "a whole number from 1 to 1000", is_bin_count));
     if (keyword == "angle") impl_->angle = arguments.choice(keyword, {"polar", "parametric"}) == "polar" ? SurfaceAngle::polar : SurfaceAngle::parametric;
     if (keyword == "axis") {
       const std::string axis = arguments.choice(keyword, {"auto", "x", "y", "z"});
@@ -124,14 +125,22 @@ void ComputeContactSurface::require_one_shape() {
   MPI_Allreduce(MPI_IN_PLACE, extremes, 4, MPI_DOUBLE, MPI_MAX, world);
   if (bad[0] != none) arguments.fail("needs ellipsoids, blockiness 2 2, but grain " + std::to_string(bad[0]) + " has another");
   if (bad[1] != none) arguments.fail("'axis' must be x, y or z for triaxial grains, got 'auto' and grain " + std::to_string(bad[1]));
-  impl_->unit_areas.assign(impl_->bins, 0.0);
-  impl_->unit_area = 0.0;
-  if (extremes[0] == 0.0) return;  // nobody in the group
+  if (extremes[0] == 0.0) {  // nobody in the group
+    impl_->proportions = Vector3d::Zero();
+    impl_->unit_areas.assign(impl_->bins, 0.0);
+    impl_->unit_area = 0.0;
+    return;
+  }
   for (int k = 0; k < 2; k++)
     if (extremes[k] + extremes[2 + k] > 1e-9 * extremes[k])
       arguments.fail("needs grains of one shape in group '" + std::string(group->names[igroup]) + "', got semi-axes across over along the axis from " +
                      std::to_string(-extremes[2 + k]) + " to " + std::to_string(extremes[k]));
-  impl_->unit_areas = grainscope::band_areas(Vector3d(extremes[0], extremes[1], 1.0), impl_->bins, impl_->angle);
+  const Vector3d proportions(extremes[0], extremes[1], 1.0);
+  if (proportions != impl_->proportions) {
+    impl_->proportions = proportions;
+    impl_->unit_areas = grainscope::band_areas(proportions, impl_->bins, impl_->angle);
+  }
+  impl_->unit_area = 0.0;
   for (double area : impl_->unit_areas) impl_->unit_area += area;
 }
 

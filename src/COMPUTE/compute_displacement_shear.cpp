@@ -2,10 +2,10 @@
 #include "compute_displacement_shear.h"
 #include "arguments.h"
 #include "fix_grain_record.h"
-#include "plane.h"
 #include "strain_source.h"
 #include "atom.h"
 #include "domain.h"
+#include "group.h"
 #include "update.h"
 #include <Eigen/LU>
 #include <algorithm>
@@ -57,7 +57,6 @@ struct Box {
 struct ComputeDisplacementShear::Impl {
   explicit Impl(LAMMPS *lmp) : strain(lmp) {}
   grainscope::StrainSource strain;
-  grainscope::Plane plane;
   double start = 0.0;
   FixGrainRecord *record = nullptr;
 
@@ -68,16 +67,15 @@ ComputeDisplacementShear::ComputeDisplacementShear(LAMMPS *lmp, int &iarg, int n
     : Compute(lmp, iarg, narg, arg), impl_(new Impl(lmp)) {
   grainscope::Arguments arguments(lmp, name, iarg, narg, arg);
   while (!arguments.done()) {
-    const std::string keyword = arguments.choice("keyword", {"start", "plane", "strain"});
+    const std::string keyword = arguments.choice("keyword", {"start", "strain"});
     if (keyword == "start") impl_->start = arguments.number(keyword, "a strain", [](double) { return true; });
-    if (keyword == "plane") impl_->plane.read(arguments);
     if (keyword == "strain") impl_->strain.read(arguments);
   }
   scalar_flag = vector_flag = 1;
   extscalar = extvector = 0;
   size_vector = 8;
   vector = new double[size_vector]();
-  impl_->record = FixGrainRecord::of_compute(lmp, id, igroup, WIDTH, SHARED);
+  impl_->record = FixGrainRecord::make(lmp, id, igroup, WIDTH, SHARED, std::string(name) + " " + group->names[igroup]);
 }
 
 ComputeDisplacementShear::~ComputeDisplacementShear() {
@@ -87,7 +85,7 @@ ComputeDisplacementShear::~ComputeDisplacementShear() {
 
 void ComputeDisplacementShear::init() {
   impl_->strain.init(name);
-  impl_->record = FixGrainRecord::of_compute(lmp, id, igroup, WIDTH, SHARED);
+  impl_->record = FixGrainRecord::find(lmp, id);
 }
 
 void ComputeDisplacementShear::begin(double strain) {
@@ -104,6 +102,8 @@ void ComputeDisplacementShear::begin(double strain) {
   MPI_Allreduce(MPI_IN_PLACE, &grains, 1, MPI_DOUBLE, MPI_SUM, world);
   double *shared = impl_->shared();
   std::fill(shared, shared + SHARED, 0.0);
+  double forgotten[3];
+  impl_->record->take_turns(forgotten);
   shared[STARTED] = 1.0;
   shared[STRAIN_0] = shared[STRAIN_1] = strain;
   shared[GRAINS] = grains;
@@ -116,9 +116,10 @@ void ComputeDisplacementShear::follow(double strain) {
   double *shared = impl_->shared();
   const Matrix3d before = Map<Matrix3d>(shared + EDGES);
   Matrix3d after = box.edges;
-  const int flow = impl_->plane.flow, gradient = impl_->plane.gradient;
-  const double expected = before(flow, gradient) + (strain - shared[STRAIN_1]) * 0.5 * (before(gradient, gradient) + after(gradient, gradient));
-  after(flow, gradient) += std::round((expected - after(flow, gradient)) / after(flow, flow)) * after(flow, flow);
+  double turns[3];
+  impl_->record->take_turns(turns);
+  after.col(2) -= turns[0] * after.col(1) + turns[1] * after.col(0);  // edges as if the box had not flipped
+  after.col(1) -= turns[2] * after.col(0);
 
   const Matrix3d to_s1 = before.inverse(), to_s2 = after.inverse(), mean = 0.5 * (before + after);
   const double turn = 2.0 * IMGMAX;  // the host's image flags count modulo this

@@ -25,6 +25,8 @@ const Weighted weighted_tensors[] = {{"branch", &WeightedFabricSums::branch},
                                      {"force/normal", &WeightedFabricSums::normal_force},
                                      {"force/tangential", &WeightedFabricSums::tangential_force}};
 
+const double rounding = 1e-10;  // of sums whose trace is 1
+
 double *put_symmetric(double *at, const Matrix3d &m) {
   for (double value : {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)}) *at++ = value;
   return at;
@@ -45,8 +47,11 @@ ComputeFabric::ComputeFabric(LAMMPS *lmp, int &iarg, int narg, char **arg) : Con
   while (!arguments.done()) {
     const std::string keyword = arguments.choice("keyword", {"plane", "branch", "force/normal", "force/tangential"});
     if (keyword == "plane") impl_->plane.read(arguments);
-    for (const Weighted &one : weighted_tensors)
-      if (keyword == one.name) impl_->chosen.push_back(&one);
+    for (const Weighted &one : weighted_tensors) {
+      if (keyword != one.name) continue;
+      if (std::find(impl_->chosen.begin(), impl_->chosen.end(), &one) != impl_->chosen.end()) arguments.fail("'" + keyword + "' is given twice");
+      impl_->chosen.push_back(&one);
+    }
   }
   scalar_flag = vector_flag = 1;
   extscalar = 0;
@@ -86,8 +91,10 @@ void ComputeFabric::compute_vector() {
   out = std::copy(principal.values.data(), principal.values.data() + 3, out);
   out = std::copy(principal.vectors.data(), principal.vectors.data() + 9, out);
   *out++ = scalar;
-  *out++ = 0.5 * std::atan2(2.0 * fabric(a, b) + 0.0, fabric(a, a) - fabric(b, b));
-  *out++ = principal.values[1] > 0.0 ? principal.values[0] / principal.values[1] : 0.0;
+  const double shear = 2.0 * fabric(a, b), difference = fabric(a, a) - fabric(b, b);
+  const bool isotropic_in_plane = std::hypot(shear, difference) <= rounding;
+  *out++ = isotropic_in_plane ? 0.0 : 0.5 * std::atan2(std::fabs(shear) <= rounding * std::fabs(difference) ? 0.0 : shear, difference);
+  *out++ = principal.values[1] > rounding ? principal.values[0] / principal.values[1] : 0.0;
   *out++ = all.contacts();
 
   if (impl_->chosen.empty()) return;

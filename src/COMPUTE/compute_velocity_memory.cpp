@@ -7,9 +7,12 @@
 #include "rows.h"
 #include "strain_source.h"
 #include "velocity_component.h"
+#include "atom.h"
+#include "group.h"
 #include "update.h"
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 using namespace LAMMPS_NS;
 using grainscope::Fluctuations;
@@ -24,7 +27,7 @@ const int width = 4;
 enum { SAMPLES = 0, STRAIN_0, NEXT, PAST };
 enum { STRAIN = 0, PRODUCTS, PAIRS, SUMS };
 
-bool is_lag_count(double n) { return n >= 1.0 && n <= 1e4 && n == std::floor(n); }
+bool is_lag_count(double n) { return n >= 1.0 && n <= 400.0 && n == std::floor(n); }
 
 }
 
@@ -41,9 +44,13 @@ struct ComputeVelocityMemory::Impl {
   double *shared() { return record->shared().data(); }
   double *past() { return shared() + PAST; }
   double *sums(int lag) { return past() + lags + lag * SUMS; }
-  void find_record(LAMMPS *lmp, const char *id, int igroup) {
-    // Per grain: its values in the last samples, then 1 + the number of the first sample it was in.
-    record = FixGrainRecord::of_compute(lmp, id, igroup, lags + 1, PAST + lags + (lags + 1) * SUMS);
+  /** Per grain: its values in the last samples, then 1 + the number of the first sample it was in. */
+  void make_record(LAMMPS *lmp, const char *id, int igroup) {
+    std::ostringstream meaning;
+    meaning.precision(17);
+    meaning << name << ' ' << lmp->group->names[igroup] << ' ' << component.spin << component.axis << ' ' << every << ' ' << lags << ' '
+            << static_cast<int>(flow.kind) << ' ' << flow.rate << ' ' << flow.layers << ' ' << flow.plane.flow << flow.plane.gradient;
+    record = FixGrainRecord::make(lmp, id, igroup, lags + 1, PAST + lags + (lags + 1) * SUMS, meaning.str());
   }
 };
 
@@ -54,11 +61,12 @@ ComputeVelocityMemory::ComputeVelocityMemory(LAMMPS *lmp, int &iarg, int narg, c
     const std::string keyword = arguments.choice("keyword", {"component", "every", "lags", "strain", "flow", "plane"});
     if (keyword == "component") impl_->component.read(arguments);
     if (keyword == "every") impl_->every = arguments.number(keyword, "a positive strain", [](double x) { return x > 0.0; });
-    if (keyword == "lags") impl_->lags = static_cast<int>(arguments.number(keyword, "a whole number from 1 to 10000", is_lag_count));
+    if (keyword == "lags") impl_->lags = static_cast<int>(arguments.number(keyword, "a whole number from 1 to 400", is_lag_count));
     if (keyword == "strain") impl_->strain.read(arguments);
     if (keyword == "flow") impl_->flow.read(arguments);
     if (keyword == "plane") impl_->flow.plane.read(arguments);
   }
+  if (!atom->superquadric_flag && !atom->sphere_flag) arguments.fail("needs atom_style superquadric or sphere");
   scalar_flag = vector_flag = array_flag = 1;
   extscalar = extvector = extarray = 0;
   size_vector = 3;
@@ -66,7 +74,7 @@ ComputeVelocityMemory::ComputeVelocityMemory(LAMMPS *lmp, int &iarg, int narg, c
   size_array_rows = impl_->lags + 1;
   size_array_cols = width;
   array = impl_->rows.resize(size_array_rows, width);
-  impl_->find_record(lmp, id, igroup);
+  impl_->make_record(lmp, id, igroup);
 }
 
 ComputeVelocityMemory::~ComputeVelocityMemory() {
@@ -76,7 +84,7 @@ ComputeVelocityMemory::~ComputeVelocityMemory() {
 
 void ComputeVelocityMemory::init() {
   impl_->strain.init(name);
-  impl_->find_record(lmp, id, igroup);
+  impl_->record = FixGrainRecord::find(lmp, id);
 }
 
 void ComputeVelocityMemory::sample_if_due() {

@@ -26,7 +26,7 @@ double parametric_element(const Vector3d &s, double psi, double phi) {
 
 template <class F>
 double integral(F f, double from, double to) {
-  return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(f, from, to, 12, 1e-13);
+  return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(f, from, to, 4, 1e-13);
 }
 
 }

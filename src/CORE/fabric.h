@@ -32,11 +32,13 @@ struct ContactMoment {
  *  a = 15/2 (F - 1/3), w = 1/(1 + a:nn), and the sums of w r n n, w f_n n n, w |F_t| n n over contacts, each once. The mean over
  *  contacts that the definition asks for cancels in the tensors. */
 struct WeightedFabricSums {
-  std::array<double, 18> sums{};  // branch, normal force, tangential force: xx yy zz xy xz yz each
+  // branch, normal force, tangential force: xx yy zz xy xz yz each; then contacts with 1 + a:nn <= 0, where the expansion has no meaning
+  std::array<double, 19> sums{};
 
   /** `fabric`: <n n> of all contacts. */
   void add(const ContactMoment &m, const Eigen::Matrix3d &fabric);
-  /** Traceless, 15/(2 tr D) (D - tr D/3). Zero where the trace is. */
+  double beyond_expansion() const { return sums[18]; }
+  /** Traceless, 15/(2 tr D) (D - tr D/3). All three are zero where their trace is, or when a contact lies beyond the expansion. */
   Eigen::Matrix3d branch() const;
   /** 15/(2 tr N) (N - tr N/3). */
   Eigen::Matrix3d normal_force() const;

@@ -7,17 +7,42 @@
 #include "group.h"
 #include "modify.h"
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 
 using namespace LAMMPS_NS;
 
+namespace {
+
+// The host's buffers for grains that change ranks have room for 1000 numbers beyond what they are sized for.
+const int most_numbers = 800;
+
+/** A word as a whole number within bounds, or -1. */
+int whole(const char *word, int low, int high) {
+  char *end = nullptr;
+  const long n = strtol(word, &end, 10);
+  return *word && !*end && n >= low && n <= high ? static_cast<int>(n) : -1;
+}
+
+/** FNV-1a, 32 bits: every such number is a double. */
+double hash(const std::string &text) {
+  std::uint32_t h = 2166136261u;
+  for (unsigned char c : text) h = (h ^ c) * 16777619u;
+  return h;
+}
+
+}
+
 FixGrainRecord::FixGrainRecord(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg) {
-  if (narg != 5) error->all(FLERR, "fix grain/record: is made by the computes that need it, not by an input script");
-  width_ = atoi(arg[3]);
-  shared_.assign(atoi(arg[4]), 0.0);
-  restart_global = restart_peratom = 1;
-  note_box();
+  width_ = narg == 6 ? whole(arg[3], 1, most_numbers) : -1;
+  const int shared = narg == 6 ? whole(arg[4], 0, 1000000) : -1;
+  if (width_ < 0 || shared < 0) error->all(FLERR, "fix grain/record: is made by the computes that need it, not by an input script");
+  meaning_ = atof(arg[5]);
+  shared_.assign(shared, 0.0);
+  restart_global = restart_peratom = create_attribute = 1;
+  std::copy(domain->h, domain->h + 6, edges_);
   grow_arrays(atom->nmax);
   atom->add_callback(0);
   atom->add_callback(1);
@@ -30,23 +55,59 @@ FixGrainRecord::~FixGrainRecord() {
 
 int FixGrainRecord::setmask() { return FixConst::PRE_FORCE; }
 
-void FixGrainRecord::note_box() { std::copy(domain->h, domain->h + 6, edges_); }
+/** A tilt that changes by more than half an edge between two force evaluations was turned back. */
+void FixGrainRecord::note_box() {
+  const double *h = domain->h;
+  const double yz = std::round((h[3] - edges_[3]) / h[1]);
+  turns_[0] += yz;
+  turns_[1] += std::round((h[4] - edges_[4] - yz * h[5]) / h[0]);
+  turns_[2] += std::round((h[5] - edges_[5]) / h[0]);
+  std::copy(h, h + 6, edges_);
+}
+
+void FixGrainRecord::take_turns(double turns[3]) {
+  std::copy(turns_, turns_ + 3, turns);
+  std::fill(turns_, turns_ + 3, 0.0);
+}
 
 std::string FixGrainRecord::id_for(const char *compute) { return std::string(compute) + "_record"; }
 
-FixGrainRecord *FixGrainRecord::of_compute(LAMMPS *lmp, const char *compute, int igroup, int width, int shared) {
-  const std::string words[5] = {id_for(compute), lmp->group->names[igroup], "grain/record", std::to_string(width), std::to_string(shared)};
-  if (lmp->modify->find_fix(words[0].c_str()) < 0) {
-    char *arg[5];
-    for (int k = 0; k < 5; k++) arg[k] = const_cast<char *>(words[k].c_str());
-    lmp->modify->add_fix(5, arg);
-  }
-  return dynamic_cast<FixGrainRecord *>(lmp->modify->fix[lmp->modify->find_fix(words[0].c_str())]);
+FixGrainRecord *FixGrainRecord::make(LAMMPS *lmp, const char *id, int igroup, int width, int shared, const std::string &meaning) {
+  const std::string record = id_for(id);
+  if (lmp->modify->find_fix(record.c_str()) >= 0)
+    lmp->error->all(FLERR, ("compute " + std::string(id) + " needs the fix ID '" + record + "' for its memory, but it is taken").c_str());
+  const std::string words[6] = {record, lmp->group->names[igroup], "grain/record", std::to_string(width), std::to_string(shared),
+                                std::to_string(hash(meaning))};
+  char *arg[6];
+  for (int k = 0; k < 6; k++) arg[k] = const_cast<char *>(words[k].c_str());
+  lmp->modify->add_fix(6, arg);
+  FixGrainRecord *made = find(lmp, id);
+  made->require_room();
+  return made;
+}
+
+FixGrainRecord *FixGrainRecord::find(LAMMPS *lmp, const char *id) {
+  const std::string record = id_for(id);
+  const int found = lmp->modify->find_fix(record.c_str());
+  FixGrainRecord *fix = found < 0 ? nullptr : dynamic_cast<FixGrainRecord *>(lmp->modify->fix[found]);
+  if (!fix)
+    lmp->error->all(FLERR, ("fix " + record + ", which holds the memory of compute " + id + ", is gone: uncompute it and compute again").c_str());
+  return fix;
+}
+
+void FixGrainRecord::require_room() const {
+  int numbers = 0;
+  for (int k = 0; k < modify->nfix; k++)
+    if (const FixGrainRecord *one = dynamic_cast<const FixGrainRecord *>(modify->fix[k])) numbers += one->width_;
+  if (numbers > most_numbers)
+    error->all(FLERR, ("all computes together must remember at most " + std::to_string(most_numbers) + " numbers per grain, got " +
+                       std::to_string(numbers) + ": take fewer 'lags'").c_str());
 }
 
 void FixGrainRecord::forget(LAMMPS *lmp, const char *compute) {
   const std::string id = id_for(compute);
-  if (lmp->modify->nfix && lmp->modify->find_fix(id.c_str()) >= 0) lmp->modify->delete_fix(id.c_str());
+  const int found = lmp->modify->nfix ? lmp->modify->find_fix(id.c_str()) : -1;
+  if (found >= 0 && dynamic_cast<FixGrainRecord *>(lmp->modify->fix[found])) lmp->modify->delete_fix(id.c_str());
 }
 
 double FixGrainRecord::memory_usage() { return (values_.capacity() + shared_.capacity()) * sizeof(double); }
@@ -79,26 +140,24 @@ void FixGrainRecord::unpack_restart(int i, int nth) {
   std::copy(extra + 1, extra + 1 + width_, of(i));
 }
 
-/** The host hands the numbers over without their count: it goes first. */
 void FixGrainRecord::write_restart(FILE *file) {
   if (comm->me != 0) return;
-  std::vector<double> state(1, shared_.size());
+  std::vector<double> state = {meaning_, turns_[0], turns_[1], turns_[2]};
   state.insert(state.end(), shared_.begin(), shared_.end());
   const int size = state.size() * sizeof(double);
   fwrite(&size, sizeof size, 1, file);
   fwrite(state.data(), 1, size, file);
 }
 
+/** The host does not tell how many numbers there are; the first says whether they are those of the same measurement. */
 void FixGrainRecord::restart(char *buffer) {
-  double count;
-  memcpy(&count, buffer, sizeof count);
-  require_size(static_cast<int>(count), shared_.size());
-  memcpy(shared_.data(), buffer + sizeof count, shared_.size() * sizeof(double));
-}
-
-void FixGrainRecord::require_size(int found, int expected) const {
-  if (found == expected) return;
-  const std::string message = "the restart file holds " + std::to_string(found) + " numbers for " + id + ", but its compute needs " +
-      std::to_string(expected) + ": give the compute the style and keywords that it had, or another ID";
-  error->all(FLERR, message.c_str());
+  double head[4];
+  memcpy(head, buffer, sizeof head);
+  if (head[0] != meaning_) {
+    const std::string message = std::string(id) + ": the restart file holds the memory of another compute: give the compute the style, group and "
+                                "keywords that it had, or another ID";
+    error->all(FLERR, message.c_str());
+  }
+  std::copy(head + 1, head + 4, turns_);
+  memcpy(shared_.data(), buffer + sizeof head, shared_.size() * sizeof(double));
 }

@@ -15,9 +15,9 @@ FixStyle(grain/record,FixGrainRecord)
 namespace LAMMPS_NS {
 
 /** The memory of a compute: `width` numbers per grain, which follow the grain from rank to rank, and numbers that all ranks share; both
- *  are kept in restart files. New grains have zeros. It also notes the box of each force evaluation, the one that image flags count in:
- *  a fix that deforms the box at the end of the step moves it on before computes are asked.
- *  Made by computes, not by input scripts: arguments are width and shared size. */
+ *  are kept in restart files. New grains have zeros. It also notes the box of each force evaluation, the one that image flags count in (a
+ *  fix that deforms the box at the end of the step moves it on before computes are asked), and counts box flips.
+ *  Made by computes, not by input scripts: arguments are width, shared size, and a number that stands for what is remembered. */
 class FixGrainRecord : public Fix {
  public:
   FixGrainRecord(class LAMMPS *lmp, int narg, char **arg);
@@ -26,8 +26,11 @@ class FixGrainRecord : public Fix {
   void setup_pre_force(int) { note_box(); }
   void pre_force(int) { note_box(); }
 
-  /** The record of compute `id`, made if there is none; what a restart file holds of it is restored. Collective. */
-  static FixGrainRecord *of_compute(class LAMMPS *lmp, const char *id, int igroup, int width, int shared);
+  /** Makes the record of compute `id`, in its constructor; what a restart file holds of it is restored, and refused when `meaning` (style
+   *  and keywords of the compute) was another. Collective. */
+  static FixGrainRecord *make(class LAMMPS *lmp, const char *id, int igroup, int width, int shared, const std::string &meaning);
+  /** The record that was made, or an error when it is gone. */
+  static FixGrainRecord *find(class LAMMPS *lmp, const char *id);
   /** To be called by the compute's destructor. */
   static void forget(class LAMMPS *lmp, const char *id);
 
@@ -35,6 +38,8 @@ class FixGrainRecord : public Fix {
   std::vector<double> &shared() { return shared_; }
   /** Edges (upper triangle: xx yy zz yz xz xy) of the box at the last force evaluation. */
   const double *edges() const { return edges_; }
+  /** How often the tilts yz, xz, xy were turned back by one edge since this was asked last, positive when they grew. */
+  void take_turns(double turns[3]);
 
   double memory_usage();
   void grow_arrays(int nmax);
@@ -52,11 +57,13 @@ class FixGrainRecord : public Fix {
  private:
   int width_;
   std::vector<double> values_, shared_;
+  double meaning_;
   double edges_[6];
+  double turns_[3] = {0.0, 0.0, 0.0};
 
   void note_box();
+  void require_room() const;
   static std::string id_for(const char *compute);
-  void require_size(int found, int expected) const;
 };
 
 }

@@ -8,7 +8,7 @@
 
 namespace grainscope {
 
-/** Semi-axes of grain i: those of a superquadric, three times the radius of a sphere. */
+/** Semi-axes of grain i: those of a superquadric, for a sphere its radius, three times. */
 inline Eigen::Vector3d semi_axes(const LAMMPS_NS::Atom &atom, int i) {
   if (atom.superquadric_flag) return Eigen::Map<const Eigen::Vector3d>(atom.shape[i]);
   return Eigen::Vector3d::Constant(atom.radius[i]);

@@ -55,6 +55,10 @@ void StrainSource::init(const std::string &style) {
   }
 }
 
-double StrainSource::now() const { return fix_ ? fix_->compute_vector(element_) : input->variable->compute_equal(variable_); }
+double StrainSource::now() const {
+  if (fix_) return fix_->compute_vector(element_);
+  if (variable_ < 0) Arguments(lmp, "a compute that follows the strain", 0, 0, nullptr).fail("was not set up: do not use 'pre no' in the first run with it");
+  return input->variable->compute_equal(variable_);
+}
 
 }

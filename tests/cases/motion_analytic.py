@@ -88,7 +88,7 @@ def drifting(sign, plane="xy", by=lambda rate, plane: deforming(rate, plane)):
     """Free flight with a drift u of all grains: d_x = u_x t - rate u_y t^2/2, d_y = u_y t, d_z = u_z t, through wraps of all faces and
     flips, however often it is asked."""
     a, b = axes = tuple("xyz".index(k) for k in plane)
-    watched = Watched("moved", f"displacement/shear strain v_strain plane {plane}", True, 8)
+    watched = Watched("moved", "displacement/shear strain v_strain", True, 8)
 
     def case(ranks):
         drift, rate = np.array([1.7, 2.6, -2.3]), sign * RATE
@@ -199,6 +199,32 @@ def later_grains(ranks):
     require_close(table["c_moved[2]"][-1], (0.5 * 10 * deck.dt()) ** 2, 1e-10, "<d_x^2>")
 
 
+def replaced_grains(ranks):
+    """A grain that takes the place of one that was deleted has no past."""
+    packing = carried(gas(), 0.0, 0.0)
+    last = len(packing.grains)
+    deck = Deck(packing, body=["variable strain equal step*0.01", "compute moved all " + MOVED.command, *thermo(1, *MOVED.columns()),
+                               "velocity all set 0.5 0 0 units box", "run 5", f"group gone id {last}", "delete_atoms group gone compress no",
+                               f"create_atoms 1 single {numbers(packing.grains[0].position + np.array([0.0, 1.0, 0.0]))} units box",
+                               f"set atom {last} diameter 0.2 density 1000 vx 9", "run 5"])
+    table = run(deck, ranks).thermo()[-1]
+    require_equal(table["c_moved[8]"][1:], np.full(5, last - 1), "grains tracked")
+    require_close(table["c_moved[2]"][-1], (0.5 * 10 * deck.dt()) ** 2, 1e-10, "<d_x^2>")
+
+
+def rarely_asked(rate):
+    """Affine flow through flips, asked twice per unit of strain only, with a strain that may start again: nothing moves."""
+    def case(ranks):
+        deck = Deck(carried(gas(), rate, 0.0))
+        steps = round(0.5 / (abs(rate) * deck.dt()))
+        deck.body = [deforming(rate).line, "variable strain equal step*0.01", "compute moved all " + MOVED.command,
+                     *thermo(steps, *MOVED.columns()), f"run {2 * steps}", "reset_timestep 0", f"run {2 * steps}"]
+        for table in run(deck, ranks).thermo():
+            # X reaches 40, and its steps add up over thousands.
+            require_close([table[f"c_moved[{k}]"] for k in (2, 3, 4)], np.zeros((3, 3)), 1e-16, "<d^2>", 40.0 ** 2)
+    return case
+
+
 def in_rows():
     """Spheres in rows along x, each row with a velocity of its own: they cross the box and never touch."""
     random = np.random.default_rng(8)
@@ -263,6 +289,9 @@ CASES = {
     "lever": lever,
     "planes-of-grains": planes_of_grains,
     "random-walk": random_walk,
+    "replaced-grains": replaced_grains,
+    "rarely-asked": rarely_asked(RATE),
+    "rarely-asked-backward": rarely_asked(-RATE),
     "later-grains": later_grains,
     "starts-late": starts_late,
     "remembers": remembers,

@@ -8,6 +8,7 @@ from case import main, require, require_close, require_equal, require_same_snaps
 from catalogue import BLOCKS, DISPLACEMENT, MEMORY, everything, strain_lines
 from deck import Deck, dump_grains, shear, thermo
 from packing import dense_packing, in_the_open, tilted
+from refusal import refusal
 from run import run
 from watch import grain_columns
 
@@ -167,6 +168,16 @@ def restart_continues(packing, other_ranks=None):
     return case
 
 
+def restart_refused(ranks):
+    """The memory of one measurement is not taken for that of another."""
+    deck = Deck(dense_packing(atom_style="sphere", speed=0.2))
+    start = [*strain_lines(RATE), PRESS]
+    saved = run(replace(deck, body=[*start, MEMORY.define("all"), "run 3", "write_restart half.restart"]), ranks)
+    other = f"compute {MEMORY.name} all velocity/memory component wz"
+    refusal(lambda: deck.restarted(saved.folder / "half.restart", [*start, other, "run 1"]),
+            f"{MEMORY.name}_record: the restart file holds the memory of another compute")(ranks)
+
+
 SPHERES, SPHEROIDS = dense_packing(atom_style="sphere", speed=0.2), dense_packing(1.5, speed=0.2)
 CASES = {
     "spheres": same_on(Deck(SPHERES), SUMS),
@@ -180,6 +191,7 @@ CASES = {
     "does-not-disturb-spheroids": does_not_disturb(tilted(SPHEROIDS, 0.49)),
     "restart-continues": restart_continues(tilted(SPHEROIDS, 0.495)),
     "restart-of-spheres-continues": restart_continues(tilted(SPHERES, 0.495)),
+    "restart-refused": restart_refused,
     "restart-on-other-ranks": restart_continues(tilted(SPHERES, 0.495), other_ranks=1),
 }
 

@@ -59,7 +59,7 @@ def agrees(deck, flow, plane="xy", group="all", check=None):
     body = [*deck.body, f"variable strain equal step*dt*{number(flow.rate)}"]
 
     def case(ranks):
-        displacement = Watched("moved", f"displacement/shear plane {plane}{words}", True, 8)
+        displacement = Watched("moved", f"displacement/shear{words}", True, 8)
         kept = memories(abs(every), words, plane)
         moments = watch(replace(deck, body=body), [displacement, *kept], flow, ranks, group, steps=STEPS, every=EVERY, told=EVERY,
                         contacts=False, extra=(told,))
