@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fabric.h"
-#include <algorithm>
+#include <cmath>
 
 namespace grainscope {
 
@@ -29,8 +29,11 @@ Matrix3d FabricSums::tensor() const {
 void WeightedFabricSums::add(const ContactMoment &m, const Matrix3d &fabric) {
   const Eigen::Vector3d &n = m.normal;
   const double anisotropy = 7.5 * (n.dot(fabric * n) - 1.0 / 3.0);
-  if (1.0 + anisotropy < 1e-10) sums[18] += 1.0;
-  const double weight = m.weight / std::max(1.0 + anisotropy, 1e-10);
+  if (std::fabs(1.0 + anisotropy) < 1e-10) {
+    sums[18] += 1.0;
+    return;
+  }
+  const double weight = m.weight / (1.0 + anisotropy);
   const double products[6] = {n[0] * n[0], n[1] * n[1], n[2] * n[2], n[0] * n[1], n[0] * n[2], n[1] * n[2]};
   for (int k = 0; k < 6; k++) {
     sums[k] += weight * m.distance * products[k];
@@ -40,19 +43,19 @@ void WeightedFabricSums::add(const ContactMoment &m, const Matrix3d &fabric) {
 }
 
 Matrix3d WeightedFabricSums::branch() const {
-  if (beyond_expansion() > 0.0) return Matrix3d::Zero();
+  if (singular() > 0.0) return Matrix3d::Zero();
   const Matrix3d d = symmetric(&sums[0]);
   return deviator_over(d.trace() / 7.5, d);
 }
 
 Matrix3d WeightedFabricSums::normal_force() const {
-  if (beyond_expansion() > 0.0) return Matrix3d::Zero();
+  if (singular() > 0.0) return Matrix3d::Zero();
   const Matrix3d n = symmetric(&sums[6]);
   return deviator_over(n.trace() / 7.5, n);
 }
 
 Matrix3d WeightedFabricSums::tangential_force() const {
-  if (beyond_expansion() > 0.0) return Matrix3d::Zero();
+  if (singular() > 0.0) return Matrix3d::Zero();
   return deviator_over(symmetric(&sums[6]).trace() / 5.0, symmetric(&sums[12]));
 }
 

@@ -205,7 +205,7 @@ def replaced_grains(ranks):
     last = len(packing.grains)
     deck = Deck(packing, body=["variable strain equal step*0.01", "compute moved all " + MOVED.command, *thermo(1, *MOVED.columns()),
                                "velocity all set 0.5 0 0 units box", "run 5", f"group gone id {last}", "delete_atoms group gone compress no",
-                               f"create_atoms 1 single {numbers(packing.grains[0].position + np.array([0.0, 1.0, 0.0]))} units box",
+                               f"create_atoms 1 single {numbers(packing.grains[-1].position)} units box",
                                f"set atom {last} diameter 0.2 density 1000 vx 9", "run 5"])
     table = run(deck, ranks).thermo()[-1]
     require_equal(table["c_moved[8]"][1:], np.full(5, last - 1), "grains tracked")
