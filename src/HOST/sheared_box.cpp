@@ -53,16 +53,10 @@ void ShearedBox::flip(double velocity, double rate) {
 
   const int turn = tilt_of(*shear_) > 0.0 ? -1 : 1;
   tilt_of(*shear_) += turn * domain->prd[shear_->flow];
-  int turn_xz = shear_->index == 4 ? turn : 0;
-  if (shear_->index == 3) {  // the edge along z moves by the whole edge along y, tilt and all
-    domain->xz += turn * domain->xy;
-    turn_xz = -static_cast<int>(std::round(domain->xz / domain->xprd));
-    domain->xz += turn_xz * domain->xprd;
-  }
   domain->set_global_box();
   domain->set_local_box();
   set_rates(velocity, rate);
-  domain->image_flip(shear_->index == 5 ? turn : 0, turn_xz, shear_->index == 3 ? turn : 0);
+  domain->image_flip(shear_->index == 5 ? turn : 0, shear_->index == 4 ? turn : 0, shear_->index == 3 ? turn : 0);
 
   domain->x2lamda(atom->nlocal);
   domain->pbc();
