@@ -17,8 +17,6 @@ const int width = 9;
 
 enum { CONTACTS, NORMAL, TANGENTIAL, ALONG, SUMS };
 
-bool is_even_count(double n) { return n >= 2.0 && n <= 10000.0 && n == 2.0 * std::floor(0.5 * n); }
-
 }
 
 struct ComputeContactDirection::Impl {
@@ -34,7 +32,7 @@ ComputeContactDirection::ComputeContactDirection(LAMMPS *lmp, int &iarg, int nar
   while (!arguments.done()) {
     const std::string keyword = arguments.choice("keyword", {"plane", "bins"});
     if (keyword == "plane") impl_->plane.read(arguments);
-    else impl_->half = static_cast<int>(arguments.number(keyword, "an even whole number from 2 to 10000", is_even_count)) / 2;
+    else impl_->half = arguments.even_number(keyword, 2, 10000) / 2;
   }
   array_flag = 1;
   extarray = 0;

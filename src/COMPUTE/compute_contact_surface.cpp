@@ -33,8 +33,6 @@ enum { CONTACTS, NORMAL, TANGENTIAL, MOBILISATION, SLIDING, NORMAL_POWER, FRICTI
 /** v seen along body axis `axis`: that component last, the others before it. */
 Vector3d along(int axis, const Vector3d &v) { return {v[(axis + 1) % 3], v[(axis + 2) % 3], v[axis]}; }
 
-bool is_bin_count(double n) { return n >= 1.0 && n <= 1000.0 && n == std::floor(n); }
-
 }
 
 struct ComputeContactSurface::Impl {
@@ -69,7 +67,7 @@ ComputeContactSurface::ComputeContactSurface(LAMMPS *lmp, int &iarg, int narg, c
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   while (!arguments.done()) {
     const std::string keyword = arguments.choice("keyword", {"bins", "angle", "axis"});
-    if (keyword == "bins") impl_->bins = static_cast<int>(arguments.number(keyword, "a whole number from 1 to 1000", is_bin_count));
+    if (keyword == "bins") impl_->bins = arguments.whole_number(keyword, 1, 1000);
     if (keyword == "angle") impl_->angle = arguments.choice(keyword, {"polar", "parametric"}) == "polar" ? SurfaceAngle::polar : SurfaceAngle::parametric;
     if (keyword == "axis") {
       const std::string axis = arguments.choice(keyword, {"auto", "x", "y", "z"});

@@ -20,7 +20,6 @@ namespace {
 
 const int width = 5;
 
-bool is_layer_count(double n) { return n >= 1.0 && n <= 10000.0 && n == std::floor(n); }
 bool is_positive(double x) { return x > 0.0; }
 
 }
@@ -43,7 +42,7 @@ ComputeFluctuation::ComputeFluctuation(LAMMPS *lmp, int &iarg, int narg, char **
   while (!arguments.done()) {
     const std::string keyword = arguments.choice("keyword", {"plane", "layers", "diameter", "flow"});
     if (keyword == "plane") impl_->flow.plane.read(arguments);
-    if (keyword == "layers") impl_->layers = static_cast<int>(arguments.number(keyword, "a whole number from 1 to 10000", is_layer_count));
+    if (keyword == "layers") impl_->layers = arguments.whole_number(keyword, 1, 10000);
     if (keyword == "diameter") impl_->diameter = arguments.number(keyword, "a positive length", is_positive);
     if (keyword == "flow") impl_->flow.read(arguments);
   }

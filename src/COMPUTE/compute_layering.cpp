@@ -11,12 +11,6 @@
 
 using namespace LAMMPS_NS;
 
-namespace {
-
-bool is_even_count(double n) { return n >= 2.0 && n <= 1000.0 && n == 2.0 * std::floor(0.5 * n); }
-
-}
-
 struct ComputeLayering::Impl {
   int axis = 1;
   int layers = 40;
@@ -29,7 +23,7 @@ ComputeLayering::ComputeLayering(LAMMPS *lmp, int &iarg, int narg, char **arg) :
   while (!arguments.done()) {
     const std::string keyword = arguments.choice("keyword", {"axis", "layers"});
     if (keyword == "axis") impl_->axis = arguments.choice(keyword, {"x", "y", "z"})[0] - 'x';
-    else impl_->layers = static_cast<int>(arguments.number(keyword, "an even whole number from 2 to 1000", is_even_count));
+    else impl_->layers = arguments.even_number(keyword, 2, 1000);
   }
   scalar_flag = vector_flag = array_flag = 1;
   extscalar = extvector = extarray = 0;

@@ -29,8 +29,6 @@ namespace {
 const char *const name = "compute velocity/correlation";
 const double most_mesh_cells = 1e9;
 
-bool is_bin_count(double n) { return n >= 1.0 && n <= 1e4 && n == std::floor(n); }
-bool is_mesh(double n) { return n >= 1.0 && n <= 100.0 && n == std::floor(n); }
 bool is_positive(double x) { return x > 0.0; }
 
 PeriodicCell periodic_cell(const grainscope::BoxState &box, const Domain &domain) {
@@ -100,13 +98,13 @@ ComputeVelocityCorrelation::ComputeVelocityCorrelation(LAMMPS *lmp, int &iarg, i
     const std::string keyword =
         arguments.choice("keyword", {"component", "bins", "range", "method", "mesh", "flow", "plane", "average"});
     if (keyword == "component") impl_->component.read(arguments);
-    if (keyword == "bins") impl_->bins = static_cast<int>(arguments.number(keyword, "a whole number from 1 to 10000", is_bin_count));
+    if (keyword == "bins") impl_->bins = arguments.whole_number(keyword, 1, 10000);
     if (keyword == "range") impl_->range = arguments.number(keyword, "a positive length", is_positive);
     if (keyword == "method")
       impl_->mesh.reset(arguments.choice(keyword, {"direct", "mesh"}) == "mesh" ? new grainscope::MeshCorrelation(world) : nullptr);
     if (keyword == "mesh") {
       mesh_given = true;
-      impl_->mesh_per_bin = static_cast<int>(arguments.number(keyword, "a whole number from 1 to 100", is_mesh));
+      impl_->mesh_per_bin = arguments.whole_number(keyword, 1, 100);
     }
     if (keyword == "flow") impl_->flow.read(arguments);
     if (keyword == "plane") impl_->flow.plane.read(arguments);

@@ -27,8 +27,6 @@ const int width = 4;
 enum { SAMPLES = 0, STRAIN_0, NEXT, PAST };
 enum { STRAIN = 0, PRODUCTS, PAIRS, SUMS };
 
-bool is_lag_count(double n) { return n >= 1.0 && n <= 400.0 && n == std::floor(n); }
-
 }
 
 struct ComputeVelocityMemory::Impl {
@@ -61,7 +59,7 @@ ComputeVelocityMemory::ComputeVelocityMemory(LAMMPS *lmp, int &iarg, int narg, c
     const std::string keyword = arguments.choice("keyword", {"component", "every", "lags", "strain", "flow", "plane"});
     if (keyword == "component") impl_->component.read(arguments);
     if (keyword == "every") impl_->every = arguments.number(keyword, "a positive strain", [](double x) { return x > 0.0; });
-    if (keyword == "lags") impl_->lags = static_cast<int>(arguments.number(keyword, "a whole number from 1 to 400", is_lag_count));
+    if (keyword == "lags") impl_->lags = arguments.whole_number(keyword, 1, 400);
     if (keyword == "strain") impl_->strain.read(arguments);
     if (keyword == "flow") impl_->flow.read(arguments);
     if (keyword == "plane") impl_->flow.plane.read(arguments);

@@ -24,7 +24,7 @@ class Grid {
   Grid(const PeriodicCell &cell, double range, std::size_t points) : periodic_(cell.periodic) {
     const int most = std::max(1, static_cast<int>(std::cbrt(points / 8.0)));
     for (int k = 0; k < 3; k++) {
-      const double reach = range / cell.height(k);
+      const double reach = std::min(range / cell.height(k), 1e3);  // farther is everywhere
       n_[k] = static_cast<int>(std::min<double>(most, std::max(1.0, 2.0 / reach)));
       reach_[k] = static_cast<int>(std::ceil(reach * n_[k]));
       if (2 * reach_[k] + 1 >= n_[k]) n_[k] = 1;

@@ -37,6 +37,18 @@ double Arguments::number(const std::string &keyword, const std::string &requirem
   return value;
 }
 
+int Arguments::multiple(const std::string &keyword, int of, int low, int high, const std::string &what) {
+  const std::string requirement = what + " from " + std::to_string(low) + " to " + std::to_string(high);
+  const std::string got = word(requirement);
+  double value;
+  if (!is_number(got, value) || value < low || value > high || value != of * std::floor(value / of)) fail(keyword, requirement, got);
+  return static_cast<int>(value);
+}
+
+int Arguments::whole_number(const std::string &keyword, int low, int high) { return multiple(keyword, 1, low, high, "a whole number"); }
+
+int Arguments::even_number(const std::string &keyword, int low, int high) { return multiple(keyword, 2, low, high, "an even whole number"); }
+
 void Arguments::fail(const std::string &keyword, const std::string &requirement, const std::string &got) const {
   fail("'" + keyword + "' must be " + requirement + ", got '" + got + "'");
 }

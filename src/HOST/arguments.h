@@ -22,6 +22,10 @@ class Arguments : private LAMMPS_NS::Pointers {
   bool yes_or_no(const std::string &keyword) { return choice(keyword, {"yes", "no"}) == "yes"; }
   /** A finite number, all of the word; `requirement` is said when it is none or `accept` is false for it. */
   double number(const std::string &keyword, const std::string &requirement, bool (*accept)(double));
+  /** A whole number from `low` to `high`. */
+  int whole_number(const std::string &keyword, int low, int high);
+  /** The same, even. */
+  int even_number(const std::string &keyword, int low, int high);
   /** `text` as a finite number; false when it is not one to the last character. */
   static bool is_number(const std::string &text, double &value);
 
@@ -32,6 +36,8 @@ class Arguments : private LAMMPS_NS::Pointers {
   std::string style_;
   std::vector<std::string> words_;
   std::size_t at_ = 0;
+
+  int multiple(const std::string &keyword, int of, int low, int high, const std::string &what);
 };
 
 }

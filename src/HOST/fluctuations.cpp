@@ -17,15 +17,13 @@ void sum_over_ranks(LAMMPS_NS::LAMMPS *lmp, double *values, int n) {
   MPI_Allreduce(MPI_IN_PLACE, values, n, MPI_DOUBLE, MPI_SUM, lmp->world);
 }
 
-bool is_layer_count(double n) { return n >= 1.0 && n <= 10000.0 && n == std::floor(n); }
-
 }
 
 void MeanFlow::read(Arguments &arguments) {
   const std::string name = arguments.choice("flow", {"box", "rate", "fit", "layers"});
   kind = name == "box" ? Kind::box : name == "rate" ? Kind::rate : name == "fit" ? Kind::fit : Kind::layers;
   if (kind == Kind::rate) rate = arguments.number("flow rate", "a shear rate", [](double) { return true; });
-  if (kind == Kind::layers) layers = static_cast<int>(arguments.number("flow layers", "a whole number from 1 to 10000", is_layer_count));
+  if (kind == Kind::layers) layers = arguments.whole_number("flow layers", 1, 10000);
 }
 
 Fluctuations::Fluctuations(LAMMPS_NS::LAMMPS *lmp, int groupbit, const BoxState &box, const MeanFlow &flow) : lmp_(lmp) {
