@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_displacement_shear.h"
 #include "arguments.h"
+#include "box_state.h"
 #include "fix_grain_record.h"
 #include "strain_source.h"
 #include "atom.h"
@@ -30,7 +31,7 @@ enum { STARTED = 0, STRAIN_0, STRAIN_1, STEP, EDGES, CALLS = EDGES + 9, STRAIN, 
 
 /** The box now, and where grains are in it. */
 struct Box {
-  Box(const Domain &domain, const FixGrainRecord &record) : edges(upper_triangular(domain.h)), wrapped(upper_triangular(record.edges())) {
+  Box(const Domain &domain, const FixGrainRecord &record) : edges(grainscope::upper_triangular(domain.h)), wrapped(grainscope::upper_triangular(record.edges())) {
     // The point that the flow leaves at rest: middle heights, and along the flow a place that does not follow the tilt.
     rest = Map<const Vector3d>(domain.boxlo) + 0.5 * edges.diagonal();
   }
@@ -43,13 +44,6 @@ struct Box {
 
   Matrix3d edges, wrapped;
   Vector3d rest;
-
- private:
-  static Matrix3d upper_triangular(const double *h) {
-    Matrix3d m;
-    m << h[0], h[5], h[4], 0.0, h[1], h[3], 0.0, 0.0, h[2];
-    return m;
-  }
 };
 
 }

@@ -9,14 +9,10 @@
 
 namespace grainscope {
 
-namespace {
-
 Eigen::Matrix3d upper_triangular(const double *h) {
   Eigen::Matrix3d m;
   m << h[0], h[5], h[4], 0.0, h[1], h[3], 0.0, 0.0, h[2];
   return m;
-}
-
 }
 
 BoxState::BoxState(LAMMPS_NS::LAMMPS *lmp) {
