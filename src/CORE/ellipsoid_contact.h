@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_ELLIPSOID_CONTACT_H
+#define GRAINSCOPE_ELLIPSOID_CONTACT_H
+
+namespace grainscope {
+
+/** A spheroid or sphere as the contact solver wants it, with B = equatorial I + (polar - equatorial) u u^T. Lengths in any one unit. */
+struct Spheroid {
+  double u[3];        // unit vector of the symmetry axis
+  double equatorial;  // squares of the semi-axes
+  double polar;
+};
+
+/** Any ellipsoid, with B = sum of square[k] axis[k] axis[k]^T. */
+struct Triaxial {
+  double axis[3][3];  // unit vectors of the principal axes, one per row
+  double square[3];   // squares of the semi-axes
+};
+
+/** From positive semi-axes and the unit quaternion (w, x, y, z) that turns body axes into the laboratory's. */
+Spheroid make_spheroid(const double semi_axes[3], const double quaternion[4]);
+Triaxial make_triaxial(const double semi_axes[3], const double quaternion[4]);
+
+/** Where two ellipsoids meet. Perram & Wertheim (1985), doi:10.1016/0021-9991(85)90171-8: with C = (1 - lambda) B1 + lambda B2
+ *  and p = C^-1 d, the contact function d.p lambda (1 - lambda) is largest where (1 - lambda) sqrt(p.B1 p) = lambda sqrt(p.B2 p).
+ *  That point is also where G1 + G2 is least on G1 = G2, G_k = (x - x_k).B_k^-1 (x - x_k) - 1, which is LIGGGHTS's definition. */
+struct EllipsoidContact {
+  bool touching;
+  bool fallback;     // the answer is a defined one but not the regular one: concentric, or the iteration did not settle
+  int steps;         // Newton or bisection steps taken, at most ELLIPSOID_STEPS
+  double lambda;     // 0 to 1: next time's start
+  double normal[3];  // unit vector from 1 to 2
+  double point[3];   // contact point from the centre of 1
+  double depth[2];   // from the contact point to the surface of 1 along the normal, and to that of 2 against it; >= 0
+  double gap;        // of ellipsoids that do not touch: a lower bound of their distance; else 0
+};
+
+constexpr int ELLIPSOID_STEPS = 60;
+
+/** d = x2 - x1. `start` is the lambda of a similar configuration, or 0 for none. The relative error of lambda is about `tolerance`^2:
+ *  the last step is carried over to the answer to first order. Point, normal and depth are set only for those that touch. */
+template <class Body>
+EllipsoidContact ellipsoid_contact(const Body &one, const Body &two, const double d[3], double start, double tolerance = 1e-6);
+
+/** Curvatures at a point y on the surface, from the centre: the Gaussian one [1/length^2] and the mean one [1/length]. */
+template <class Body>
+double gaussian_curvature(const Body &body, const double y[3]);
+template <class Body>
+double mean_curvature(const Body &body, const double y[3]);
+
+}
+
+#endif
