@@ -326,15 +326,6 @@ EllipsoidContact solve(const Body &one, const Body &two, const double *d, double
   return c;
 }
 
-/** Column `k` of the rotation matrix of a unit quaternion (w, x, y, z). */
-void rotated_axis(const double *q, int k, double *axis) {
-  const double *v = q + 1;
-  const int i = (k + 1) % 3, j = (k + 2) % 3;
-  axis[k] = 1.0 - 2.0 * (v[i] * v[i] + v[j] * v[j]);
-  axis[i] = 2.0 * (v[k] * v[i] + q[0] * v[j]);
-  axis[j] = 2.0 * (v[k] * v[j] - q[0] * v[i]);
-}
-
 }
 
 Spheroid make_spheroid(const double semi_axes[3], const double quaternion[4]) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "gran_insitu_models.h"
-#include "observed_contact_model.h"
-#include "fix_insert_stream.h"
+#include "ellipsoid_loop.h"
 #include "granular_styles.h"
 #include <unordered_map>
 
@@ -17,7 +16,13 @@ using Creator = IGranularPairStyle *(*)(LAMMPS_NS::LAMMPS *, LAMMPS_NS::PairGran
 
 template <class Style>
 IGranularPairStyle *create(LAMMPS_NS::LAMMPS *lmp, LAMMPS_NS::PairGran *pair, int64_t hash) {
-  return new LIGGGHTS::PairStyles::Granular<Observed<ContactModel<Style>>>(lmp, pair, hash);
+  using namespace LIGGGHTS::ContactModels;
+  using Model = Observed<ContactModel<Style>>;
+  // Cohesion acts on grains that do not touch: every neighbour must be looked at.
+  if constexpr (int(Style::SURFACE) == int(SURFACE_ELLIPSOID) && int(Style::COHESION) == int(COHESION_OFF))
+    return new EllipsoidLoop<Model>(lmp, pair, hash);
+  else
+    return new LIGGGHTS::PairStyles::Granular<Model>(lmp, pair, hash);
 }
 
 std::unordered_map<int64_t, Creator> compiled_loops() {

@@ -16,7 +16,15 @@ class Observed : public ContactModel {
  public:
   Observed(LAMMPS_NS::LAMMPS *lmp, LIGGGHTS::IContactHistorySetup *setup, bool is_wall, const int64_t hash)
       : ContactModel(lmp, setup, is_wall, hash), x_(&lmp->atom->x),
-        observer_(static_cast<LAMMPS_NS::PairGranInsitu *>(static_cast<LAMMPS_NS::PairGran *>(setup))->observer()) {}
+        observer_(static_cast<LAMMPS_NS::PairGranInsitu *>(static_cast<LAMMPS_NS::PairGran *>(setup))->observer()) {
+    newest() = this;
+  }
+
+  /** The host's loop keeps its model to itself; a loop of ours asks here, right after it was made. */
+  static Observed *&newest() {
+    static Observed *model = nullptr;
+    return model;
+  }
 
   using Sides = LIGGGHTS::ContactModels::SurfacesIntersectData;
   using Force = LIGGGHTS::ContactModels::ForceData;

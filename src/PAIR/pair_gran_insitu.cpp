@@ -19,8 +19,9 @@ using grainscope::BoxState;
 using grainscope::ContactObserver;
 
 struct PairGranInsitu::Impl {
-  explicit Impl(LAMMPS *lmp) : observer(lmp) {}
+  explicit Impl(LAMMPS *lmp) : observer(lmp), bodies(lmp) {}
   ContactObserver observer;
+  grainscope::EllipsoidBodies bodies;
   std::unique_ptr<LIGGGHTS::PairStyles::IGranularPairStyle> loop;
   double **friction = nullptr;
   bool warned_of_stale_springs = false;
@@ -35,6 +36,8 @@ PairGranInsitu::PairGranInsitu(LAMMPS *lmp) : PairGranProxy(lmp), impl_(new Impl
 PairGranInsitu::~PairGranInsitu() {}
 
 ContactObserver &PairGranInsitu::observer() { return impl_->observer; }
+
+grainscope::EllipsoidBodies &PairGranInsitu::ellipsoid_bodies() { return impl_->bodies; }
 
 PairGranInsitu *PairGranInsitu::required_by(LAMMPS *lmp, const char *who) {
   PairGranInsitu *pair = dynamic_cast<PairGranInsitu *>(lmp->force->pair);

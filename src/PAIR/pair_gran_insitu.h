@@ -8,6 +8,7 @@ PairStyle(gran/insitu,PairGranInsitu)
 #ifndef LMP_PAIR_GRAN_INSITU_H
 #define LMP_PAIR_GRAN_INSITU_H
 
+#include "ellipsoid_bodies.h"
 #include "pair_gran_proxy.h"
 #include <memory>
 
@@ -17,7 +18,7 @@ namespace LAMMPS_NS {
 
 /** pair_style gran, with every contact of a force evaluation offered to the computes and fixes that ask for it.
  *  Same arguments, same loop, same trajectory to the last bit; see doc/pair_gran_insitu.md. */
-class PairGranInsitu : public PairGranProxy {
+class PairGranInsitu : public PairGranProxy, public grainscope::EllipsoidBodiesOwner {
  public:
   explicit PairGranInsitu(LAMMPS *lmp);
   ~PairGranInsitu();
@@ -41,6 +42,7 @@ class PairGranInsitu : public PairGranProxy {
   void unpack_comm(int n, int first, double *buf);
 
   grainscope::ContactObserver &observer();
+  grainscope::EllipsoidBodies &ellipsoid_bodies();
 
  private:
   struct Impl;
