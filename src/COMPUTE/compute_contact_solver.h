@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifdef COMPUTE_CLASS
+
+ComputeStyle(contact/solver,ComputeContactSolver)
+
+#else
+
+#ifndef LMP_COMPUTE_CONTACT_SOLVER_H
+#define LMP_COMPUTE_CONTACT_SOLVER_H
+
+#include "compute.h"
+
+namespace LAMMPS_NS {
+
+/** What the contact solver of `surface ellipsoid` did since pair_style gran/insitu was defined, summed over ranks; see
+ *  doc/compute_contact_solver.md. scalar: fallbacks, 0 in a sound run. vector (6): 1 pairs in neighbour lists, over all force
+ *  evaluations, 2 pairs given to the solver, 3 of these touching, 4 Newton steps, 5 most Newton steps in one pair, 6 fallbacks. */
+class ComputeContactSolver : public Compute {
+ public:
+  ComputeContactSolver(class LAMMPS *lmp, int &iarg, int narg, char **arg);
+  ~ComputeContactSolver();
+  void init();
+  double compute_scalar();
+  void compute_vector();
+};
+
+}
+
+#endif
+#endif
