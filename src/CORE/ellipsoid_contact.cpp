@@ -57,8 +57,8 @@ class SpheroidPair {
   /** B1 p, and p.B1^-1 p and p.B2^-1 p. */
   void finish(double *b1p, double &inverse1, double &inverse2) const {
     for (int k = 0; k < 3; k++) b1p[k] = one_.equatorial * p[k] + excess1_ * t1_ * one_.u[k];
-    inverse1 = across1_ / one_.equatorial + t1_ * t1_ / one_.polar;
-    inverse2 = across2_ / two_.equatorial + t2_ * t2_ / two_.polar;
+    inverse1 = across1_ / one_.equatorial + along1_ * along1_ / one_.polar;
+    inverse2 = across2_ / two_.equatorial + along2_ * along2_ / two_.polar;
   }
 
   double p[3], support1, support2;
@@ -71,25 +71,28 @@ class SpheroidPair {
     for (int k = 0; k < 3; k++) w[k] = (r[k] - alpha1_ * t1 * one_.u[k] - alpha2_ * t2 * two_.u[k]) * inverse_e_;
   }
 
-  /** From the components along and across each axis, all positive: thin discs lose no digits. */
+  /** From the components along and across each axis, all positive: thin discs lose no digits. All of them from p as rounded, not from
+   *  t1_ and t2_: d.p / (a + b) hardly changes with p near its largest, but only for one and the same p. */
   void supports() {
+    along1_ = dot(one_.u, p);
+    along2_ = dot(two_.u, p);
     double across[2] = {0.0, 0.0};
     for (int k = 0; k < 3; k++) {
-      const double a = p[k] - t1_ * one_.u[k], b = p[k] - t2_ * two_.u[k];
+      const double a = p[k] - along1_ * one_.u[k], b = p[k] - along2_ * two_.u[k];
       across[0] += a * a;
       across[1] += b * b;
     }
     across1_ = across[0];
     across2_ = across[1];
-    support1 = one_.equatorial * across1_ + one_.polar * t1_ * t1_;
-    support2 = two_.equatorial * across2_ + two_.polar * t2_ * t2_;
+    support1 = one_.equatorial * across1_ + one_.polar * along1_ * along1_;
+    support2 = two_.equatorial * across2_ + two_.polar * along2_ * along2_;
   }
 
   const Spheroid &one_, &two_;
   const double *d_;
   double excess1_, excess2_, d1_, d2_, c_, s2_;
   double e_, alpha1_, alpha2_, inverse_e_, inverse_det_;
-  double t1_, t2_, y1_, y2_, across1_, across2_;
+  double t1_, t2_, y1_, y2_, along1_, along2_, across1_, across2_;
 };
 
 /** The same of any two ellipsoids: C by components, factorised as L D L^T. */
