@@ -12,9 +12,9 @@ namespace {
 
 const double UPRIGHT[4] = {1.0, 0.0, 0.0, 0.0}, ALONG_X[4] = {std::sqrt(0.5), 0.0, std::sqrt(0.5), 0.0};  // where body z points: z, x
 
-EllipsoidPair pair_of(const double (&semi1)[3], const double (&semi2)[3], double dx, double dy, double dz, const double *q1 = UPRIGHT,
+GrainPair pair_of(const double (&semi1)[3], const double (&semi2)[3], double dx, double dy, double dz, const double *q1 = UPRIGHT,
                       const double *q2 = UPRIGHT) {
-  EllipsoidPair pair;
+  GrainPair pair;
   std::copy_n(semi1, 3, pair.semi[0]);
   std::copy_n(semi2, 3, pair.semi[1]);
   std::copy_n(q1, 4, pair.quaternion[0]);
@@ -39,7 +39,7 @@ void expect_sound(const EllipsoidContact &c) {
 
 /** Both forms, cold and warm, against known values to `tolerance`. */
 template <class Body>
-void expect_form(const EllipsoidPair &pair, const double (&normal)[3], const double (&point)[3], double depth1, double depth2, double tolerance) {
+void expect_form(const GrainPair &pair, const double (&normal)[3], const double (&point)[3], double depth1, double depth2, double tolerance) {
   for (double start : {0.0, 0.3, kernel_contact<Body>(pair).lambda}) {
     const EllipsoidContact c = kernel_contact<Body>(pair, start);
     expect_sound(c);
@@ -54,7 +54,7 @@ void expect_form(const EllipsoidPair &pair, const double (&normal)[3], const dou
   }
 }
 
-void expect_contact(const EllipsoidPair &pair, const double (&normal)[3], const double (&point)[3], double depth1, double depth2,
+void expect_contact(const GrainPair &pair, const double (&normal)[3], const double (&point)[3], double depth1, double depth2,
                     double tolerance = 1e-14) {
   expect_form<Spheroid>(pair, normal, point, depth1, depth2, tolerance);
   expect_form<Triaxial>(pair, normal, point, depth1, depth2, tolerance);
@@ -62,7 +62,7 @@ void expect_contact(const EllipsoidPair &pair, const double (&normal)[3], const 
 
 /** Both forms, cold and warm, against quadruple precision; `tolerance` in smallest semi-axes. */
 template <class Body>
-void expect_exact_form(const EllipsoidPair &pair, double tolerance, bool fallback) {
+void expect_exact_form(const GrainPair &pair, double tolerance, bool fallback) {
   const reference::Contact exact = reference::solve(pair.body(0), pair.body(1), pair.d);
   ASSERT_TRUE(exact.proved);
   const double allowed = tolerance * pair.smallest();
@@ -80,19 +80,19 @@ void expect_exact_form(const EllipsoidPair &pair, double tolerance, bool fallbac
   }
 }
 
-void expect_exact(const EllipsoidPair &pair, double tolerance = 1e-10, bool fallback = false) {
+void expect_exact(const GrainPair &pair, double tolerance = 1e-10, bool fallback = false) {
   expect_exact_form<Spheroid>(pair, tolerance, fallback);
   expect_exact_form<Triaxial>(pair, tolerance, fallback);
 }
 
-void for_both_forms(const EllipsoidPair &pair, const std::function<void(const EllipsoidContact &)> &check) {
+void for_both_forms(const GrainPair &pair, const std::function<void(const EllipsoidContact &)> &check) {
   for (double start : {0.0, 0.01, 0.5, 0.99}) {
     check(kernel_contact<Spheroid>(pair, start));
     check(kernel_contact<Triaxial>(pair, start));
   }
 }
 
-void expect_concentric(const EllipsoidPair &pair) {
+void expect_concentric(const GrainPair &pair) {
   for_both_forms(pair, [&](const EllipsoidContact &c) {
     expect_sound(c);
     EXPECT_TRUE(c.touching);
@@ -113,9 +113,9 @@ TEST(ellipsoid_contact_limits, concentric_are_parted_along_the_shortest_axis_of_
 }
 
 TEST(ellipsoid_contact_limits, nearly_concentric) {
-  EllipsoidPairs random(31);
+  RandomPairs random(31);
   for (int n = 0; n < 2000; n++) {
-    EllipsoidPair pair;
+    GrainPair pair;
     const double alpha = random.logarithmic(0.05, 20.0);
     for (int k = 0; k < 2; k++) random.spheroid(pair, k, alpha);
     random.direction(pair.d, 3);
@@ -131,9 +131,9 @@ TEST(ellipsoid_contact_limits, nearly_concentric) {
 }
 
 TEST(ellipsoid_contact_limits, one_inside_the_other) {
-  EllipsoidPairs random(32);
+  RandomPairs random(32);
   for (int n = 0; n < 1000; n++) {
-    EllipsoidPair pair;
+    GrainPair pair;
     random.spheroid(pair, 0, random.logarithmic(0.05, 20.0));
     random.spheroid(pair, 1, random.logarithmic(0.05, 20.0), 100.0);
     random.direction(pair.d, 3);
@@ -189,9 +189,9 @@ TEST(ellipsoid_contact_limits, crossed_rods) {
 
 TEST(ellipsoid_contact_limits, aspect_ratios_of_a_hundred) {
   for (double alpha : {0.01, 100.0}) {
-    EllipsoidPairs random(33);
+    RandomPairs random(33);
     for (int n = 0; n < 3000; n++) {
-      EllipsoidPair pair;
+      GrainPair pair;
       for (int k = 0; k < 2; k++) random.spheroid(pair, k, alpha);
       random.place(pair, random.logarithmic(1e-12, 1e-1));
       expect_exact(pair, 2e-9);
@@ -200,9 +200,9 @@ TEST(ellipsoid_contact_limits, aspect_ratios_of_a_hundred) {
 }
 
 TEST(ellipsoid_contact_limits, sizes_of_a_hundred_to_one) {
-  EllipsoidPairs random(34);
+  RandomPairs random(34);
   for (int n = 0; n < 3000; n++) {
-    EllipsoidPair pair;
+    GrainPair pair;
     random.spheroid(pair, 0, random.logarithmic(0.3, 3.0), 100.0);
     random.spheroid(pair, 1, random.logarithmic(0.3, 3.0));
     random.place(pair, random.logarithmic(1e-12, 5e-3));  // up to half the small one
@@ -212,10 +212,10 @@ TEST(ellipsoid_contact_limits, sizes_of_a_hundred_to_one) {
 
 /** Also across the 1e-9 within which semi-axes count as equal: a sphere of the mean equatorial semi-axis is at most that far off. */
 TEST(ellipsoid_contact_limits, nearly_spheres_are_nearly_as_spheres) {
-  EllipsoidPairs random(35);
+  RandomPairs random(35);
   for (double off : {1e-6, 1e-7, 1e-8, 1.1e-9, 1.01e-9, 0.99e-9, 0.9e-9, 1e-10, 1e-11, 1e-12, 1e-16})
     for (int n = 0; n < 300; n++) {
-      EllipsoidPair sphere, pair;
+      GrainPair sphere, pair;
       for (int k = 0; k < 2; k++) random.spheroid(sphere, k, 1.0);
       random.place(sphere, random.logarithmic(1e-3, 1e-1));
       pair = sphere;
@@ -236,9 +236,9 @@ TEST(ellipsoid_contact_limits, nearly_spheres_are_nearly_as_spheres) {
 }
 
 TEST(ellipsoid_contact_limits, tangent_to_rounding) {
-  EllipsoidPairs random(36);
+  RandomPairs random(36);
   for (int n = 0; n < 5000; n++) {
-    EllipsoidPair pair;
+    GrainPair pair;
     const double alpha = random.logarithmic(0.05, 20.0);
     for (int k = 0; k < 2; k++) random.spheroid(pair, k, alpha);
     random.place(pair, random.uniform(-4e-16, 4e-16));

@@ -12,24 +12,24 @@ using reference::Quad;
 
 namespace {
 
-using Make = std::function<void(EllipsoidPairs &, EllipsoidPair &)>;
+using Make = std::function<void(RandomPairs &, GrainPair &)>;
 
 /** Limits of the errors, in units of the smallest semi-axis of the two; of lambda, of the smaller of lambda and 1 - lambda. */
 struct Limits {
   double lambda, point, normal, overlap;
 };
 
-void alike(EllipsoidPairs &random, EllipsoidPair &pair) {
+void alike(RandomPairs &random, GrainPair &pair) {
   const double alpha = random.logarithmic(0.05, 20.0);
   for (int k = 0; k < 2; k++) random.spheroid(pair, k, alpha);
 }
 
-void mixed(EllipsoidPairs &random, EllipsoidPair &pair) {
+void mixed(RandomPairs &random, GrainPair &pair) {
   random.spheroid(pair, 0, random.logarithmic(0.05, 20.0));
   random.spheroid(pair, 1, random.logarithmic(0.05, 20.0), random.logarithmic(0.01, 100.0));
 }
 
-void triaxial(EllipsoidPairs &random, EllipsoidPair &pair) {
+void triaxial(RandomPairs &random, GrainPair &pair) {
   random.triaxial(pair, 0, 20.0);
   random.triaxial(pair, 1, 20.0, random.logarithmic(0.01, 100.0));
 }
@@ -55,7 +55,7 @@ bool finite(const EllipsoidContact &c) {
   return std::isfinite(sum);
 }
 
-double slightly_off(EllipsoidPairs &random, double lambda) {
+double slightly_off(RandomPairs &random, double lambda) {
   return lambda + 1e-4 * random.uniform(-1.0, 1.0) * std::min(lambda, 1.0 - lambda);
 }
 
@@ -81,7 +81,7 @@ struct Worst {
 
   /** A pair by one form of the kernel, cold and from a lambda of a while ago. */
   template <class Body>
-  void solve(const EllipsoidPair &pair, const reference::Contact &exact, double start) {
+  void solve(const GrainPair &pair, const reference::Contact &exact, double start) {
     const double smallest = pair.smallest();
     const EllipsoidContact cold = kernel_contact<Body>(pair), warm = kernel_contact<Body>(pair, start);
     add(cold, exact, smallest);
@@ -107,7 +107,7 @@ struct Worst {
 
 /** Nine in ten touch, with centres 1e-12 to 0.1 nearer than at tangency, some much deeper; the rest are apart by as little, or tangent to
  *  rounding. */
-double any_shift(EllipsoidPairs &random) {
+double any_shift(RandomPairs &random) {
   const double kind = random.uniform();
   if (kind < 0.8) return random.logarithmic(1e-12, 1e-1);
   if (kind < 0.9) return random.uniform(0.1, 0.99);
@@ -116,10 +116,10 @@ double any_shift(EllipsoidPairs &random) {
 }
 
 void compare(const char *name, unsigned long seed, long pairs, const Make &make, bool spheroids, const Limits &limits) {
-  EllipsoidPairs random(seed);
+  RandomPairs random(seed);
   Worst worst;
   for (long n = 0; n < pairs; n++) {
-    EllipsoidPair pair;
+    GrainPair pair;
     make(random, pair);
     random.place(pair, any_shift(random));
     const reference::Contact exact = reference::solve(pair.body(0), pair.body(1), pair.d);
@@ -147,10 +147,10 @@ TEST(ellipsoid_contact, is_that_of_quadruple_precision) { compare_all(1, 100000)
 TEST(ellipsoid_contact_long, is_that_of_quadruple_precision) { compare_all(1001, 10000000); }
 
 TEST(ellipsoid_contact, reference_meets_the_definition) {
-  EllipsoidPairs random(11);
+  RandomPairs random(11);
   for (const Make &make : {Make(alike), Make(mixed), Make(triaxial)})
     for (int n = 0; n < 500; n++) {
-      EllipsoidPair pair;
+      GrainPair pair;
       make(random, pair);
       random.place(pair, any_shift(random));
       const reference::Body one = pair.body(0), two = pair.body(1);
@@ -180,9 +180,9 @@ TYPED_TEST_SUITE(ellipsoid_form, Forms);
 
 TYPED_TEST(ellipsoid_form, same_from_any_start) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
-  EllipsoidPairs random(21);
+  RandomPairs random(21);
   for (int n = 0; n < 3000; n++) {
-    EllipsoidPair pair;
+    GrainPair pair;
     (n % 2 ? alike : mixed)(random, pair);
     random.place(pair, random.logarithmic(1e-6, 1e-1) * (n % 10 ? 1.0 : -1.0));
     const Limits &limits = n % 2 ? ALIKE : MIXED;
@@ -207,9 +207,9 @@ TYPED_TEST(ellipsoid_form, same_from_any_start) {
 }
 
 TYPED_TEST(ellipsoid_form, same_with_the_two_swapped) {
-  EllipsoidPairs random(22);
+  RandomPairs random(22);
   for (int n = 0; n < 10000; n++) {
-    EllipsoidPair pair, back;
+    GrainPair pair, back;
     mixed(random, pair);
     random.place(pair, random.logarithmic(1e-12, 1e-1) * (n % 10 ? 1.0 : -1.0));
     for (int k = 0; k < 2; k++) {
@@ -235,9 +235,9 @@ TYPED_TEST(ellipsoid_form, same_with_the_two_swapped) {
 }
 
 TYPED_TEST(ellipsoid_form, turns_with_the_two) {
-  EllipsoidPairs random(23);
+  RandomPairs random(23);
   for (int n = 0; n < 10000; n++) {
-    EllipsoidPair pair, turned;
+    GrainPair pair, turned;
     alike(random, pair);
     random.place(pair, random.logarithmic(1e-4, 1e-1));
     turned = pair;
@@ -265,14 +265,14 @@ TYPED_TEST(ellipsoid_form, turns_with_the_two) {
 
 /** Powers of two change no digit: from 1e-9 to 1e9 every result is the same to the last one. */
 TYPED_TEST(ellipsoid_form, same_in_any_unit) {
-  EllipsoidPairs random(24);
+  RandomPairs random(24);
   for (int n = 0; n < 3000; n++) {
-    EllipsoidPair pair;
+    GrainPair pair;
     mixed(random, pair);
     random.place(pair, random.logarithmic(1e-12, 1e-1) * (n % 5 ? 1.0 : -1.0));
     const EllipsoidContact here = kernel_contact<TypeParam>(pair);
     for (double unit : {std::ldexp(1.0, -30), std::ldexp(1.0, 30), std::ldexp(1.0, -80), std::ldexp(1.0, 80)}) {
-      EllipsoidPair scaled = pair;
+      GrainPair scaled = pair;
       for (int k = 0; k < 3; k++) {
         scaled.d[k] *= unit;
         for (auto &semi : scaled.semi) semi[k] *= unit;
@@ -293,10 +293,10 @@ TYPED_TEST(ellipsoid_form, same_in_any_unit) {
 
 /** Decisions close to tangency: of the pairs apart or overlapping by less than 1e-12, none outside BAND is told wrongly. */
 TYPED_TEST(ellipsoid_form, decides_as_exact_arithmetic_does) {
-  EllipsoidPairs random(25);
+  RandomPairs random(25);
   int decided = 0;
   for (int n = 0; n < 20000; n++) {
-    EllipsoidPair pair;
+    GrainPair pair;
     (n % 2 ? alike : mixed)(random, pair);
     random.place(pair, random.logarithmic(1e-15, 1e-12) * (random.uniform() < 0.5 ? -1.0 : 1.0));
     const reference::Body one = pair.body(0), two = pair.body(1);
@@ -313,9 +313,9 @@ TYPED_TEST(ellipsoid_form, decides_as_exact_arithmetic_does) {
 
 /** For any direction n, the points of the two surfaces that are farthest along n and -n are no nearer to each other than the surfaces. */
 TYPED_TEST(ellipsoid_form, gap_is_a_lower_bound_of_the_distance) {
-  EllipsoidPairs random(26);
+  RandomPairs random(26);
   for (int n = 0; n < 1000; n++) {
-    EllipsoidPair pair;
+    GrainPair pair;
     (n % 2 ? alike : mixed)(random, pair);
     random.place(pair, -random.logarithmic(1e-10, 10.0));
     const reference::Body one = pair.body(0), two = pair.body(1);
@@ -343,9 +343,9 @@ TYPED_TEST(ellipsoid_form, gap_is_a_lower_bound_of_the_distance) {
 }
 
 TYPED_TEST(ellipsoid_form, curvatures_are_those_of_the_fundamental_forms) {
-  EllipsoidPairs random(27);
+  RandomPairs random(27);
   for (int n = 0; n < 20000; n++) {
-    EllipsoidPair pair;
+    GrainPair pair;
     if (std::is_same<TypeParam, Triaxial>::value)
       random.triaxial(pair, 0, 20.0, random.logarithmic(1e-3, 1e3));
     else

@@ -8,22 +8,22 @@
 #include <random>
 
 /** Two ellipsoids: semi-axes, quaternions (w, x, y, z), and d = x2 - x1. */
-struct EllipsoidPair {
+struct GrainPair {
   double semi[2][3], quaternion[2][4], d[3];
 
   reference::Body body(int k) const { return {semi[k], quaternion[k]}; }
   double smallest() const { return std::min(*std::min_element(semi[0], semi[0] + 3), *std::min_element(semi[1], semi[1] + 3)); }
 };
 
-inline void make(const EllipsoidPair &pair, int k, grainscope::Spheroid &body) {
+inline void make(const GrainPair &pair, int k, grainscope::Spheroid &body) {
   body = grainscope::make_spheroid(pair.semi[k], pair.quaternion[k]);
 }
-inline void make(const EllipsoidPair &pair, int k, grainscope::Triaxial &body) {
+inline void make(const GrainPair &pair, int k, grainscope::Triaxial &body) {
   body = grainscope::make_triaxial(pair.semi[k], pair.quaternion[k]);
 }
 
 template <class Body>
-grainscope::EllipsoidContact kernel_contact(const EllipsoidPair &pair, double start = 0.0, double tolerance = 0.0) {
+grainscope::EllipsoidContact kernel_contact(const GrainPair &pair, double start = 0.0, double tolerance = 0.0) {
   Body one, two;
   make(pair, 0, one);
   make(pair, 1, two);
@@ -31,9 +31,9 @@ grainscope::EllipsoidContact kernel_contact(const EllipsoidPair &pair, double st
 }
 
 /** Pairs at random, repeatable. */
-class EllipsoidPairs {
+class RandomPairs {
  public:
-  explicit EllipsoidPairs(unsigned long seed) : generator_(seed) {}
+  explicit RandomPairs(unsigned long seed) : generator_(seed) {}
 
   double normal() { return normal_(generator_); }
   double uniform(double from = 0.0, double to = 1.0) { return from + (to - from) * uniform_(generator_); }
@@ -48,18 +48,18 @@ class EllipsoidPairs {
     for (int k = 0; k < n; k++) v[k] /= std::sqrt(square);
   }
 
-  void spheroid(EllipsoidPair &pair, int k, double alpha, double size = 1.0) {
+  void spheroid(GrainPair &pair, int k, double alpha, double size = 1.0) {
     for (int i = 0; i < 3; i++) pair.semi[k][i] = size * (i == 2 ? alpha : 1.0);
     direction(pair.quaternion[k], 4);
   }
 
-  void triaxial(EllipsoidPair &pair, int k, double largest_ratio, double size = 1.0) {
+  void triaxial(GrainPair &pair, int k, double largest_ratio, double size = 1.0) {
     for (int i = 0; i < 3; i++) pair.semi[k][i] = size * logarithmic(1.0, largest_ratio);
     direction(pair.quaternion[k], 4);
   }
 
   /** Centres (1 - shift) of those of tangency apart, in a random direction or in the one given. */
-  void place(EllipsoidPair &pair, double shift, const double *along = nullptr) {
+  void place(GrainPair &pair, double shift, const double *along = nullptr) {
     if (along)
       for (int k = 0; k < 3; k++) pair.d[k] = along[k];
     else
