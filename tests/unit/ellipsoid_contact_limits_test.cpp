@@ -39,7 +39,8 @@ void expect_sound(const EllipsoidContact &c) {
 
 /** Both forms, cold and warm, against known values to `tolerance`. */
 template <class Body>
-void expect_form(const GrainPair &pair, const double (&normal)[3], const double (&point)[3], double depth1, double depth2, double tolerance) {
+void expect_form(const GrainPair &pair, const double (&normal)[3], const double (&point)[3], double depth1, double depth2,
+                 double tolerance) {
   for (double start : {0.0, 0.3, kernel_contact<Body>(pair).lambda}) {
     const EllipsoidContact c = kernel_contact<Body>(pair, start);
     expect_sound(c);

@@ -100,8 +100,8 @@ struct Worst {
     EXPECT_LT(overlap, limits.overlap);
     EXPECT_LE(cold_steps, 10);
     EXPECT_LE(warm_steps, 3);
-    std::printf("%s: lambda %.1e, point %.1e, normal %.1e, overlap %.1e, wrong decisions up to |F - 1| = %.1e, steps %d cold, %d warm\n", name,
-                lambda, point, normal, overlap, wrong, cold_steps, warm_steps);
+    std::printf("%s: lambda %.1e, point %.1e, normal %.1e, overlap %.1e, wrong decisions up to |F - 1| = %.1e, steps %d cold, %d warm\n",
+                name, lambda, point, normal, overlap, wrong, cold_steps, warm_steps);
   }
 };
 

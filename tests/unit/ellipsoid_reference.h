@@ -92,7 +92,7 @@ struct Body {
 
 };
 
-/** Gaussian and mean curvature from the two fundamental forms of S w(u, v), where w runs over the unit sphere from y/s along great circles. */
+/** Gaussian and mean curvature from the fundamental forms of S w(u, v), where w runs over the unit sphere from y/s along great circles. */
 inline void curvatures(const Body &body, const Quad *y, Quad &gaussian, Quad &mean) {
   Quad w[3], e[2][3], r[2][3], n[3];
   for (int i = 0; i < 3; i++) w[i] = dot(body.axis[i], y) / body.semi[i];
