@@ -76,3 +76,8 @@ add_cases(same-everywhere cases/same_everywhere.py LABEL case RANKS 1 2 CASES
 add_cases(asking cases/asking.py LABEL case RANKS 1 CASES
   as-pair-gran-local-spheres as-pair-gran-local-spheroids as-pair-gran-local-oblate dumped means variables orthogonal-box)
 add_cases(asking cases/asking.py LABEL case RANKS 1 2 CASES scalars vectors come-and-go)
+add_cases(spheroid-motion cases/spheroid_motion.py LABEL case RANKS 1 CASES flows-as-host-1.5 flows-as-host-0.5 boxy-grains)
+add_cases(spheroid-motion cases/spheroid_motion.py LABEL case RANKS 1 2 CASES
+  energy-kept some-grains first-group collision-of-prolate-grains collision-of-oblate-grains inserted-grains restart-continues)
+add_cases(spheroid-motion cases/spheroid_motion.py LABEL case RANKS 1 2 4 CASES
+  free-flight free-flight-in-large-turns shears-as-host-1.5 shears-as-host-0.5)

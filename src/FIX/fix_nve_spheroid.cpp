@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fix_nve_spheroid.h"
+#include "arguments.h"
+#include "atom.h"
+#include "error.h"
+#include "modify.h"
+#include "spheroid_rotation.h"
+#include <algorithm>
+#include <climits>
+#include <cstring>
+#include <sstream>
+#include <string>
+
+using namespace LAMMPS_NS;
+
+FixNVESpheroid::FixNVESpheroid(LAMMPS *lmp, int narg, char **arg) : FixNVE(lmp, narg, arg) {
+  grainscope::Arguments arguments(lmp, "fix nve/spheroid", 3, narg, arg);
+  if (!arguments.done()) arguments.fail("takes no keywords, got '" + arguments.word("nothing") + "'");
+  if (!atom->superquadric_flag) arguments.fail("needs atom_style superquadric, got '" + std::string(atom->atom_style) + "'");
+}
+
+int FixNVESpheroid::setmask() { return FixNVE::setmask() | FixConst::PRE_NEIGHBOR; }
+
+void FixNVESpheroid::init() {
+  FixNVE::init();
+  for (int k = 0; k < modify->nfix; k++) {
+    if (strcmp(modify->fix[k]->style, "couple/cfd/force/implicit") != 0) continue;
+    const std::string coupling = std::string("fix ") + modify->fix[k]->id + " (couple/cfd/force/implicit)";
+    error->all(FLERR, ("fix nve/spheroid: " + coupling + " leaves its torque to the integrator, and this one knows nothing of it: "
+                       "use fix nve/superquadric").c_str());
+  }
+}
+
+int FixNVESpheroid::grains() const { return igroup == atom->firstgroup ? atom->nfirst : atom->nlocal; }
+
+/** Asked with every neighbour list, and so whenever grains were inserted. Collective: every rank names the same grain. */
+void FixNVESpheroid::require_symmetric_tops() const {
+  int first = INT_MAX, at = 0;
+  const int n = grains();
+  for (int i = 0; i < n; i++)
+    if ((atom->mask[i] & groupbit) && atom->tag[i] < first && !grainscope::is_symmetric_top(atom->inertia[i])) first = atom->tag[at = i];
+  const int mine = first;
+  MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, world);
+  if (first == INT_MAX) return;
+
+  double shape[5] = {0.0, 0.0, 0.0, 0.0, 0.0};
+  if (mine == first) {
+    std::copy(atom->shape[at], atom->shape[at] + 3, shape);
+    std::copy(atom->blockiness[at], atom->blockiness[at] + 2, shape + 3);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, shape, 5, MPI_DOUBLE, MPI_SUM, world);
+  std::ostringstream message;
+  message << "fix nve/spheroid: grain " << first << " has three different moments of inertia (semi-axes " << shape[0] << " " << shape[1]
+          << " " << shape[2] << ", blockiness " << shape[3] << " " << shape[4] << "): use fix nve/superquadric";
+  error->all(FLERR, message.str().c_str());
+}
+
+void FixNVESpheroid::initial_integrate(int) {
+  const int n = grains();
+  for (int i = 0; i < n; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    double *x = atom->x[i], *v = atom->v[i], *momentum = atom->angmom[i];
+    const double *f = atom->f[i], *torque = atom->torque[i];
+    const double kick = dtf / atom->rmass[i];
+    for (int k = 0; k < 3; k++) {
+      v[k] += kick * f[k];
+      x[k] += dtv * v[k];
+      momentum[k] += dtf * torque[k];
+    }
+    grainscope::rotate_freely(atom->inertia[i], momentum, dtv, atom->quaternion[i], atom->omega[i]);
+  }
+}
+
+void FixNVESpheroid::final_integrate() {
+  const int n = grains();
+  for (int i = 0; i < n; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    double *v = atom->v[i], *momentum = atom->angmom[i];
+    const double *f = atom->f[i], *torque = atom->torque[i];
+    const double kick = dtf / atom->rmass[i];
+    for (int k = 0; k < 3; k++) {
+      v[k] += kick * f[k];
+      momentum[k] += dtf * torque[k];
+    }
+    grainscope::angular_velocity(atom->inertia[i], momentum, atom->quaternion[i], atom->omega[i]);
+  }
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifdef FIX_CLASS
+
+FixStyle(nve/spheroid,FixNVESpheroid)
+
+#else
+
+#ifndef LMP_FIX_NVE_SPHEROID_H
+#define LMP_FIX_NVE_SPHEROID_H
+
+#include "fix_nve.h"
+
+namespace LAMMPS_NS {
+
+/** Moves grains of two equal moments of inertia by kick, drift, kick; the drift turns them exactly (spheroid_rotation.h).
+ *  Velocities and angular momenta are kicked by f dt/2m and torque dt/2, before and after. No output, no state. */
+class FixNVESpheroid : public FixNVE {
+ public:
+  FixNVESpheroid(class LAMMPS *lmp, int narg, char **arg);
+  int setmask();
+  void init();
+  void initial_integrate(int vflag);
+  void final_integrate();
+  void setup_pre_neighbor() { require_symmetric_tops(); }
+  void pre_neighbor() { require_symmetric_tops(); }
+
+ private:
+  int grains() const;
+  void require_symmetric_tops() const;
+};
+
+}
+
+#endif
+#endif
