@@ -1,109 +1,157 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ellipsoid_contact.h"
+#include "lanes.h"
 #include "symmetry_axis.h"
 #include <algorithm>
 #include <cmath>
+
+// The widest vectors of the processor that the program finds itself on.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define GRAINSCOPE_CLONES __attribute__((flatten, target_clones("avx512f", "avx2", "default")))
+#else
+#define GRAINSCOPE_CLONES
+#endif
 
 namespace grainscope {
 
 namespace {
 
-inline double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+template <class Real> GRAINSCOPE_INLINE Real dot(const Real *a, const Real *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+template <class Real> GRAINSCOPE_INLINE Real absolute(Real x) { return pick(x < 0.0, -x, x); }
+template <class Real> GRAINSCOPE_INLINE Real least(Real a, Real b) { return pick(a < b, a, b); }
+
+/** |v - (u.v) u|^2: not v.v - (u.v)^2, which cancels. */
+template <class Real> GRAINSCOPE_INLINE Real across(const Real *v, const Real *u, Real along) {
+  const Real a = v[0] - along * u[0], b = v[1] - along * u[1], c = v[2] - along * u[2];
+  return a * a + b * b + c * c;
+}
+
+/** A spheroid, or several side by side. */
+template <class Real> struct SpheroidOf {
+  Real u[3], equatorial, polar, inverse_equatorial, inverse_polar, inverse_product;
+};
+
+template <class Real> GRAINSCOPE_INLINE Real support(const SpheroidOf<Real> &body, const Real *n) {
+  const Real along = dot(body.u, n);
+  return body.equatorial * across(n, body.u, along) + body.polar * along * along;
+}
 
 /** p = C^-1 d of two spheroids, in closed form: only the components of p along the two axes are unknown. */
-class SpheroidPair {
+template <class Real_> class SpheroidPair {
  public:
-  SpheroidPair(const Spheroid &one, const Spheroid &two, const double *d)
-      : one_(one), two_(two), d_(d), excess1_(one.polar - one.equatorial), excess2_(two.polar - two.equatorial), d1_(dot(one.u, d)),
-        d2_(dot(two.u, d)), c_(dot(one.u, two.u)) {
-    const double cross[3] = {one.u[1] * two.u[2] - one.u[2] * two.u[1], one.u[2] * two.u[0] - one.u[0] * two.u[2],
-                             one.u[0] * two.u[1] - one.u[1] * two.u[0]};
-    s2_ = dot(cross, cross);
+  using Real = Real_;
+  using Body = SpheroidOf<Real>;
+
+  /** p and what follows from it, all from p as it was rounded: near its largest, d.p / (a + b) hardly changes with p, but only for one
+   *  and the same p. */
+  struct State {
+    Real p[3], support1, support2;  // p.B1 p, p.B2 p
+    Real t1, t2, across1, across2;  // components of p along the axes, squares of those across them
+  };
+
+  GRAINSCOPE_INLINE SpheroidPair(const Body &one, const Body &two, const Real *d)
+      : one_(one), two_(two), excess1_(one.polar - one.equatorial), excess2_(two.polar - two.equatorial), d1_(dot(one.u, d)),
+        d2_(dot(two.u, d)), c_(dot(one.u, two.u)), s2_(across(one.u, two.u, c_)) {
+    for (int k = 0; k < 3; k++) d_[k] = d[k];
   }
 
-  /** p and its supports p.B1 p and p.B2 p, at lambda. */
-  void evaluate(double lambda) {
-    const double m = 1.0 - lambda;
+  GRAINSCOPE_INLINE void evaluate(Real lambda, State &s) {
+    const Real m = 1.0 - lambda;
     e_ = m * one_.equatorial + lambda * two_.equatorial;
     alpha1_ = m * excess1_;
     alpha2_ = lambda * excess2_;
-    inverse_e_ = 1.0 / e_;
-    inverse_det_ = 1.0 / (e_ * (m * one_.polar + lambda * two_.polar) + alpha1_ * alpha2_ * s2_);
-    solve(d_, d1_, d2_, p, t1_, t2_);
-    supports();
+    const Real det = e_ * (m * one_.polar + lambda * two_.polar) + alpha1_ * alpha2_ * s2_, both = 1.0 / (e_ * det);
+    inverse_e_ = det * both;
+    inverse_det_ = e_ * both;
+    Real y1, y2;
+    along_axes(d1_, d2_, y1, y2);
+    y1 *= alpha1_;
+    y2 *= alpha2_;
+    for (int k = 0; k < 3; k++) s.p[k] = (d_[k] - y1 * one_.u[k] - y2 * two_.u[k]) * inverse_e_;
+    follow(s);
   }
 
   /** dp/dlambda, as p.B1 p' and p.B2 p'. */
-  void differentiate(double &along1, double &along2) {
-    const double r1 = (one_.polar - two_.equatorial) * t1_ - excess2_ * c_ * t2_;
-    const double r2 = excess1_ * c_ * t1_ + (one_.equatorial - two_.polar) * t2_;
-    y1_ = (e_ * r1 + alpha2_ * (r1 - c_ * r2)) * inverse_det_;
-    y2_ = (e_ * r2 + alpha1_ * (r2 - c_ * r1)) * inverse_det_;
-    const double pw = (support1 - support2 - alpha1_ * y1_ * t1_ - alpha2_ * y2_ * t2_) * inverse_e_;
-    along1 = one_.equatorial * pw + excess1_ * t1_ * y1_;
-    along2 = two_.equatorial * pw + excess2_ * t2_ * y2_;
+  GRAINSCOPE_INLINE void differentiate(const State &s, Real &product1, Real &product2) {
+    const Real r1 = (one_.polar - two_.equatorial) * s.t1 - excess2_ * c_ * s.t2;
+    const Real r2 = excess1_ * c_ * s.t1 + (one_.equatorial - two_.polar) * s.t2;
+    along_axes(r1, r2, y1_, y2_);
+    const Real pw = (s.support1 - s.support2 - alpha1_ * y1_ * s.t1 - alpha2_ * y2_ * s.t2) * inverse_e_;
+    product1 = one_.equatorial * pw + excess1_ * s.t1 * y1_;
+    product2 = two_.equatorial * pw + excess2_ * s.t2 * y2_;
   }
 
-  /** Moves p by dp/dlambda times `step`; after differentiate(). */
-  void advance(double step) {
-    const double difference = one_.equatorial - two_.equatorial;
-    const double f1 = excess1_ * t1_ - alpha1_ * y1_, f2 = excess2_ * t2_ + alpha2_ * y2_;
-    for (int k = 0; k < 3; k++) p[k] += step * inverse_e_ * (difference * p[k] + f1 * one_.u[k] - f2 * two_.u[k]);
-    t1_ += step * y1_;
-    t2_ += step * y2_;
-    supports();
+  /** The state with p moved by `step` times dp/dlambda; after differentiate(). */
+  GRAINSCOPE_INLINE void advance(const State &s, Real step, State &moved) const {
+    const Real f = step * inverse_e_, f0 = f * (one_.equatorial - two_.equatorial);
+    const Real f1 = f * (excess1_ * s.t1 - alpha1_ * y1_), f2 = f * (excess2_ * s.t2 + alpha2_ * y2_);
+    for (int k = 0; k < 3; k++) moved.p[k] = s.p[k] + (f0 * s.p[k] + f1 * one_.u[k] - f2 * two_.u[k]);
+    follow(moved);
   }
 
-  /** B1 p, and p.B1^-1 p and p.B2^-1 p. */
-  void finish(double *b1p, double &inverse1, double &inverse2) const {
-    for (int k = 0; k < 3; k++) b1p[k] = one_.equatorial * p[k] + excess1_ * t1_ * one_.u[k];
-    inverse1 = across1_ / one_.equatorial + along1_ * along1_ / one_.polar;
-    inverse2 = across2_ / two_.equatorial + along2_ * along2_ / two_.polar;
+  /** Contact point from the centre of 1. */
+  GRAINSCOPE_INLINE void point(const State &s, Real m, Real *x) const {
+    const Real f = m * one_.equatorial, g = m * excess1_ * s.t1;
+    for (int k = 0; k < 3; k++) x[k] = f * s.p[k] + g * one_.u[k];
   }
 
-  double p[3], support1, support2;
+  /** From a point where B^-1 x = share p, along p/|p| to the surface of 1 (or 2: against it), and the root of the Gaussian curvature
+   *  there, 1/(sqrt(det B) g.g) with g = B^-1 y. `inside` is -G at the point. The quadratic's root is in the form that does not cancel. */
+  GRAINSCOPE_INLINE void surface(const State &s, int which, Real share, Real inside, Real length, Real inverse_length, Real &depth,
+                                 Real &curvature) const {
+    const Body &body = which ? two_ : one_;
+    const Real t = which ? s.t2 : s.t1, t2 = t * t, a = which ? s.across2 : s.across1, shared = share * length;
+    const Real inverse = (a * body.inverse_equatorial + t2 * body.inverse_polar) * inverse_length * inverse_length;
+    depth = inside / (shared + root(shared * shared + inside * inverse));
+    const Real scaled = depth * inverse_length;
+    const Real ge = share + scaled * body.inverse_equatorial, ga = share + scaled * body.inverse_polar;
+    curvature = body.inverse_product / (a * ge * ge + t2 * ga * ga);
+  }
 
  private:
-  /** w = C^-1 r, where r1 and r2 are the components of r along the axes, t1 and t2 those of w. */
-  void solve(const double *r, double r1, double r2, double *w, double &t1, double &t2) const {
-    t1 = (e_ * r1 + alpha2_ * (r1 - c_ * r2)) * inverse_det_;
-    t2 = (e_ * r2 + alpha1_ * (r2 - c_ * r1)) * inverse_det_;
-    for (int k = 0; k < 3; k++) w[k] = (r[k] - alpha1_ * t1 * one_.u[k] - alpha2_ * t2 * two_.u[k]) * inverse_e_;
+  /** The components along the axes of C^-1 r, from those of r. */
+  GRAINSCOPE_INLINE void along_axes(Real r1, Real r2, Real &y1, Real &y2) const {
+    y1 = (e_ * r1 + alpha2_ * (r1 - c_ * r2)) * inverse_det_;
+    y2 = (e_ * r2 + alpha1_ * (r2 - c_ * r1)) * inverse_det_;
   }
 
-  /** From the components along and across each axis, all positive: thin discs lose no digits. All of them from p as rounded, not from
-   *  t1_ and t2_: d.p / (a + b) hardly changes with p near its largest, but only for one and the same p. */
-  void supports() {
-    along1_ = dot(one_.u, p);
-    along2_ = dot(two_.u, p);
-    double across[2] = {0.0, 0.0};
-    for (int k = 0; k < 3; k++) {
-      const double a = p[k] - along1_ * one_.u[k], b = p[k] - along2_ * two_.u[k];
-      across[0] += a * a;
-      across[1] += b * b;
-    }
-    across1_ = across[0];
-    across2_ = across[1];
-    support1 = one_.equatorial * across1_ + one_.polar * along1_ * along1_;
-    support2 = two_.equatorial * across2_ + two_.polar * along2_ * along2_;
+  GRAINSCOPE_INLINE void follow(State &s) const {
+    s.t1 = dot(one_.u, s.p);
+    s.t2 = dot(two_.u, s.p);
+    s.across1 = across(s.p, one_.u, s.t1);
+    s.across2 = across(s.p, two_.u, s.t2);
+    s.support1 = one_.equatorial * s.across1 + one_.polar * s.t1 * s.t1;
+    s.support2 = two_.equatorial * s.across2 + two_.polar * s.t2 * s.t2;
   }
 
-  const Spheroid &one_, &two_;
-  const double *d_;
-  double excess1_, excess2_, d1_, d2_, c_, s2_;
-  double e_, alpha1_, alpha2_, inverse_e_, inverse_det_;
-  double t1_, t2_, y1_, y2_, along1_, along2_, across1_, across2_;
+  const Body &one_, &two_;
+  Real d_[3], excess1_, excess2_, d1_, d2_, c_, s2_;
+  Real e_, alpha1_, alpha2_, inverse_e_, inverse_det_, y1_, y2_;
 };
+
+inline double support(const Triaxial &body, const double *n) {
+  double sum = 0.0;
+  for (int k = 0; k < 3; k++) sum += body.square[k] * dot(body.axis[k], n) * dot(body.axis[k], n);
+  return sum;
+}
 
 /** The same of any two ellipsoids: C by components, factorised as L D L^T. */
 class TriaxialPair {
  public:
+  using Real = double;
+  using Body = Triaxial;
+
   TriaxialPair(const Triaxial &one, const Triaxial &two, const double *d) : one_(one), two_(two), d_(d) {
     matrix(one, b1_);
     matrix(two, b2_);
   }
 
-  void evaluate(double lambda) {
+  struct State {
+    double p[3], support1, support2;
+    double t1[3], t2[3];  // components of p along the axes
+  };
+
+  void evaluate(double lambda, State &s) {
     const double m = 1.0 - lambda;
     double c[6];
     for (int k = 0; k < 6; k++) c[k] = m * b1_[k] + lambda * b2_[k];
@@ -114,35 +162,44 @@ class TriaxialPair {
     pivot_[0] = c[0];
     pivot_[1] = d1;
     pivot_[2] = c[2] - l20_ * c[4] - l21_ * off;
-    solve(d_, p);
-    supports();
+    solve(d_, s.p);
+    follow(s);
   }
 
-  void differentiate(double &along1, double &along2) {
+  void differentiate(const State &s, double &product1, double &product2) {
     double b1p[3], b2p[3], r[3];
-    times(one_, t1_, b1p);
-    times(two_, t2_, b2p);
+    times(one_, s.t1, b1p);
+    times(two_, s.t2, b2p);
     for (int k = 0; k < 3; k++) r[k] = b1p[k] - b2p[k];
     solve(r, w_);
-    along1 = dot(b1p, w_);
-    along2 = dot(b2p, w_);
+    product1 = dot(b1p, w_);
+    product2 = dot(b2p, w_);
   }
 
-  void advance(double step) {
-    for (int k = 0; k < 3; k++) p[k] += step * w_[k];
-    supports();
+  void advance(const State &s, double step, State &moved) const {
+    for (int k = 0; k < 3; k++) moved.p[k] = s.p[k] + step * w_[k];
+    follow(moved);
   }
 
-  void finish(double *b1p, double &inverse1, double &inverse2) const {
-    times(one_, t1_, b1p);
-    inverse1 = inverse2 = 0.0;
+  void point(const State &s, double m, double *x) const {
+    times(one_, s.t1, x);
+    for (int k = 0; k < 3; k++) x[k] *= m;
+  }
+
+  void surface(const State &s, int which, double share, double inside, double length, double inverse_length, double &depth,
+               double &curvature) const {
+    const Triaxial &body = which ? two_ : one_;
+    const double *t = which ? s.t2 : s.t1, shared = share * length;
+    double inverse = 0.0;
+    for (int k = 0; k < 3; k++) inverse += t[k] * t[k] / body.square[k];
+    depth = inside / (shared + root(shared * shared + inside * inverse * inverse_length * inverse_length));
+    double g2 = 0.0;
     for (int k = 0; k < 3; k++) {
-      inverse1 += t1_[k] * t1_[k] / one_.square[k];
-      inverse2 += t2_[k] * t2_[k] / two_.square[k];
+      const double g = t[k] * (share + depth * inverse_length / body.square[k]);
+      g2 += g * g;
     }
+    curvature = 1.0 / (root(body.square[0] * body.square[1] * body.square[2]) * g2);
   }
-
-  double p[3], support1, support2;
 
  private:
   static void matrix(const Triaxial &body, double *b) {
@@ -172,36 +229,109 @@ class TriaxialPair {
     w[0] = r[0] / pivot_[0] - l10_ * w[1] - l20_ * w[2];
   }
 
-  void supports() {
-    support1 = support2 = 0.0;
+  void follow(State &s) const {
+    s.support1 = s.support2 = 0.0;
     for (int k = 0; k < 3; k++) {
-      t1_[k] = dot(one_.axis[k], p);
-      t2_[k] = dot(two_.axis[k], p);
-      support1 += one_.square[k] * t1_[k] * t1_[k];
-      support2 += two_.square[k] * t2_[k] * t2_[k];
+      s.t1[k] = dot(one_.axis[k], s.p);
+      s.t2[k] = dot(two_.axis[k], s.p);
+      s.support1 += one_.square[k] * s.t1[k] * s.t1[k];
+      s.support2 += two_.square[k] * s.t2[k] * s.t2[k];
     }
   }
 
   const Triaxial &one_, &two_;
   const double *d_;
   double b1_[6], b2_[6];  // xx yy zz xy xz yz
-  double l10_, l20_, l21_, pivot_[3], t1_[3], t2_[3], w_[3];
+  double l10_, l20_, l21_, pivot_[3], w_[3];
 };
 
-using std::sqrt;
-
-/** n.B n */
-inline double support(const Spheroid &body, const double *n) {
-  const double t = dot(body.u, n);
-  double across = 0.0;
-  for (int k = 0; k < 3; k++) across += (n[k] - t * body.u[k]) * (n[k] - t * body.u[k]);
-  return body.equatorial * across + body.polar * t * t;
+/** The state of the lanes that are `settled`: a struct of nothing but Reals. */
+template <class State> GRAINSCOPE_INLINE void keep(bool settled, const State &moved, State &kept) {
+  if (settled) kept = moved;
+}
+template <class State> GRAINSCOPE_INLINE void keep(LaneMask settled, const State &moved, State &kept) {
+  for (int k = 0; k < 3; k++) kept.p[k] = pick(settled, moved.p[k], kept.p[k]);
+  kept.support1 = pick(settled, moved.support1, kept.support1);
+  kept.support2 = pick(settled, moved.support2, kept.support2);
+  kept.t1 = pick(settled, moved.t1, kept.t1);
+  kept.t2 = pick(settled, moved.t2, kept.t2);
+  kept.across1 = pick(settled, moved.across1, kept.across1);
+  kept.across2 = pick(settled, moved.across2, kept.across2);
 }
 
-inline double support(const Triaxial &body, const double *n) {
-  double sum = 0.0;
-  for (int k = 0; k < 3; k++) sum += body.square[k] * dot(body.axis[k], n) * dot(body.axis[k], n);
-  return sum;
+/** EllipsoidContact, or several side by side. */
+template <class Real> struct Answer {
+  using Mask = typename MaskOf<Real>::type;
+  Mask touching, apart, unsettled;
+  Real lambda, normal[3], point[3], depth[2], curvature[2], gap, steps;
+};
+
+/** The solver, for one pair or for several side by side; a lane that has found its answer keeps it, whatever the others still need.
+ *  Those that have not settled in `most_steps` are `unsettled`, and answered as far as they got. */
+template <class Pair>
+GRAINSCOPE_INLINE void solve(const typename Pair::Body &one, const typename Pair::Body &two, const typename Pair::Real *d,
+                             typename Pair::Real start, double tolerance, int most_steps, Answer<typename Pair::Real> &answer) {
+  using Real = typename Pair::Real;
+  using Mask = typename MaskOf<Real>::type;
+  const Mask cold = !((start > 0.0) & (start < 1.0));
+  answer.touching = answer.apart = answer.unsettled = cold & !cold;
+  answer.gap = answer.steps = Real{};
+  Real lambda = start;
+  if (any(cold)) {
+    const Real d2 = dot(d, d), h1 = root(support(one, d)), h2 = root(support(two, d));
+    lambda = pick(cold, h1 / (h1 + h2), lambda);
+    answer.apart = cold & (d2 > h1 + h2);
+    answer.gap = pick(answer.apart, (d2 - h1 - h2) / root(d2), answer.gap);
+  }
+  Mask open = !answer.apart;
+
+  Pair pair(one, two, d);
+  typename Pair::State now, moved, kept{};
+  Real low{}, high = Real{} + 1.0;
+  for (int round = 1; any(open); round++) {
+    pair.evaluate(lambda, now);
+    const Real ab = root(now.support1 * now.support2), sum2 = now.support1 + now.support2 + 2.0 * ab, dp = dot(d, now.p);
+    const Mask out = open & (dp * dp > sum2);  // p is a separating axis: d.p > a + b, a and b the roots of the supports
+    if (any(out)) {
+      answer.gap = pick(out, (dp - root(sum2)) / root(dot(now.p, now.p)), answer.gap);
+      answer.apart = answer.apart | out;
+      open = open & !out;
+      if (!any(open)) break;
+    }
+
+    // The root of psi = lambda - a/(a+b): linear in lambda for spheres. (Both sides of the step times a b (a + b).)
+    const Real m = 1.0 - lambda, off = m * now.support1 - lambda * now.support2 + (m - lambda) * ab;
+    low = pick(off > 0.0, lambda, low);
+    high = pick(off > 0.0, high, lambda);
+    Real product1, product2;
+    pair.differentiate(now, product1, product2);
+    const Real step = ab * off / (ab * sum2 - (product1 * now.support2 - product2 * now.support1)), next = lambda + step;
+    const Mask settled = open & (absolute(step) <= tolerance * least(lambda, m)), bracketed = (next > low) & (next < high);
+    if (round == most_steps) answer.unsettled = open & !settled;
+    const Mask last = settled | answer.unsettled;
+    answer.steps = pick(open, answer.steps + 1.0, answer.steps);
+    if (any(last)) {
+      pair.advance(now, pick(bracketed | settled, step, Real{}), moved);
+      keep(last, moved, kept);
+    }
+    lambda = pick(open, pick(bracketed | settled, next, 0.5 * (low + high)), lambda);
+    answer.touching = answer.touching | last;
+    open = open & !last;
+  }
+  answer.lambda = lambda;
+  if (!any(answer.touching)) return;
+
+  const Real sum = root(kept.support1 + kept.support2 + 2.0 * root(kept.support1 * kept.support2)), dp = dot(d, kept.p), apart = dp - sum;
+  const Real length = root(dot(kept.p, kept.p)), inverse_length = 1.0 / length, m = 1.0 - lambda;
+  const Mask out = answer.touching & (apart > 0.0);
+  answer.gap = pick(out, apart * inverse_length, answer.gap);
+  answer.apart = answer.apart | out;
+  answer.touching = answer.touching & !out;
+  const Real inverse_sum = 1.0 / sum, inside = -apart * inverse_sum * (1.0 + dp * inverse_sum);
+  for (int k = 0; k < 3; k++) answer.normal[k] = kept.p[k] * inverse_length;
+  pair.point(kept, m, answer.point);
+  pair.surface(kept, 0, m, inside, length, inverse_length, answer.depth[0], answer.curvature[0]);
+  pair.surface(kept, 1, lambda, inside, length, inverse_length, answer.depth[1], answer.curvature[1]);
 }
 
 inline double smallest_square(const Spheroid &body) { return std::min(body.equatorial, body.polar); }
@@ -210,123 +340,109 @@ inline double smallest_square(const Triaxial &body) { return *std::min_element(b
 /** Unit vector along a shortest semi-axis. */
 inline void shortest_axis(const Spheroid &body, double *n) {
   if (body.polar <= body.equatorial) {
-    for (int k = 0; k < 3; k++) n[k] = body.u[k];
+    std::copy(body.u, body.u + 3, n);
     return;
   }
-  int least = 0;  // across the axis: the coordinate axis that is farthest from it, made perpendicular
+  int across = 0;  // the coordinate axis that is farthest from the symmetry axis, made perpendicular to it
   for (int k = 1; k < 3; k++)
-    if (std::fabs(body.u[k]) < std::fabs(body.u[least])) least = k;
-  const double length = sqrt(1.0 - body.u[least] * body.u[least]);
-  for (int k = 0; k < 3; k++) n[k] = ((k == least) - body.u[least] * body.u[k]) / length;
+    if (std::fabs(body.u[k]) < std::fabs(body.u[across])) across = k;
+  const double length = root(1.0 - body.u[across] * body.u[across]);
+  for (int k = 0; k < 3; k++) n[k] = ((k == across) - body.u[across] * body.u[k]) / length;
 }
 
 inline void shortest_axis(const Triaxial &body, double *n) {
   const int least = static_cast<int>(std::min_element(body.square, body.square + 3) - body.square);
-  for (int k = 0; k < 3; k++) n[k] = body.axis[least][k];
+  std::copy(body.axis[least], body.axis[least] + 3, n);
 }
 
-/** Distance from the contact point along p/|p| to a surface: the positive root of a quadratic, in a form that does not cancel.
- *  `inside` is -G at the point, `share` the m |p| of 1 or lambda |p| of 2, `inverse` p.B^-1 p. */
-inline double depth_along(double inside, double share, double inverse, double p2) {
-  return inside / (share + sqrt(share * share + inside * inverse / p2));
-}
-
-inline bool is_sphere(const Spheroid &body) { return body.polar == body.equatorial; }
-
-inline EllipsoidContact sphere_contact(double radius1, double radius2, const double *d, double r) {
+EllipsoidContact contact_of_spheres(double radius1, double radius2, const double *d) {
   EllipsoidContact c{};
-  const double sum = radius1 + radius2;
+  const double r = root(dot(d, d)), sum = radius1 + radius2, inside = (sum - r) / sum;
   c.lambda = radius1 / sum;
   c.touching = r < sum;
   if (!c.touching) {
     c.gap = r - sum;
     return c;
   }
-  const double inside = (sum - r) / sum;
   for (int k = 0; k < 3; k++) {
     c.normal[k] = d[k] / r;
     c.point[k] = c.lambda * d[k];
   }
   c.depth[0] = radius1 * inside;
   c.depth[1] = radius2 * inside;
+  c.curvature[0] = 1.0 / radius1;
+  c.curvature[1] = 1.0 / radius2;
   return c;
 }
 
-inline bool both_spheres(const Spheroid &one, const Spheroid &two) { return is_sphere(one) && is_sphere(two); }
-inline bool both_spheres(const Triaxial &, const Triaxial &) { return false; }
-inline EllipsoidContact contact_of_spheres(const Spheroid &one, const Spheroid &two, const double *d, double r) {
-  return sphere_contact(sqrt(one.equatorial), sqrt(two.equatorial), d, r);
+/** Centres so close that their line has no direction. */
+template <class Body> inline bool concentric(const Body &one, const Body &two, const double *d) {
+  return dot(d, d) < 1e-26 * std::min(smallest_square(one), smallest_square(two));
 }
-inline EllipsoidContact contact_of_spheres(const Triaxial &, const Triaxial &, const double *, double) { return {}; }
 
-template <class Body> struct PairOf;
-template <> struct PairOf<Spheroid> { using type = SpheroidPair; };
-template <> struct PairOf<Triaxial> { using type = TriaxialPair; };
+inline bool is_sphere(const Spheroid &body) { return body.polar == body.equatorial; }
 
-template <class Body>
-EllipsoidContact solve(const Body &one, const Body &two, const double *d, double d2, double start, double tolerance) {
-  EllipsoidContact c{};
-  double lambda = start;
-  if (!(lambda > 0.0 && lambda < 1.0)) {
-    const double h1 = sqrt(support(one, d)), h2 = sqrt(support(two, d));
-    lambda = h1 / (h1 + h2);
-    if (d2 > h1 + h2) {
-      c.lambda = lambda;
-      c.gap = (d2 - h1 - h2) / sqrt(d2);
-      return c;
-    }
-  }
+inline double number(double lane, int) { return lane; }
+inline double number(const Lanes &lanes, int k) { return lanes[k]; }
 
-  typename PairOf<Body>::type pair(one, two, d);
-  double low = 0.0, high = 1.0, a, b, dp;
-  for (bool settled = false;;) {
-    if (!settled) pair.evaluate(lambda);
-    a = sqrt(pair.support1);
-    b = sqrt(pair.support2);
-    dp = dot(d, pair.p);
-    if (dp > a + b) {
-      c.lambda = lambda;
-      c.gap = (dp - a - b) / sqrt(dot(pair.p, pair.p));
-      return c;
-    }
-    if (settled) break;
-    if (c.steps == ELLIPSOID_STEPS) {
-      c.fallback = true;
-      break;
-    }
-    c.steps++;
-
-    // The root of psi = lambda - a/(a+b): linear in lambda for spheres.
-    const double m = 1.0 - lambda, off = m * a - lambda * b;
-    (off > 0.0 ? low : high) = lambda;
-    double along1, along2;
-    pair.differentiate(along1, along2);
-    const double ab = a * b, sum = a + b;
-    const double slope = ab * sum * sum - (along1 * pair.support2 - along2 * pair.support1);
-    const double step = off * sum * ab / slope;
-    const double next = lambda + step;
-    if (std::fabs(step) <= tolerance * std::min(lambda, m)) {
-      pair.advance(step);
-      lambda = next;
-      settled = true;
-    } else {
-      lambda = next > low && next < high ? next : 0.5 * (low + high);
-    }
-  }
-
-  const double m = 1.0 - lambda, outside = dp / (a + b), inside = (a + b - dp) / (a + b) * (1.0 + outside);
-  const double p2 = dot(pair.p, pair.p), length = sqrt(p2);
-  double b1p[3], inverse1, inverse2;
-  pair.finish(b1p, inverse1, inverse2);
-  c.touching = true;
-  c.lambda = lambda;
+/** One lane's answer. Of those that do not touch, only what is defined. */
+template <class Real> GRAINSCOPE_INLINE void unpack(const Answer<Real> &answer, int lane, bool touching, bool unsettled, EllipsoidContact &c) {
+  c = EllipsoidContact{};
+  c.touching = touching;
+  c.fallback = unsettled;
+  c.steps = static_cast<int>(number(answer.steps, lane));
+  c.lambda = number(answer.lambda, lane);
+  c.gap = number(answer.gap, lane);
+  if (!touching) return;
   for (int k = 0; k < 3; k++) {
-    c.normal[k] = pair.p[k] / length;
-    c.point[k] = m * b1p[k];
+    c.normal[k] = number(answer.normal[k], lane);
+    c.point[k] = number(answer.point[k], lane);
   }
-  c.depth[0] = depth_along(inside, m * length, inverse1, p2);
-  c.depth[1] = depth_along(inside, lambda * length, inverse2, p2);
+  for (int k = 0; k < 2; k++) {
+    c.depth[k] = number(answer.depth[k], lane);
+    c.curvature[k] = number(answer.curvature[k], lane);
+  }
+}
+
+template <class Pair, class Body, class Pose>
+EllipsoidContact regular_contact(const Body &one, const Body &two, const Pose &pose1, const Pose &pose2, const double *d, double start,
+                                 double tolerance) {
+  if (concentric(one, two, d)) {  // any normal would do; theirs is the shortest way out of the thinner one
+    const double square1 = smallest_square(one), square2 = smallest_square(two);
+    double n[3];
+    shortest_axis(square1 <= square2 ? one : two, n);
+    for (int k = 0; k < 3; k++) n[k] *= 1e-12 * root(std::min(square1, square2));
+    EllipsoidContact c = regular_contact<Pair>(one, two, pose1, pose2, n, 0.0, tolerance);
+    c.fallback = true;
+    return c;
+  }
+  Answer<double> answer;
+  solve<Pair>(pose1, pose2, d, start, tolerance, ELLIPSOID_STEPS, answer);
+  EllipsoidContact c;
+  unpack(answer, 0, answer.touching, answer.unsettled, c);
   return c;
+}
+
+inline SpheroidOf<double> pose_of(const Spheroid &body) {
+  return {{body.u[0], body.u[1], body.u[2]}, body.equatorial, body.polar, body.inverse_equatorial, body.inverse_polar, body.inverse_product};
+}
+
+inline void set_shape(const Spheroid &body, int lane, SpheroidOf<Lanes> &lanes) {
+  for (int c = 0; c < 3; c++) lanes.u[c][lane] = body.u[c];
+  lanes.equatorial[lane] = body.equatorial;
+  lanes.polar[lane] = body.polar;
+  lanes.inverse_equatorial[lane] = body.inverse_equatorial;
+  lanes.inverse_polar[lane] = body.inverse_polar;
+  lanes.inverse_product[lane] = body.inverse_product;
+}
+
+constexpr double TOLERANCE = 1e-6;
+constexpr int LANE_STEPS = 2;  // what nearly all warm contacts need; the others are asked again, alone
+
+/** LANES pairs, from spheroids by rows of components. */
+GRAINSCOPE_CLONES void solve_lanes(const SpheroidOf<Lanes> &one, const SpheroidOf<Lanes> &two, const Lanes *d, const Lanes &start,
+                                   Answer<Lanes> &answer) {
+  solve<SpheroidPair<Lanes>>(one, two, d, start, TOLERANCE, LANE_STEPS, answer);
 }
 
 }
@@ -338,6 +454,9 @@ Spheroid make_spheroid(const double semi_axes[3], const double quaternion[4]) {
   rotated_axis(quaternion, k, body.u);
   body.equatorial = semi_axes[(k + 1) % 3] * semi_axes[(k + 2) % 3];
   body.polar = sphere ? body.equatorial : semi_axes[k] * semi_axes[k];
+  body.inverse_equatorial = 1.0 / body.equatorial;
+  body.inverse_polar = 1.0 / body.polar;
+  body.inverse_product = body.inverse_equatorial * root(body.inverse_polar);
   return body;
 }
 
@@ -350,33 +469,47 @@ Triaxial make_triaxial(const double semi_axes[3], const double quaternion[4]) {
   return body;
 }
 
-template <class Body>
-EllipsoidContact ellipsoid_contact(const Body &one, const Body &two, const double d[3], double start, double tolerance) {
-  const double d2 = dot(d, d);
-  const double smallest = std::min(smallest_square(one), smallest_square(two));
-  if (d2 < 1e-26 * smallest) {  // concentric: any normal would do; theirs is the shortest way out of the thinner one
-    double n[3];
-    shortest_axis(smallest_square(one) == smallest ? one : two, n);
-    for (int k = 0; k < 3; k++) n[k] *= 1e-12 * sqrt(smallest);
-    EllipsoidContact c = ellipsoid_contact(one, two, n, 0.0, tolerance);
-    c.fallback = true;
-    return c;
-  }
-  if (both_spheres(one, two)) return contact_of_spheres(one, two, d, sqrt(d2));
-  return solve(one, two, d, d2, start, tolerance);
+template <>
+EllipsoidContact ellipsoid_contact(const Spheroid &one, const Spheroid &two, const double d[3], double start, double tolerance) {
+  if (is_sphere(one) && is_sphere(two) && !concentric(one, two, d)) return contact_of_spheres(root(one.equatorial), root(two.equatorial), d);
+  return regular_contact<SpheroidPair<double>>(one, two, pose_of(one), pose_of(two), d, start, tolerance);
 }
 
-template EllipsoidContact ellipsoid_contact(const Spheroid &, const Spheroid &, const double[3], double, double);
-template EllipsoidContact ellipsoid_contact(const Triaxial &, const Triaxial &, const double[3], double, double);
+template <>
+EllipsoidContact ellipsoid_contact(const Triaxial &one, const Triaxial &two, const double d[3], double start, double tolerance) {
+  return regular_contact<TriaxialPair>(one, two, one, two, d, start, tolerance);
+}
+
+void ellipsoid_contacts(int n, const EllipsoidPair *pairs, EllipsoidContact *contacts) {
+  for (int first = 0; first < n; first += LANES) {
+    SpheroidOf<Lanes> one, two;
+    Lanes d[3], start;
+    bool alone[LANES], together = false;
+    for (int k = 0; k < LANES; k++) {
+      const EllipsoidPair &pair = pairs[std::min(first + k, n - 1)];  // idle lanes repeat the last pair
+      for (int c = 0; c < 3; c++) d[c][k] = pair.d[c];
+      set_shape(*pair.one, k, one);
+      set_shape(*pair.two, k, two);
+      start[k] = pair.start;
+      alone[k] = (is_sphere(*pair.one) && is_sphere(*pair.two)) || concentric(*pair.one, *pair.two, pair.d);
+      together = together || !alone[k];
+    }
+    Answer<Lanes> answer;
+    if (together) solve_lanes(one, two, d, start, answer);
+    for (int k = 0; k < std::min(LANES, n - first); k++) {
+      const EllipsoidPair &pair = pairs[first + k];
+      if (alone[k] || answer.unsettled[k]) contacts[first + k] = ellipsoid_contact(*pair.one, *pair.two, pair.d, pair.start, TOLERANCE);
+      else unpack(answer, k, answer.touching[k], false, contacts[first + k]);
+    }
+  }
+}
 
 /** With g = B^-1 y, half the gradient of y.B^-1 y: K = 1/(det B (g.g)^2), H = (tr(B^-1) g.g - g.B^-1 g)/(2 |g|^3). */
 template <>
 double gaussian_curvature(const Spheroid &body, const double y[3]) {
-  const double t = dot(body.u, y);
-  double across = 0.0;
-  for (int k = 0; k < 3; k++) across += (y[k] - t * body.u[k]) * (y[k] - t * body.u[k]);
-  const double e = body.equatorial, g2 = across / (e * e) + t * t / (body.polar * body.polar);
-  return 1.0 / (e * e * body.polar * g2 * g2);
+  const double t = dot(body.u, y), e = body.equatorial, a = body.polar;
+  const double g2 = across(y, body.u, t) / (e * e) + t * t / (a * a);
+  return 1.0 / (e * e * a * g2 * g2);
 }
 
 template <>
@@ -392,12 +525,9 @@ double gaussian_curvature(const Triaxial &body, const double y[3]) {
 
 template <>
 double mean_curvature(const Spheroid &body, const double y[3]) {
-  const double t = dot(body.u, y);
-  double across = 0.0;
-  for (int k = 0; k < 3; k++) across += (y[k] - t * body.u[k]) * (y[k] - t * body.u[k]);
-  const double e = body.equatorial, a = body.polar;
-  const double g2_across = across / (e * e), g2_along = t * t / (a * a), g2 = g2_across + g2_along;
-  return (g2_across * (1.0 / e + 1.0 / a) + g2_along * 2.0 / e) / (2.0 * g2 * sqrt(g2));
+  const double t = dot(body.u, y), e = body.equatorial, a = body.polar;
+  const double g2_across = across(y, body.u, t) / (e * e), g2_along = t * t / (a * a), g2 = g2_across + g2_along;
+  return (g2_across * (1.0 / e + 1.0 / a) + g2_along * 2.0 / e) / (2.0 * g2 * root(g2));
 }
 
 template <>
@@ -408,7 +538,7 @@ double mean_curvature(const Triaxial &body, const double y[3]) {
     g2 += g * g;
     weighted += g * g * (1.0 / body.square[(k + 1) % 3] + 1.0 / body.square[(k + 2) % 3]);
   }
-  return weighted / (2.0 * g2 * sqrt(g2));
+  return weighted / (2.0 * g2 * root(g2));
 }
 
 }

@@ -7,8 +7,9 @@ namespace grainscope {
 /** A spheroid or sphere as the contact solver wants it, with B = equatorial I + (polar - equatorial) u u^T. Lengths in any one unit. */
 struct Spheroid {
   double u[3];        // unit vector of the symmetry axis
-  double equatorial;  // squares of the semi-axes
-  double polar;
+  double equatorial, polar;  // squares of the semi-axes
+  double inverse_equatorial, inverse_polar;
+  double inverse_product;  // of the three semi-axes
 };
 
 /** Any ellipsoid, with B = sum of square[k] axis[k] axis[k]^T. */
@@ -41,15 +42,24 @@ struct EllipsoidContact {
   double normal[3];  // unit vector from 1 to 2
   double point[3];   // contact point from the centre of 1
   double depth[2];   // from the contact point to the surface of 1 along the normal, and to that of 2 against it; >= 0
+  double curvature[2];  // root of the Gaussian curvature of each, where that line meets its surface [1/length]
   double gap;        // of ellipsoids that do not touch: a lower bound of their distance; else 0
 };
 
 constexpr int ELLIPSOID_STEPS = 60;
 
 /** d = x2 - x1. `start` is the lambda of a similar configuration, or 0 for none. The relative error of lambda is about `tolerance`^2:
- *  the last step is carried over to the answer to first order. Point, normal and depth are set only for those that touch. */
+ *  the last step is carried over to the answer to first order. Normal, point, depth and curvature are set only for those that touch. */
 template <class Body>
 EllipsoidContact ellipsoid_contact(const Body &one, const Body &two, const double d[3], double start, double tolerance = 1e-6);
+
+struct EllipsoidPair {
+  const Spheroid *one, *two;
+  double d[3], start;
+};
+
+/** Many pairs at once, several side by side: the same answers to the last bit, sooner. */
+void ellipsoid_contacts(int n, const EllipsoidPair *pairs, EllipsoidContact *contacts);
 
 /** Curvatures at a point y on the surface, from the centre: the Gaussian one [1/length^2] and the mean one [1/length]. */
 template <class Body>

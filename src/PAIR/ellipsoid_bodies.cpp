@@ -63,30 +63,42 @@ void EllipsoidBodies::refuse_other_blockiness() {
   error->all(FLERR, message);
 }
 
-EllipsoidContact EllipsoidBodies::contact(int i, int j, const double d[3], double start) {
-  const EllipsoidContact c = grains_[i].triaxial || grains_[j].triaxial ? ellipsoid_contact(frames_[i], frames_[j], d, start)
-                                                                        : ellipsoid_contact(grains_[i].spheroid, grains_[j].spheroid, d, start);
-  counts.solved++;
-  counts.steps += c.steps;
-  counts.touching += c.touching;
-  counts.most_steps = std::max<double>(counts.most_steps, c.steps);
-  if (c.fallback) {
-    counts.fallbacks++;
-    if (!warned_) {
-      warned_ = true;
-      char message[200];
-      snprintf(message, sizeof message, "surface ellipsoid: no regular contact of grains %d and %d (concentric?): their normal is arbitrary "
-               "(told once; compute contact/solver counts)", atom->tag[i], atom->tag[j]);
-      error->warning(FLERR, message);
+void EllipsoidBodies::solve(int n, const Query *queries, EllipsoidContact *contacts) {
+  if (frames_.empty()) {
+    pairs_.resize(n);
+    for (int k = 0; k < n; k++) {
+      const Query &q = queries[k];
+      pairs_[k] = {&grains_[q.i].spheroid, &grains_[q.j].spheroid, {q.d[0], q.d[1], q.d[2]}, q.start};
+    }
+    ellipsoid_contacts(n, pairs_.data(), contacts);
+  } else {
+    for (int k = 0; k < n; k++) {
+      const Query &q = queries[k];
+      const Grain &one = grains_[q.i], &two = grains_[q.j];
+      contacts[k] = one.triaxial || two.triaxial ? ellipsoid_contact(frames_[q.i], frames_[q.j], q.d, q.start)
+                                                 : ellipsoid_contact(one.spheroid, two.spheroid, q.d, q.start);
     }
   }
-  return c;
+  for (int k = 0; k < n; k++) count(queries[k], contacts[k]);
 }
 
-double EllipsoidBodies::curvature(int i, const double y[3], bool mean) const {
-  const Grain &grain = grains_[i];
-  if (mean) return grain.triaxial ? mean_curvature(frames_[i], y) : mean_curvature(grain.spheroid, y);
-  return std::sqrt(grain.triaxial ? gaussian_curvature(frames_[i], y) : gaussian_curvature(grain.spheroid, y));
+void EllipsoidBodies::count(const Query &query, const EllipsoidContact &contact) {
+  counts.solved++;
+  counts.steps += contact.steps;
+  counts.touching += contact.touching;
+  counts.most_steps = std::max<double>(counts.most_steps, contact.steps);
+  if (!contact.fallback) return;
+  counts.fallbacks++;
+  if (warned_) return;
+  warned_ = true;
+  char message[200];
+  snprintf(message, sizeof message, "surface ellipsoid: no regular contact of grains %d and %d (concentric?), their normal is arbitrary "
+           "(told once; compute contact/solver counts)", atom->tag[query.i], atom->tag[query.j]);
+  error->warning(FLERR, message);
+}
+
+double EllipsoidBodies::mean_curvature(int i, const double y[3]) const {
+  return grains_[i].triaxial ? grainscope::mean_curvature(frames_[i], y) : grainscope::mean_curvature(grains_[i].spheroid, y);
 }
 
 }

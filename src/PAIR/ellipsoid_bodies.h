@@ -26,10 +26,11 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
   /** Before a force evaluation; all ranks together. Refuses grains that are no ellipsoids. */
   void prepare();
 
-  /** Of grains i and j, d = x_j - x_i, and a start as in ellipsoid_contact(). */
-  EllipsoidContact contact(int i, int j, const double d[3], double start);
-  /** Mean curvature, or the root of the Gaussian one, at a point y of the surface of grain i, from its centre [1/length]. */
-  double curvature(int i, const double y[3], bool mean) const;
+  /** Grains i and j, d = x_j - x_i, and a start as in ellipsoid_contact(). */
+  struct Query { int i, j; double d[3], start; };
+  void solve(int n, const Query *queries, EllipsoidContact *contacts);
+  /** At a point y of the surface of grain i, from its centre [1/length]. */
+  double mean_curvature(int i, const double y[3]) const;
   /** Of the sphere of equal volume. */
   double equivalent_radius(int i) const { return grains_[i].equivalent_radius; }
   /** Difference of the largest and the smallest semi-axis. */
@@ -47,16 +48,12 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
   std::vector<Grain> grains_;
   std::vector<Triaxial> frames_;  // of all grains, if one of them is triaxial
   LAMMPS_NS::bigint list_ = -1;
+  std::vector<EllipsoidPair> pairs_;
   bool warned_ = false;
 
   void read_shapes(int n);
   void refuse_other_blockiness();
-};
-
-/** A pair style that owns the bodies, so that its loop sees them; under any other the surface model has its own. */
-struct EllipsoidBodiesOwner {
-  virtual ~EllipsoidBodiesOwner() {}
-  virtual EllipsoidBodies &ellipsoid_bodies() = 0;
+  void count(const Query &query, const EllipsoidContact &contact);
 };
 
 }

@@ -22,6 +22,7 @@ struct PairGranInsitu::Impl {
   explicit Impl(LAMMPS *lmp) : observer(lmp), bodies(lmp) {}
   ContactObserver observer;
   grainscope::EllipsoidBodies bodies;
+  grainscope::EllipsoidSurface surface;
   std::unique_ptr<LIGGGHTS::PairStyles::IGranularPairStyle> loop;
   double **friction = nullptr;
   bool warned_of_stale_springs = false;
@@ -38,6 +39,8 @@ PairGranInsitu::~PairGranInsitu() {}
 ContactObserver &PairGranInsitu::observer() { return impl_->observer; }
 
 grainscope::EllipsoidBodies &PairGranInsitu::ellipsoid_bodies() { return impl_->bodies; }
+
+grainscope::EllipsoidSurface &PairGranInsitu::ellipsoid_surface() { return impl_->surface; }
 
 PairGranInsitu *PairGranInsitu::required_by(LAMMPS *lmp, const char *who) {
   PairGranInsitu *pair = dynamic_cast<PairGranInsitu *>(lmp->force->pair);

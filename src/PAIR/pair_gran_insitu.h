@@ -8,7 +8,7 @@ PairStyle(gran/insitu,PairGranInsitu)
 #ifndef LMP_PAIR_GRAN_INSITU_H
 #define LMP_PAIR_GRAN_INSITU_H
 
-#include "ellipsoid_bodies.h"
+#include "ellipsoid_surface.h"
 #include "pair_gran_proxy.h"
 #include <memory>
 
@@ -18,7 +18,7 @@ namespace LAMMPS_NS {
 
 /** pair_style gran, with every contact of a force evaluation offered to the computes and fixes that ask for it.
  *  Same arguments, same loop, same trajectory to the last bit; see doc/pair_gran_insitu.md. */
-class PairGranInsitu : public PairGranProxy, public grainscope::EllipsoidBodiesOwner {
+class PairGranInsitu : public PairGranProxy, public grainscope::EllipsoidOwner {
  public:
   explicit PairGranInsitu(LAMMPS *lmp);
   ~PairGranInsitu();
@@ -43,6 +43,7 @@ class PairGranInsitu : public PairGranProxy, public grainscope::EllipsoidBodiesO
 
   grainscope::ContactObserver &observer();
   grainscope::EllipsoidBodies &ellipsoid_bodies();
+  grainscope::EllipsoidSurface &ellipsoid_surface();
 
  private:
   struct Impl;

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_ELLIPSOID_SURFACE_H
+#define GRAINSCOPE_ELLIPSOID_SURFACE_H
+
+#include "ellipsoid_bodies.h"
+#include "atom.h"
+#include "contact_interface.h"
+#include "math_extra_liggghts_nonspherical.h"
+
+namespace grainscope {
+
+/** Between the solver and the host's contact data and history: what `surface ellipsoid` means, whichever loop asks. */
+struct EllipsoidSurface {
+  // Columns of the contact history, those of `surface superquadric`, so that restart files of the two are interchangeable. `lambda`
+  // (less 1/2: changes its sign when the host swaps i and j) stands where the other keeps a number that is no lambda: a cold start.
+  int lambda, state, point, depth_i, depth_j;
+  double curvature_limit = 0.0;
+  bool mean = false, gaussian = false;
+
+  using Sides = LIGGGHTS::ContactModels::SurfacesIntersectData;
+
+  double start(const double *history) const { return history[state] == TOUCHING ? history[lambda] + 0.5 : 0.0; }
+
+  /** Enters a contact into the history, and into `s` if it touches; else s.deltan is minus a lower bound of the distance. */
+  bool enter(const EllipsoidContact &c, Sides &s, const EllipsoidBodies &bodies, LAMMPS_NS::Atom *atom, LAMMPS_NS::Error *error) const {
+    double *history = s.contact_history;
+    s.is_non_spherical = true;
+    history[state] = c.touching ? TOUCHING : FAR;
+    if (!c.touching) {
+      s.deltan = -c.gap;
+      return false;
+    }
+    history[lambda] = c.lambda - 0.5;
+    history[depth_i] = c.depth[0];
+    history[depth_j] = c.depth[1];
+    s.reff = s.radi * s.radj / (s.radi + s.radj);
+    if (curvature_limit > 0.0) {
+      double ki = c.curvature[0], kj = c.curvature[1];
+      if (mean) {
+        double on_i[3], on_j[3];
+        for (int k = 0; k < 3; k++) {
+          on_i[k] = c.point[k] + c.depth[0] * c.normal[k];
+          on_j[k] = c.point[k] + s.delta[k] - c.depth[1] * c.normal[k];
+        }
+        ki = bodies.mean_curvature(s.i, on_i);
+        kj = bodies.mean_curvature(s.j, on_j);
+      }
+      s.reff = MathExtraLiggghtsNonspherical::get_effective_radius(s, atom->blockiness[s.i], atom->blockiness[s.j], ki, kj, curvature_limit, error);
+    }
+    s.deltan = c.depth[0] + c.depth[1];
+    for (int k = 0; k < 3; k++) {
+      s.en[k] = -c.normal[k];
+      s.delta[k] = s.deltan * s.en[k];
+      s.contact_point[k] = history[point + k] = atom->x[s.i][k] + c.point[k];
+    }
+    return true;
+  }
+
+ private:
+  enum { FAR = 0, TOUCHING = 2 };  // in the other surface's words
+};
+
+/** A pair style that owns the bodies and the surface, so that its loop sees them; under any other the surface model has its own. */
+struct EllipsoidOwner {
+  virtual ~EllipsoidOwner() {}
+  virtual EllipsoidBodies &ellipsoid_bodies() = 0;
+  virtual EllipsoidSurface &ellipsoid_surface() = 0;
+};
+
+}
+
+#endif
