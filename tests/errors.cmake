@@ -32,5 +32,5 @@ add_cases(error-measures errors/measures.py LABEL error RANKS 1 2 CASES
   surface-two-shapes surface-triaxial surface-of-spheres correlation-mesh-not-periodic memory-without-strain
   displacement-strain-no-such-variable fabric-needs-gran-insitu)
 add_cases(error-spheroid errors/spheroid.py LABEL error RANKS 1 CASES
-  takes-no-keywords spheres boxy-about-an-equator triaxial-between-runs implicit-cfd-coupling)
-add_cases(error-spheroid errors/spheroid.py LABEL error RANKS 1 2 CASES triaxial-grains triaxial-inserted)
+  takes-no-keywords spheres triaxial-between-runs implicit-cfd-coupling)
+add_cases(error-spheroid errors/spheroid.py LABEL error RANKS 1 2 CASES triaxial-grains boxy-about-an-equator triaxial-inserted)

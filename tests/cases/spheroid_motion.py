@@ -111,9 +111,10 @@ def boxy_grains(ranks):
 
 
 def some_grains(*lines):
-    """Only the group's grains move."""
+    """Only the group's grains move, and only they must have an axis."""
     def case(ranks):
         packing = flying()
+        packing.grains[1] = replace(packing.grains[1], semi_axes=(1.0, 1.2, 1.5))
         deck = flight(packing, "unfix integrate", "fix integrate some nve/spheroid")
         deck.body[:0] = ["group some id 1 5 8 12"]
         text = deck.text().replace("atom_modify map array", "atom_modify map array" + "".join(lines))
