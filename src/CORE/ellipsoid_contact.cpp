@@ -482,11 +482,16 @@ EllipsoidContact ellipsoid_contact(const Triaxial &one, const Triaxial &two, con
 
 void ellipsoid_contacts(int n, const EllipsoidPair *pairs, EllipsoidContact *contacts) {
   for (int first = 0; first < n; first += LANES) {
+    const int many = std::min(LANES, n - first);
+    if (many < 3) {  // not worth the lanes
+      for (int k = first; k < n; k++) contacts[k] = ellipsoid_contact(*pairs[k].one, *pairs[k].two, pairs[k].d, pairs[k].start, TOLERANCE);
+      return;
+    }
     SpheroidOf<Lanes> one, two;
     Lanes d[3], start;
     bool alone[LANES], together = false;
     for (int k = 0; k < LANES; k++) {
-      const EllipsoidPair &pair = pairs[std::min(first + k, n - 1)];  // idle lanes repeat the last pair
+      const EllipsoidPair &pair = pairs[first + std::min(k, many - 1)];  // idle lanes repeat the last pair
       for (int c = 0; c < 3; c++) d[c][k] = pair.d[c];
       set_shape(*pair.one, k, one);
       set_shape(*pair.two, k, two);
@@ -496,7 +501,7 @@ void ellipsoid_contacts(int n, const EllipsoidPair *pairs, EllipsoidContact *con
     }
     Answer<Lanes> answer;
     if (together) solve_lanes(one, two, d, start, answer);
-    for (int k = 0; k < std::min(LANES, n - first); k++) {
+    for (int k = 0; k < many; k++) {
       const EllipsoidPair &pair = pairs[first + k];
       if (alone[k] || answer.unsettled[k]) contacts[first + k] = ellipsoid_contact(*pair.one, *pair.two, pair.d, pair.start, TOLERANCE);
       else unpack(answer, k, answer.touching[k], false, contacts[first + k]);
