@@ -18,7 +18,8 @@ void EllipsoidBodies::prepare() {
     read_shapes(n);
     list_ = neighbor->lastcall;
   }
-  for (int i = 0; i < n; i++) rotated_axis(atom->quaternion[i], grains_[i].axis, grains_[i].spheroid.u);
+  for (int i = 0; i < n; i++)
+    if (!is_sphere(i)) rotated_axis(atom->quaternion[i], grains_[i].axis, grains_[i].spheroid.u);
   if (frames_.empty()) return;
   for (int i = 0; i < n; i++) frames_[i] = make_triaxial(atom->shape[i], atom->quaternion[i]);
 }
@@ -32,7 +33,7 @@ void EllipsoidBodies::read_shapes(int n) {
     Grain &grain = grains_[i];
     grain.spheroid = make_spheroid(s, atom->quaternion[i]);
     grain.equivalent_radius = std::cbrt(0.75 * atom->volume[i] / M_PI);  // in the host's words, to the last bit
-    grain.elongation = *std::max_element(s, s + 3) - *std::min_element(s, s + 3);
+    grain.elongation = axis.shape == Shape::sphere ? 0.0 : *std::max_element(s, s + 3) - *std::min_element(s, s + 3);
     grain.axis = std::max(axis.index, 0);
     grain.triaxial = axis.shape == Shape::triaxial;
     triaxial = triaxial || grain.triaxial;

@@ -33,6 +33,7 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
   double mean_curvature(int i, const double y[3]) const;
   /** Of the sphere of equal volume. */
   double equivalent_radius(int i) const { return grains_[i].equivalent_radius; }
+  bool is_sphere(int i) const { return grains_[i].elongation == 0.0; }
   /** Difference of the largest and the smallest semi-axis. */
   double elongation(int i) const { return grains_[i].elongation; }
 

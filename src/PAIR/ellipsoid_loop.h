@@ -60,6 +60,7 @@ class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model> {
   Model &model_;
   EllipsoidBodies &bodies_;
   const EllipsoidSurface &surface_;
+  std::vector<int> look_;  // neighbours of one grain, by place in its list
   std::vector<Near> near_;
   std::vector<EllipsoidBodies::Query> queries_;
   std::vector<EllipsoidContact> contacts_;
@@ -111,10 +112,15 @@ void EllipsoidLoop<Model>::own_compute_force(PairGran *pair, int eflag, int vfla
     const int *jlist = list->firstneigh[i];
     const double moved = apart_.moved(i);
     bodies_.counts.listed += neighbours;
+    if (static_cast<int>(look_.size()) < neighbours) look_.resize(neighbours);
+    int looks = 0;  // gathered without a branch: no processor could guess it
     for (int jj = 0; jj < neighbours; jj++) {
-      const int j = jlist[jj] & NEIGHMASK, number = first_pair_[ii] + jj;
+      look_[looks] = jj;
+      looks += apart_.may_touch(first_pair_[ii] + jj, moved + apart_.moved(jlist[jj] & NEIGHMASK));
+    }
+    for (int l = 0; l < looks; l++) {
+      const int jj = look_[l], j = jlist[jj] & NEIGHMASK, number = first_pair_[ii] + jj;
       const double motion = moved + apart_.moved(j);
-      if (!apart_.may_touch(number, motion)) continue;
       const double d[3] = {x[j][0] - x[i][0], x[j][1] - x[i][1], x[j][2] - x[i][2]};
       const double rsq = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], radsum = radius[i] + radius[j];
       Near near{number, motion, rsq, &kept->firstneigh[i][jj], &kept->firstdouble[i][dnum * jj]};
@@ -162,7 +168,7 @@ void EllipsoidLoop<Model>::contacts_of_batch(PairGran *pair, Sides &s, Force &on
     s.j = j;
     s.radi = bodies_.equivalent_radius(i);
     s.radj = bodies_.equivalent_radius(j);
-    if (!surface_.enter(contacts_[k], s, bodies_, atom, lmp_->error)) {
+    if (!surface_.enter(contacts_[k], s, bodies_, atom)) {
       apart_.set_apart(near.number, contacts_[k].gap, near.motion);
       if (*near.flags) close(near, i, j, s, on_i, on_j);
       continue;

@@ -5,7 +5,8 @@
 #include "ellipsoid_bodies.h"
 #include "atom.h"
 #include "contact_interface.h"
-#include "math_extra_liggghts_nonspherical.h"
+#include <Eigen/Geometry>
+#include <algorithm>
 
 namespace grainscope {
 
@@ -22,9 +23,8 @@ struct EllipsoidSurface {
   double start(const double *history) const { return history[state] == TOUCHING ? history[lambda] + 0.5 : 0.0; }
 
   /** Enters a contact into the history, and into `s` if it touches; else s.deltan is minus a lower bound of the distance. */
-  bool enter(const EllipsoidContact &c, Sides &s, const EllipsoidBodies &bodies, LAMMPS_NS::Atom *atom, LAMMPS_NS::Error *error) const {
+  bool enter(const EllipsoidContact &c, Sides &s, const EllipsoidBodies &bodies, const LAMMPS_NS::Atom *atom) const {
     double *history = s.contact_history;
-    s.is_non_spherical = true;
     history[state] = c.touching ? TOUCHING : FAR;
     if (!c.touching) {
       s.deltan = -c.gap;
@@ -33,6 +33,8 @@ struct EllipsoidSurface {
     history[lambda] = c.lambda - 0.5;
     history[depth_i] = c.depth[0];
     history[depth_j] = c.depth[1];
+    // Two spheres take the models' shorter formulas, but where a limit makes them softer than spheres.
+    s.is_non_spherical = !bodies.is_sphere(s.i) || !bodies.is_sphere(s.j) || (curvature_limit > 0.0 && curvature_limit < 1.0);
     s.reff = s.radi * s.radj / (s.radi + s.radj);
     if (curvature_limit > 0.0) {
       double ki = c.curvature[0], kj = c.curvature[1];
@@ -45,15 +47,31 @@ struct EllipsoidSurface {
         ki = bodies.mean_curvature(s.i, on_i);
         kj = bodies.mean_curvature(s.j, on_j);
       }
-      s.reff = MathExtraLiggghtsNonspherical::get_effective_radius(s, atom->blockiness[s.i], atom->blockiness[s.j], ki, kj, curvature_limit, error);
+      s.reff = std::min(1.0 / (ki + kj), s.reff * curvature_limit);
     }
     s.deltan = c.depth[0] + c.depth[1];
     for (int k = 0; k < 3; k++) {
       s.en[k] = -c.normal[k];
-      s.delta[k] = s.deltan * s.en[k];
       s.contact_point[k] = history[point + k] = atom->x[s.i][k] + c.point[k];
     }
     return true;
+  }
+
+  /** Velocities of i against j at the contact point, and its distances from the centres. */
+  void move(Sides &s, const LAMMPS_NS::Atom *atom) const {
+    using Vector = Eigen::Map<const Eigen::Vector3d>;
+    const Vector normal(s.en), point(s.contact_point), spin_i(s.omega_i), spin_j(s.omega_j);
+    const Eigen::Vector3d arm_i = point - Vector(atom->x[s.i]), arm_j = point - Vector(atom->x[s.j]);
+    const Eigen::Vector3d v = Vector(s.v_i) - Vector(s.v_j) + spin_i.cross(arm_i) - spin_j.cross(arm_j);
+    s.vn = v.dot(normal);
+    s.vtr1 = v[0] - s.vn * normal[0];
+    s.vtr2 = v[1] - s.vn * normal[1];
+    s.vtr3 = v[2] - s.vn * normal[2];
+    s.wr1 = spin_i[0] - spin_j[0];
+    s.wr2 = spin_i[1] - spin_j[1];
+    s.wr3 = spin_i[2] - spin_j[2];
+    s.cri = arm_i.norm();
+    s.crj = arm_j.norm();
   }
 
  private:

@@ -61,17 +61,16 @@ class SurfaceModel<SURFACE_ELLIPSOID> : public SurfaceModelBase {
     const grainscope::EllipsoidBodies::Query query{s.i, s.j, {-s.delta[0], -s.delta[1], -s.delta[2]}, surface_.start(s.contact_history)};
     grainscope::EllipsoidContact contact;
     bodies_->solve(1, &query, &contact);
-    return surface_.enter(contact, s, *bodies_, atom, error);
+    return surface_.enter(contact, s, *bodies_, atom);
   }
 
   void surfacesIntersect(SurfacesIntersectData &s, ForceData &, ForceData &) {
-    if (s.is_wall) {
-      s.reff = s.radi;
-      if (surface_.curvature_limit > 0.0) {
-        Superquadric grain(atom->x[s.i], atom->quaternion[s.i], atom->shape[s.i], atom->blockiness[s.i]);
-        const double curvature = grain.calc_curvature_coefficient(surface_.mean ? 0 : 1, s.contact_point);
-        s.reff = MathExtraLiggghtsNonspherical::get_effective_radius_wall(s, atom->blockiness[s.i], curvature, surface_.curvature_limit, error);
-      }
+    if (!s.is_wall) return surface_.move(s, atom);
+    s.reff = s.radi;
+    if (surface_.curvature_limit > 0.0) {
+      Superquadric grain(atom->x[s.i], atom->quaternion[s.i], atom->shape[s.i], atom->blockiness[s.i]);
+      const double curvature = grain.calc_curvature_coefficient(surface_.mean ? 0 : 1, s.contact_point);
+      s.reff = MathExtraLiggghtsNonspherical::get_effective_radius_wall(s, atom->blockiness[s.i], curvature, surface_.curvature_limit, error);
     }
     MathExtraLiggghtsNonspherical::surfacesIntersectNonSpherical(s, atom->x);
   }
