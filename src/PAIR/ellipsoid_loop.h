@@ -129,8 +129,10 @@ void EllipsoidLoop<Model>::own_compute_force(PairGran *pair, int eflag, int vfla
         if (*near.flags) close(near, i, j, s, on_i, on_j);
         continue;
       }
+      __builtin_prefetch(near.history);
+      __builtin_prefetch(near.history + dnum - 1);
       near_.push_back(near);
-      queries_.push_back({i, j, {d[0], d[1], d[2]}, surface_.start(near.history)});
+      queries_.push_back({i, j, {d[0], d[1], d[2]}, 0.0});
     }
     if (near_.size() >= BATCH || ii == list->inum - 1) contacts_of_batch(pair, s, on_i, on_j);
   }
@@ -158,6 +160,7 @@ void EllipsoidLoop<Model>::contacts_of_batch(PairGran *pair, Sides &s, Force &on
 
   const int n = static_cast<int>(near_.size());
   contacts_.resize(n);
+  for (int k = 0; k < n; k++) queries_[k].start = surface_.start(near_[k].history);
   bodies_.solve(n, queries_.data(), contacts_.data());
   for (int k = 0; k < n; k++) {
     const Near &near = near_[k];
