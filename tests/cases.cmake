@@ -81,3 +81,9 @@ add_cases(spheroid-motion cases/spheroid_motion.py LABEL case RANKS 1 2 CASES
   energy-kept some-grains first-group collision-of-prolate-grains collision-of-oblate-grains inserted-grains restart-continues)
 add_cases(spheroid-motion cases/spheroid_motion.py LABEL case RANKS 1 2 4 CASES
   free-flight free-flight-in-large-turns shears-as-host-1.5 shears-as-host-0.5)
+add_cases(ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case RANKS 1 CASES
+  spheroid-0.33 spheroid-3 spheres polydisperse frozen-grains narrow-contact-distance gaussian-curvature mean-curvature
+  mean-curvature-of-mixed-shapes curvature-keywords-without-limit tangential-off tangential-no-history hooke rolling-cdt rolling-epsd2
+  limit-force-undamped cohesion tumbling-rods-with-jumps tumbling-rods-shrink-wrapped pushed-rods)
+add_cases(ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case RANKS 1 2 CASES
+  spheroid-1.5 mixed-shapes-and-types tumbling-rods tumbling-rods-in-a-deforming-box tumbling-rods-between-walls)

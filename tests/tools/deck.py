@@ -52,6 +52,7 @@ class Deck:
     cohesion: str = "off"
     rolling: str = "off"
     extra: str = ""
+    surface: str = "superquadric"  # of atom_style superquadric
     material: Material = field(default_factory=Material)
     timestep: float = 0.0
     contact_distance_factor: float = 1.05
@@ -62,7 +63,7 @@ class Deck:
     def model(self):
         cohesion = "" if self.cohesion == "off" else f" cohesion {self.cohesion}"
         rolling = "" if self.rolling == "off" else f" rolling_friction {self.rolling}"
-        surface = " surface superquadric" if self.packing.atom_style == "superquadric" else ""
+        surface = f" surface {self.surface}" if self.packing.atom_style == "superquadric" else ""
         extra = f" {self.extra}" if self.extra else ""
         return f"model {self.normal} tangential {self.tangential}{cohesion}{rolling}{surface}{extra}"
 
