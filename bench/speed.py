@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """How fast the same dense sheared packing runs with each surface model, pair style and integrator: a Markdown table.
 
-The packing of in.dense, tiled to the number of grains asked for, is sheared on at constant volume. Times are those of LIGGGHTS's time loop,
-on one rank multiplied by the share of a processor that the run had (other work on the machine then matters little; two ranks want a quiet
-machine): medians of runs that alternate between the cases. The gain is the median of the gains over the first case, round by round.
-With --count instructions per step by callgrind instead (repeatable; needs valgrind).
+The packing of in.dense, tiled to the number of grains asked for, is sheared on at constant volume. Times are those of LIGGGHTS's time loop, of
+runs that alternate between the cases. On one rank: medians, of times multiplied by the share of a processor that the run had (other work on
+the machine then matters little); the gain is the median of the gains over the first case, round by round. On more ranks, which wait for each
+other: the quickest run; this wants a quiet machine. With --count instructions per step by callgrind instead (repeatable; needs valgrind).
 """
 import argparse
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ CASES = {
     "spheres": ("sphere", "gran/insitu", "default tangential_damping off", "nve/sphere"),
 }
 COLUMNS = ("alpha", "N", "ranks", "skin", "case", "ms per step", "gain", "pair", "neighbour", "communication", "rest", "rebuilds",
-           "listed per grain")
+           "listed per grain", "MB")
 PARTS = ("Pair", "Neigh", "Comm", "Other")
 
 
@@ -91,7 +91,7 @@ class Result:
     parts: dict  # seconds per step
     rebuilds: int
     neighbours: float  # per grain
-    memory: float  # bytes of this process, with one rank
+    memory: float  # bytes, of the largest process
 
 
 class Bench:
@@ -101,7 +101,7 @@ class Bench:
                                 OMPI_MCA_btl_vader_single_copy_mechanism="none", OMPI_MCA_hwloc_base_binding_policy="none")
 
     def execute(self, command):
-        """Standard output and error together, the largest memory of the process, and the share of a processor that it had."""
+        """Standard output and error together, the memory of the largest process in bytes, and the share of a processor that it had."""
         with tempfile.TemporaryFile("w+") as text:
             start = time.monotonic()
             process = subprocess.Popen(command, cwd=self.folder, env=self.environment, stdout=text, stderr=subprocess.STDOUT)
@@ -166,7 +166,7 @@ def cases_for(arguments, alpha):
 
 
 def take_time(bench, arguments):
-    print(f"Medians of {arguments.repeats} runs, ms per step\n")
+    print(f"{arguments.repeats} rounds, ms per step\n")
     print("| " + " | ".join(COLUMNS) + " |\n" + "|---" * len(COLUMNS) + "|")
     for alpha in arguments.alpha:
         packing = bench.packing(alpha)
@@ -178,12 +178,15 @@ def take_time(bench, arguments):
                 for _ in range(arguments.repeats):
                     for run in runs:
                         results[run].append(bench.run(packing, count, run[1], ranks, steps, run[0]))
+                if ranks > 1:
+                    results = {run: [min(result, key=lambda one: one.step)] for run, result in results.items()}
                 for (reach, case), result in results.items():
                     gain = statistics.median(first.step / one.step for first, one in zip(results[runs[0]], result))
                     whole = 1e3 * statistics.median(one.step for one in result)
                     parts = " | ".join(f"{1e3 * statistics.median(one.parts[part] for one in result):.3f}" for part in PARTS)
                     print(f"| {alpha:g} | {count:,} | {ranks} | {reach:g} | {case} | {whole:.3f} | {gain:.2f} | {parts} "
-                          f"| {result[0].rebuilds} in {steps} | {result[0].neighbours:.2f} |", flush=True)
+                          f"| {result[0].rebuilds} in {steps} | {result[0].neighbours:.2f} "
+                          f"| {1e-6 * result[0].memory:.0f} |", flush=True)
 
 
 def count_instructions(bench, arguments):
