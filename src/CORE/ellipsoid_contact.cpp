@@ -42,11 +42,12 @@ template <class Real_> class SpheroidPair {
   using Real = Real_;
   using Body = SpheroidOf<Real>;
 
-  /** p and what follows from it, all from p as it was rounded: near its largest, d.p / (a + b) hardly changes with p, but only for one
-   *  and the same p. */
+  /** p and what follows from it. t1, t2 are the components along the axes as they come out of the solution, to all digits; those that the
+   *  supports are made of are from p as it was rounded: d.p / (a + b) hardly changes with p near its largest, but only for one and the
+   *  same p. */
   struct State {
-    Real p[3], support1, support2;  // p.B1 p, p.B2 p
-    Real t1, t2, across1, across2;  // components of p along the axes, squares of those across them
+    Real p[3], t1, t2, support1, support2;  // supports: p.B1 p, p.B2 p
+    Real along1, along2, across1, across2;  // components along the axes, squares of those across them
   };
 
   GRAINSCOPE_INLINE SpheroidPair(const Body &one, const Body &two, const Real *d)
@@ -63,29 +64,42 @@ template <class Real_> class SpheroidPair {
     const Real det = e_ * (m * one_.polar + lambda * two_.polar) + alpha1_ * alpha2_ * s2_, both = 1.0 / (e_ * det);
     inverse_e_ = det * both;
     inverse_det_ = e_ * both;
-    Real y1, y2;
-    along_axes(d1_, d2_, y1, y2);
-    y1 *= alpha1_;
-    y2 *= alpha2_;
-    for (int k = 0; k < 3; k++) s.p[k] = (d_[k] - y1 * one_.u[k] - y2 * two_.u[k]) * inverse_e_;
+    along_axes(d1_, d2_, s.t1, s.t2);
+    const Real f1 = alpha1_ * s.t1, f2 = alpha2_ * s.t2;
+    for (int k = 0; k < 3; k++) s.p[k] = (d_[k] - f1 * one_.u[k] - f2 * two_.u[k]) * inverse_e_;
     follow(s);
   }
 
-  /** dp/dlambda, as p.B1 p' and p.B2 p'. */
+  /** w = dp/dlambda = C^-1 (B1 - B2) p, as p.B1 w and p.B2 w. */
   GRAINSCOPE_INLINE void differentiate(const State &s, Real &product1, Real &product2) {
-    const Real r1 = (one_.polar - two_.equatorial) * s.t1 - excess2_ * c_ * s.t2;
-    const Real r2 = excess1_ * c_ * s.t1 + (one_.equatorial - two_.polar) * s.t2;
-    along_axes(r1, r2, y1_, y2_);
-    const Real pw = (s.support1 - s.support2 - alpha1_ * y1_ * s.t1 - alpha2_ * y2_ * s.t2) * inverse_e_;
-    product1 = one_.equatorial * pw + excess1_ * s.t1 * y1_;
-    product2 = two_.equatorial * pw + excess2_ * s.t2 * y2_;
+    difference(s.t1, s.t2, y1_, y2_);
+    const Real f1 = excess1_ * s.t1 - alpha1_ * y1_, f2 = excess2_ * s.t2 + alpha2_ * y2_;
+    pw_ = (s.support1 - s.support2 - alpha1_ * y1_ * s.t1 - alpha2_ * y2_ * s.t2) * inverse_e_;
+    f1_ = f1 * inverse_e_;
+    f2_ = f2 * inverse_e_;
+    product1 = one_.equatorial * pw_ + excess1_ * s.t1 * y1_;
+    product2 = two_.equatorial * pw_ + excess2_ * s.t2 * y2_;
   }
 
-  /** The state with p moved by `step` times dp/dlambda; after differentiate(). */
+  /** Half the second derivatives of the supports: w.B1 w + 2 p.B1 v with v = C^-1 (B1 - B2) w, likewise B2. After differentiate(). */
+  GRAINSCOPE_INLINE void differentiate_again(const State &s, Real &product1, Real &product2) {
+    difference(y1_, y2_, z1_, z2_);
+    f0_ = (one_.equatorial - two_.equatorial) * inverse_e_;
+    g1_ = (excess1_ * y1_ - alpha1_ * z1_) * inverse_e_;
+    g2_ = (excess2_ * y2_ + alpha2_ * z2_) * inverse_e_;
+    const Real ww = f0_ * pw_ + f1_ * y1_ - f2_ * y2_, pv = f0_ * pw_ + g1_ * s.t1 - g2_ * s.t2, both = ww + 2.0 * pv;
+    product1 = one_.equatorial * both + excess1_ * (y1_ * y1_ + 2.0 * s.t1 * z1_);
+    product2 = two_.equatorial * both + excess2_ * (y2_ * y2_ + 2.0 * s.t2 * z2_);
+  }
+
+  /** The state with p moved by step w + step^2 v; after differentiate_again(). */
   GRAINSCOPE_INLINE void advance(const State &s, Real step, State &moved) const {
-    const Real f = step * inverse_e_, f0 = f * (one_.equatorial - two_.equatorial);
-    const Real f1 = f * (excess1_ * s.t1 - alpha1_ * y1_), f2 = f * (excess2_ * s.t2 + alpha2_ * y2_);
-    for (int k = 0; k < 3; k++) moved.p[k] = s.p[k] + (f0 * s.p[k] + f1 * one_.u[k] - f2 * two_.u[k]);
+    for (int k = 0; k < 3; k++) {
+      const Real w = f0_ * s.p[k] + f1_ * one_.u[k] - f2_ * two_.u[k], v = f0_ * w + g1_ * one_.u[k] - g2_ * two_.u[k];
+      moved.p[k] = s.p[k] + step * (w + step * v);
+    }
+    moved.t1 = s.t1 + step * (y1_ + step * z1_);
+    moved.t2 = s.t2 + step * (y2_ + step * z2_);
     follow(moved);
   }
 
@@ -100,7 +114,7 @@ template <class Real_> class SpheroidPair {
   GRAINSCOPE_INLINE void surface(const State &s, int which, Real share, Real inside, Real length, Real inverse_length, Real &depth,
                                  Real &curvature) const {
     const Body &body = which ? two_ : one_;
-    const Real t = which ? s.t2 : s.t1, t2 = t * t, a = which ? s.across2 : s.across1, shared = share * length;
+    const Real t = which ? s.along2 : s.along1, t2 = t * t, a = which ? s.across2 : s.across1, shared = share * length;
     const Real inverse = (a * body.inverse_equatorial + t2 * body.inverse_polar) * inverse_length * inverse_length;
     depth = inside / (shared + root(shared * shared + inside * inverse));
     const Real scaled = depth * inverse_length;
@@ -115,18 +129,24 @@ template <class Real_> class SpheroidPair {
     y2 = (e_ * r2 + alpha1_ * (r2 - c_ * r1)) * inverse_det_;
   }
 
+  /** The components along the axes of C^-1 (B1 - B2) p, from those of p. */
+  GRAINSCOPE_INLINE void difference(Real t1, Real t2, Real &y1, Real &y2) const {
+    along_axes((one_.polar - two_.equatorial) * t1 - excess2_ * c_ * t2, excess1_ * c_ * t1 + (one_.equatorial - two_.polar) * t2, y1, y2);
+  }
+
   GRAINSCOPE_INLINE void follow(State &s) const {
-    s.t1 = dot(one_.u, s.p);
-    s.t2 = dot(two_.u, s.p);
-    s.across1 = across(s.p, one_.u, s.t1);
-    s.across2 = across(s.p, two_.u, s.t2);
-    s.support1 = one_.equatorial * s.across1 + one_.polar * s.t1 * s.t1;
-    s.support2 = two_.equatorial * s.across2 + two_.polar * s.t2 * s.t2;
+    s.along1 = dot(one_.u, s.p);
+    s.along2 = dot(two_.u, s.p);
+    s.across1 = across(s.p, one_.u, s.along1);
+    s.across2 = across(s.p, two_.u, s.along2);
+    s.support1 = one_.equatorial * s.across1 + one_.polar * s.along1 * s.along1;
+    s.support2 = two_.equatorial * s.across2 + two_.polar * s.along2 * s.along2;
   }
 
   const Body &one_, &two_;
   Real d_[3], excess1_, excess2_, d1_, d2_, c_, s2_;
-  Real e_, alpha1_, alpha2_, inverse_e_, inverse_det_, y1_, y2_;
+  Real e_, alpha1_, alpha2_, inverse_e_, inverse_det_;
+  Real y1_, y2_, z1_, z2_, pw_, f0_, f1_, f2_, g1_, g2_;  // y, z: components of w and v along the axes; pw: p.w
 };
 
 inline double support(const Triaxial &body, const double *n) {
@@ -167,17 +187,28 @@ class TriaxialPair {
   }
 
   void differentiate(const State &s, double &product1, double &product2) {
-    double b1p[3], b2p[3], r[3];
-    times(one_, s.t1, b1p);
-    times(two_, s.t2, b2p);
-    for (int k = 0; k < 3; k++) r[k] = b1p[k] - b2p[k];
-    solve(r, w_);
-    product1 = dot(b1p, w_);
-    product2 = dot(b2p, w_);
+    times(one_, s.t1, b1p_);
+    times(two_, s.t2, b2p_);
+    difference(b1p_, b2p_, w_);
+    product1 = dot(b1p_, w_);
+    product2 = dot(b2p_, w_);
+  }
+
+  void differentiate_again(const State &, double &product1, double &product2) {
+    double t1[3], t2[3], b1w[3], b2w[3];
+    for (int k = 0; k < 3; k++) {
+      t1[k] = dot(one_.axis[k], w_);
+      t2[k] = dot(two_.axis[k], w_);
+    }
+    times(one_, t1, b1w);
+    times(two_, t2, b2w);
+    difference(b1w, b2w, v_);
+    product1 = dot(b1w, w_) + 2.0 * dot(b1p_, v_);
+    product2 = dot(b2w, w_) + 2.0 * dot(b2p_, v_);
   }
 
   void advance(const State &s, double step, State &moved) const {
-    for (int k = 0; k < 3; k++) moved.p[k] = s.p[k] + step * w_[k];
+    for (int k = 0; k < 3; k++) moved.p[k] = s.p[k] + step * (w_[k] + step * v_[k]);
     follow(moved);
   }
 
@@ -229,6 +260,11 @@ class TriaxialPair {
     w[0] = r[0] / pivot_[0] - l10_ * w[1] - l20_ * w[2];
   }
 
+  void difference(const double *b1, const double *b2, double *w) const {
+    const double r[3] = {b1[0] - b2[0], b1[1] - b2[1], b1[2] - b2[2]};
+    solve(r, w);
+  }
+
   void follow(State &s) const {
     s.support1 = s.support2 = 0.0;
     for (int k = 0; k < 3; k++) {
@@ -242,7 +278,7 @@ class TriaxialPair {
   const Triaxial &one_, &two_;
   const double *d_;
   double b1_[6], b2_[6];  // xx yy zz xy xz yz
-  double l10_, l20_, l21_, pivot_[3], w_[3];
+  double l10_, l20_, l21_, pivot_[3], b1p_[3], b2p_[3], w_[3], v_[3];
 };
 
 /** The state of the lanes that are `settled`: a struct of nothing but Reals. */
@@ -255,6 +291,8 @@ template <class State> GRAINSCOPE_INLINE void keep(LaneMask settled, const State
   kept.support2 = pick(settled, moved.support2, kept.support2);
   kept.t1 = pick(settled, moved.t1, kept.t1);
   kept.t2 = pick(settled, moved.t2, kept.t2);
+  kept.along1 = pick(settled, moved.along1, kept.along1);
+  kept.along2 = pick(settled, moved.along2, kept.along2);
   kept.across1 = pick(settled, moved.across1, kept.across1);
   kept.across2 = pick(settled, moved.across2, kept.across2);
 }
@@ -284,12 +322,15 @@ GRAINSCOPE_INLINE void solve(const typename Pair::Body &one, const typename Pair
     answer.gap = pick(answer.apart, (d2 - h1 - h2) / root(d2), answer.gap);
   }
   Mask open = !answer.apart;
+  answer.lambda = lambda;
+  if (!any(open)) return;
 
   Pair pair(one, two, d);
-  typename Pair::State now, moved, kept{};
+  typename Pair::State now, moved, kept;
   Real low{}, high = Real{} + 1.0;
-  for (int round = 1; any(open); round++) {
+  for (int round = 1;; round++) {
     pair.evaluate(lambda, now);
+    if (round == 1) kept = now;
     const Real ab = root(now.support1 * now.support2), sum2 = now.support1 + now.support2 + 2.0 * ab, dp = dot(d, now.p);
     const Mask out = open & (dp * dp > sum2);  // p is a separating axis: d.p > a + b, a and b the roots of the supports
     if (any(out)) {
@@ -305,23 +346,30 @@ GRAINSCOPE_INLINE void solve(const typename Pair::Body &one, const typename Pair
     high = pick(off > 0.0, high, lambda);
     Real product1, product2;
     pair.differentiate(now, product1, product2);
-    const Real step = ab * off / (ab * sum2 - (product1 * now.support2 - product2 * now.support1)), next = lambda + step;
+    const Real slope = ab / (ab * sum2 - (product1 * now.support2 - product2 * now.support1)), step = off * slope;
+    Real next = lambda + step;
     const Mask settled = open & (absolute(step) <= tolerance * least(lambda, m)), bracketed = (next > low) & (next < high);
     if (round == most_steps) answer.unsettled = open & !settled;
     const Mask last = settled | answer.unsettled;
     answer.steps = pick(open, answer.steps + 1.0, answer.steps);
-    if (any(last)) {
-      pair.advance(now, pick(bracketed | settled, step, Real{}), moved);
+    if (any(last)) {  // the supports there, to second order, tell how far off the root still is
+      Real again1, again2;
+      pair.differentiate_again(now, again1, again2);
+      const Real a2 = now.support1 + step * (2.0 * product1 + step * again1), b2 = now.support2 + step * (2.0 * product2 + step * again2);
+      const Real rest = ((1.0 - next) * a2 - next * b2 + (1.0 - 2.0 * next) * root(a2 * b2)) * slope;
+      pair.advance(now, pick(settled, step + rest, Real{}), moved);
       keep(last, moved, kept);
+      next = pick(settled, next + rest, next);
     }
     lambda = pick(open, pick(bracketed | settled, next, 0.5 * (low + high)), lambda);
     answer.touching = answer.touching | last;
     open = open & !last;
+    if (!any(open)) break;
   }
   answer.lambda = lambda;
   if (!any(answer.touching)) return;
 
-  const Real sum = root(kept.support1 + kept.support2 + 2.0 * root(kept.support1 * kept.support2)), dp = dot(d, kept.p), apart = dp - sum;
+  const Real sum = root(kept.support1) + root(kept.support2), dp = dot(d, kept.p), apart = dp - sum;
   const Real length = root(dot(kept.p, kept.p)), inverse_length = 1.0 / length, m = 1.0 - lambda;
   const Mask out = answer.touching & (apart > 0.0);
   answer.gap = pick(out, apart * inverse_length, answer.gap);
@@ -386,7 +434,8 @@ inline double number(double lane, int) { return lane; }
 inline double number(const Lanes &lanes, int k) { return lanes[k]; }
 
 /** One lane's answer. Of those that do not touch, only what is defined. */
-template <class Real> GRAINSCOPE_INLINE void unpack(const Answer<Real> &answer, int lane, bool touching, bool unsettled, EllipsoidContact &c) {
+template <class Real>
+GRAINSCOPE_INLINE void unpack(const Answer<Real> &answer, int lane, bool touching, bool unsettled, EllipsoidContact &c) {
   c = EllipsoidContact{};
   c.touching = touching;
   c.fallback = unsettled;
@@ -424,7 +473,8 @@ EllipsoidContact regular_contact(const Body &one, const Body &two, const Pose &p
 }
 
 inline SpheroidOf<double> pose_of(const Spheroid &body) {
-  return {{body.u[0], body.u[1], body.u[2]}, body.equatorial, body.polar, body.inverse_equatorial, body.inverse_polar, body.inverse_product};
+  return {{body.u[0], body.u[1], body.u[2]}, body.equatorial, body.polar, body.inverse_equatorial, body.inverse_polar,
+          body.inverse_product};
 }
 
 inline void set_shape(const Spheroid &body, int lane, SpheroidOf<Lanes> &lanes) {
@@ -436,8 +486,8 @@ inline void set_shape(const Spheroid &body, int lane, SpheroidOf<Lanes> &lanes) 
   lanes.inverse_product[lane] = body.inverse_product;
 }
 
-constexpr double TOLERANCE = 1e-6;
-constexpr int LANE_STEPS = 2;  // what nearly all warm contacts need; the others are asked again, alone
+constexpr double TOLERANCE = 3e-5;
+constexpr int LANE_STEPS = 6;  // those that need more are asked again, alone
 
 /** LANES pairs, from spheroids by rows of components. */
 GRAINSCOPE_CLONES void solve_lanes(const SpheroidOf<Lanes> &one, const SpheroidOf<Lanes> &two, const Lanes *d, const Lanes &start,
@@ -471,7 +521,8 @@ Triaxial make_triaxial(const double semi_axes[3], const double quaternion[4]) {
 
 template <>
 EllipsoidContact ellipsoid_contact(const Spheroid &one, const Spheroid &two, const double d[3], double start, double tolerance) {
-  if (is_sphere(one) && is_sphere(two) && !concentric(one, two, d)) return contact_of_spheres(root(one.equatorial), root(two.equatorial), d);
+  if (is_sphere(one) && is_sphere(two) && !concentric(one, two, d))
+    return contact_of_spheres(root(one.equatorial), root(two.equatorial), d);
   return regular_contact<SpheroidPair<double>>(one, two, pose_of(one), pose_of(two), d, start, tolerance);
 }
 

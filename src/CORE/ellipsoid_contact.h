@@ -48,10 +48,10 @@ struct EllipsoidContact {
 
 constexpr int ELLIPSOID_STEPS = 60;
 
-/** d = x2 - x1. `start` is the lambda of a similar configuration, or 0 for none. The relative error of lambda is about `tolerance`^2:
- *  the last step is carried over to the answer to first order. Normal, point, depth and curvature are set only for those that touch. */
+/** d = x2 - x1. `start` is the lambda of a similar configuration, or 0 for none. The relative error of lambda is about `tolerance`^3:
+ *  the last step is carried over to the answer to second order. Normal, point, depth and curvature are set only for those that touch. */
 template <class Body>
-EllipsoidContact ellipsoid_contact(const Body &one, const Body &two, const double d[3], double start, double tolerance = 1e-6);
+EllipsoidContact ellipsoid_contact(const Body &one, const Body &two, const double d[3], double start, double tolerance = 3e-5);
 
 struct EllipsoidPair {
   const Spheroid *one, *two;
