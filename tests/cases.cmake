@@ -87,3 +87,9 @@ add_cases(ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case RANKS 1 
   limit-force-undamped cohesion tumbling-rods-with-jumps tumbling-rods-shrink-wrapped pushed-rods)
 add_cases(ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case RANKS 1 2 CASES
   spheroid-1.5 mixed-shapes-and-types tumbling-rods tumbling-rods-in-a-deforming-box tumbling-rods-between-walls)
+add_cases(same-on-ranks cases/ranks.py LABEL case RANKS 2 4 CASES ellipsoids-0.33 ellipsoids-1.5 ellipsoids-3 ellipsoids-polydisperse)
+add_cases(same-everywhere cases/same_everywhere.py LABEL case RANKS 2 4 CASES ellipsoids)
+add_cases(ellipsoid-rows cases/ellipsoid_rows.py LABEL case RANKS 1 CASES ellipsoid-0.33 ellipsoid-3)
+add_cases(ellipsoid-rows cases/ellipsoid_rows.py LABEL case RANKS 1 2 CASES ellipsoid-1.5)
+add_cases(pair cases/pair_host.py LABEL case RANKS 1 2 CASES virial-of-ellipsoids restart-of-ellipsoids-continues)
+add_cases(asking cases/asking.py LABEL case RANKS 1 CASES as-pair-gran-local-ellipsoids as-pair-gran-local-oblate-ellipsoids)

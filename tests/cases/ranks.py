@@ -92,6 +92,10 @@ CASES = {
     "spheres": same_on(Deck(dense_packing(atom_style="sphere", speed=0.2)), SUMS),
     "spheroids": same_on(Deck(dense_packing(1.5, speed=0.2)), SOLVER),
     "oblate-grains": same_on(Deck(dense_packing(0.5, speed=0.2)), SOLVER),
+    **{f"ellipsoids-{name}": same_on(Deck(packing, surface="ellipsoid", processors=grid), SUMS) for name, packing, grid in (
+        ("0.33", dense_packing(0.33, speed=0.2), "1 4 1"), ("1.5", dense_packing(1.5, speed=0.2), "2 2 1"),
+        ("3", dense_packing(3.0, speed=0.2), "1 2 2"),
+        ("polydisperse", dense_packing(1.5, sizes=(0.5, 1.0, 1.5), overlap=-0.05, speed=0.2), "4 1 1"))},
     "subgroup": same_on(Deck(dense_packing(atom_style="sphere", speed=0.2)), SUMS, ["group some id 10:90"], "some"),
     "empty-ranks": empty_ranks,
     "empty-group": empty_group,

@@ -183,6 +183,7 @@ CASES = {
     "spheres": same_on(Deck(SPHERES), SUMS),
     "spheroids": same_on(Deck(SPHEROIDS), SOLVER),
     "oblate-grains": same_on(Deck(dense_packing(0.5, speed=0.2)), SOLVER),
+    "ellipsoids": same_on(Deck(SPHEROIDS, surface="ellipsoid"), SUMS),
     "subgroup": same_on(Deck(SPHERES), SUMS, ["group some id 10:120"], "some"),
     "empty-ranks": empty_ranks,
     "empty-group": empty_group(SPHEROIDS),
