@@ -93,3 +93,8 @@ add_cases(ellipsoid-rows cases/ellipsoid_rows.py LABEL case RANKS 1 CASES ellips
 add_cases(ellipsoid-rows cases/ellipsoid_rows.py LABEL case RANKS 1 2 CASES ellipsoid-1.5)
 add_cases(pair cases/pair_host.py LABEL case RANKS 1 2 CASES virial-of-ellipsoids restart-of-ellipsoids-continues)
 add_cases(asking cases/asking.py LABEL case RANKS 1 CASES as-pair-gran-local-ellipsoids as-pair-gran-local-oblate-ellipsoids)
+add_cases(ellipsoid-forces cases/ellipsoid_forces.py LABEL case RANKS 1 CASES
+  spheroid-0.33 spheroid-0.5 spheroid-3 spheres polydisperse gaussian-curvature mean-curvature limit-without-curvature-keywords
+  flows-on-from-the-other restart-of-prolate-grains restart-of-oblate-grains)
+add_cases(ellipsoid-forces cases/ellipsoid_forces.py LABEL case RANKS 1 2 CASES spheroid-1.5 restart-before-a-flip)
+add_cases(ellipsoid-forces cases/ellipsoid_forces.py LABEL case RANKS 2 CASES start-survives-a-swap)

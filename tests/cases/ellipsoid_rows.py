@@ -25,7 +25,7 @@ def geometry_agrees(rows, expected, smallest, tolerance):
     missing = [k for k in overlaps.keys() - set(keys) if overlaps[k] > tolerance * smallest]
     require(not missing, f"no rows for {missing}")
     for k, key in enumerate(keys):
-        require(key in expected or rows["overlap"][k] < tolerance * smallest, f"row {key} with overlap {rows['overlap'][k]} touches nothing")
+        require(key in expected or rows["overlap"][k] < tolerance * smallest, f"row {key}, overlap {rows['overlap'][k]}: touches nothing")
         if key in expected:
             point, normal, overlap = expected[key]
             require_close(rows["normal"][k], normal, tolerance, f"normal of {key}", 1.0)
