@@ -18,6 +18,7 @@ void EllipsoidBodies::prepare() {
     read_shapes(n);
     list_ = neighbor->lastcall;
   }
+  if (only_spheres_) return;
   for (int i = 0; i < n; i++)
     if (!is_sphere(i)) rotated_axis(atom->quaternion[i], grains_[i].axis, grains_[i].spheroid.u);
   if (frames_.empty()) return;
@@ -27,6 +28,7 @@ void EllipsoidBodies::prepare() {
 void EllipsoidBodies::read_shapes(int n) {
   grains_.resize(n);
   bool triaxial = false;
+  only_spheres_ = true;
   for (int i = 0; i < n; i++) {
     const double *s = atom->shape[i];
     const SymmetryAxis axis = symmetry_axis(s);
@@ -34,9 +36,11 @@ void EllipsoidBodies::read_shapes(int n) {
     grain.spheroid = make_spheroid(s, atom->quaternion[i]);
     grain.equivalent_radius = std::cbrt(0.75 * atom->volume[i] / M_PI);  // in the host's words, to the last bit
     grain.elongation = axis.shape == Shape::sphere ? 0.0 : *std::max_element(s, s + 3) - *std::min_element(s, s + 3);
+    grain.across = std::sqrt(grain.spheroid.equatorial);
     grain.axis = std::max(axis.index, 0);
     grain.triaxial = axis.shape == Shape::triaxial;
     triaxial = triaxial || grain.triaxial;
+    only_spheres_ = only_spheres_ && axis.shape == Shape::sphere;
   }
   frames_.resize(triaxial ? n : 0);
 }

@@ -2,7 +2,7 @@
 #ifndef GRAINSCOPE_ELLIPSOID_BODIES_H
 #define GRAINSCOPE_ELLIPSOID_BODIES_H
 
-#include "ellipsoid_contact.h"
+#include "sphere_contact.h"
 #include "pointers.h"
 #include <vector>
 
@@ -33,6 +33,21 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
   double mean_curvature(int i, const double y[3]) const;
   /** Of the sphere of equal volume. */
   double equivalent_radius(int i) const { return grains_[i].equivalent_radius; }
+  /** sphere_contact() of two grains of a packing of only_spheres(). */
+  EllipsoidContact solve_spheres(int i, int j, const double d[3], double d2) {
+    const double radius1 = grains_[i].across, radius2 = grains_[j].across, small = 1e-10 * (radius1 < radius2 ? radius1 : radius2);
+    if (d2 < small * small) {  // perhaps concentric
+      const Query query{i, j, {d[0], d[1], d[2]}, 0.0};
+      EllipsoidContact contact;
+      solve(1, &query, &contact);
+      return contact;
+    }
+    counts.solved++;
+    const EllipsoidContact contact = sphere_contact(radius1, radius2, d, d2);
+    counts.touching += contact.touching;
+    return contact;
+  }
+  bool only_spheres() const { return only_spheres_; }
   bool is_sphere(int i) const { return grains_[i].elongation == 0.0; }
   /** Difference of the largest and the smallest semi-axis. */
   double elongation(int i) const { return grains_[i].elongation; }
@@ -42,12 +57,13 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
  private:
   struct Grain {
     Spheroid spheroid;
-    double equivalent_radius, elongation;
+    double equivalent_radius, elongation, across;  // across: root of the spheroid's equatorial
     int axis;
     bool triaxial;
   };
   std::vector<Grain> grains_;
   std::vector<Triaxial> frames_;  // of all grains, if one of them is triaxial
+  bool only_spheres_ = false;
   LAMMPS_NS::bigint list_ = -1;
   std::vector<EllipsoidPair> pairs_;
   bool warned_ = false;

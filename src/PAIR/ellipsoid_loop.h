@@ -25,7 +25,7 @@ class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model> {
 
  public:
   EllipsoidLoop(LAMMPS_NS::LAMMPS *lmp, PairGran *pair, int64_t hash)
-      : Host(lmp, pair, hash), lmp_(lmp), model_(*Model::newest()),
+      : Host(lmp, pair, hash), lmp_(lmp), pair_(pair), model_(*Model::newest()),
         bodies_(static_cast<LAMMPS_NS::PairGranInsitu *>(pair)->ellipsoid_bodies()),
         surface_(static_cast<LAMMPS_NS::PairGranInsitu *>(pair)->ellipsoid_surface()) {}
 
@@ -34,46 +34,151 @@ class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model> {
                       pair->store_sum_normal_force() || pair->fr_pair() || (pair->cpl() && addflag) ||
                       lmp_->modify->n_fixes_style("insert/stream/predefined");
     if (rare) Host::compute_force(pair, eflag, vflag, addflag);
-    else own_compute_force(pair, eflag, vflag);
+    else own_compute_force(eflag, vflag);
   }
 
  private:
-  using Sides = typename Model::Sides;
-  using Force = typename Model::Force;
-
-  /** A pair that the solver must look at. */
-  struct Near {
-    int number;     // in the neighbour list
-    double motion;  // of its two grains, so far
-    double rsq;
+  /** What belongs to the neighbours of one grain. */
+  struct Lists {
+    const int *neighbours;
     int *flags;
     double *history;
+    int columns;
+    const double *const *x, *radius;
   };
-  static constexpr std::size_t BATCH = 512;  // about what the first cache holds
+  /** Two neighbours. */
+  struct Near {
+    int i, j;
+    double d[3], rsq;  // x_j - x_i
+    bool may_touch;    // their bounding spheres do
+    int *flags;        // of the contact history, and its columns
+    double *history;
+    int number;        // of the pair in the neighbour list
+    double motion;     // of its two grains, so far
+  };
+  static constexpr std::size_t BATCH = 512;  // contacts solved at a time: about what the first cache holds
 
-  void own_compute_force(PairGran *pair, int eflag, int vflag);
-  void follow_motion(PairGran *pair);
-  void close(const Near &near, int i, int j, Sides &s, Force &on_i, Force &on_j);
-  void contacts_of_batch(PairGran *pair, Sides &s, Force &on_i, Force &on_j);
+  void own_compute_force(int eflag, int vflag);
+  void spheres();
+  void ellipsoids();
+  void follow_motion();
+  void solve_batch();
+  Lists lists_of(int i) const;
+  Near neighbour(const Lists &lists, int i, int jj) const;
+  bool enter(const Near &near, const EllipsoidContact &contact);
+  void close(const Near &near);
 
   LAMMPS_NS::LAMMPS *lmp_;
+  PairGran *pair_;
   Model &model_;
   EllipsoidBodies &bodies_;
   const EllipsoidSurface &surface_;
-  std::vector<int> look_;  // neighbours of one grain, by place in its list
-  std::vector<Near> near_;
-  std::vector<EllipsoidBodies::Query> queries_;
-  std::vector<EllipsoidContact> contacts_;
+
+  typename Model::Sides s_;
+  typename Model::Force on_i_, on_j_;
+
   SeparationMemory apart_;
   std::vector<int> first_pair_;  // of each grain in the neighbour list
   LAMMPS_NS::bigint list_ = -1;
+  std::vector<int> look_;        // neighbours of one grain that may touch it, by place in its list
+  std::vector<Near> near_;
+  std::vector<EllipsoidBodies::Query> queries_;
+  std::vector<EllipsoidContact> contacts_;
 };
 
 template <class Model>
-void EllipsoidLoop<Model>::follow_motion(PairGran *pair) {
+void EllipsoidLoop<Model>::own_compute_force(int eflag, int vflag) {
+  if (eflag || vflag) pair_->ev_setup(eflag, vflag);
+  else pair_->evflag = pair_->vflag_fdotr = 0;
+  std::memset(static_cast<void *>(&s_), 0, sizeof s_);
+  s_.area_ratio = 1.0;
+  s_.computeflag = pair_->computeflag();
+  s_.shearupdate = pair_->shearupdate();
+  model_.beginPass(s_, on_i_, on_j_);
+  if (bodies_.only_spheres()) spheres();
+  else ellipsoids();
+  model_.endPass(s_, on_i_, on_j_);
+}
+
+/** Grain i and the neighbour of place jj in its list. */
+template <class Model>
+inline typename EllipsoidLoop<Model>::Near EllipsoidLoop<Model>::neighbour(const Lists &lists, int i, int jj) const {
+  Near near;
+  near.i = i;
+  near.j = lists.neighbours[jj] & NEIGHMASK;
+  const double *xi = lists.x[i], *xj = lists.x[near.j];
+  near.rsq = 0.0;
+  for (int k = 0; k < 3; k++) {
+    near.d[k] = xj[k] - xi[k];
+    near.rsq += near.d[k] * near.d[k];
+  }
+  const double reach = lists.radius[i] + lists.radius[near.j];
+  near.may_touch = near.rsq < reach * reach;
+  near.flags = lists.flags + jj;
+  near.history = lists.history + lists.columns * jj;
+  return near;
+}
+
+template <class Model>
+inline typename EllipsoidLoop<Model>::Lists EllipsoidLoop<Model>::lists_of(int i) const {
+  return {pair_->list->firstneigh[i], pair_->listgranhistory->firstneigh[i], pair_->listgranhistory->firstdouble[i], pair_->dnum(),
+          lmp_->atom->x, lmp_->atom->radius};
+}
+
+/** Nothing but spheres: their distance is all that there is to know. */
+template <class Model>
+void EllipsoidLoop<Model>::spheres() {
+  const LAMMPS_NS::NeighList *list = pair_->list;
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii], neighbours = list->numneigh[i];
+    const Lists lists = lists_of(i);
+    bodies_.counts.listed += neighbours;
+    for (int jj = 0; jj < neighbours; jj++) {
+      const Near near = neighbour(lists, i, jj);
+      const bool touching = near.may_touch && enter(near, bodies_.solve_spheres(i, near.j, near.d, near.rsq));
+      if (!touching && *near.flags) close(near);
+    }
+  }
+}
+
+template <class Model>
+void EllipsoidLoop<Model>::ellipsoids() {
+  follow_motion();
+  const LAMMPS_NS::NeighList *list = pair_->list;
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii], neighbours = list->numneigh[i];
+    const Lists lists = lists_of(i);
+    const double moved = apart_.moved(i);
+    bodies_.counts.listed += neighbours;
+    if (static_cast<int>(look_.size()) < neighbours) look_.resize(neighbours);
+    int looks = 0;  // gathered without a branch: no processor could guess it
+    for (int jj = 0; jj < neighbours; jj++) {
+      look_[looks] = jj;
+      looks += apart_.may_touch(first_pair_[ii] + jj, moved + apart_.moved(lists.neighbours[jj] & NEIGHMASK));
+    }
+    for (int k = 0; k < looks; k++) {
+      Near near = neighbour(lists, i, look_[k]);
+      near.number = first_pair_[ii] + look_[k];
+      near.motion = moved + apart_.moved(near.j);
+      if (near.may_touch) {
+        __builtin_prefetch(near.history + surface_.lambda);
+        __builtin_prefetch(near.history + lists.columns - 1);
+        near_.push_back(near);
+      } else {
+        apart_.set_apart(near.number, std::sqrt(near.rsq) - lists.radius[i] - lists.radius[near.j], near.motion);
+        if (*near.flags) close(near);
+      }
+    }
+    if (near_.size() >= BATCH) solve_batch();
+  }
+  solve_batch();
+}
+
+template <class Model>
+void EllipsoidLoop<Model>::follow_motion() {
   const LAMMPS_NS::Atom *atom = lmp_->atom;
   const LAMMPS_NS::Neighbor *neighbor = lmp_->neighbor;
-  const LAMMPS_NS::NeighList *list = pair->list;
+  const LAMMPS_NS::NeighList *list = pair_->list;
   if (neighbor->ago == 0 || list_ != neighbor->lastcall) {
     list_ = neighbor->lastcall;
     int pairs = 0;
@@ -89,131 +194,94 @@ void EllipsoidLoop<Model>::follow_motion(PairGran *pair) {
               [this](int i) { return bodies_.elongation(i); });
 }
 
-template <class Model>
-void EllipsoidLoop<Model>::own_compute_force(PairGran *pair, int eflag, int vflag) {
-  if (eflag || vflag) pair->ev_setup(eflag, vflag);
-  else pair->evflag = pair->vflag_fdotr = 0;
-
-  Sides s;
-  Force on_i, on_j;
-  std::memset(static_cast<void *>(&s), 0, sizeof s);
-  s.area_ratio = 1.0;
-  s.computeflag = pair->computeflag();
-  s.shearupdate = pair->shearupdate();
-  model_.beginPass(s, on_i, on_j);
-  follow_motion(pair);
-
-  const LAMMPS_NS::NeighList *list = pair->list, *kept = pair->listgranhistory;
-  double **x = lmp_->atom->x;
-  const double *radius = lmp_->atom->radius;
-  const int dnum = pair->dnum();
-  for (int ii = 0; ii < list->inum; ii++) {
-    const int i = list->ilist[ii], neighbours = list->numneigh[i];
-    const int *jlist = list->firstneigh[i];
-    const double moved = apart_.moved(i);
-    bodies_.counts.listed += neighbours;
-    if (static_cast<int>(look_.size()) < neighbours) look_.resize(neighbours);
-    int looks = 0;  // gathered without a branch: no processor could guess it
-    for (int jj = 0; jj < neighbours; jj++) {
-      look_[looks] = jj;
-      looks += apart_.may_touch(first_pair_[ii] + jj, moved + apart_.moved(jlist[jj] & NEIGHMASK));
-    }
-    for (int l = 0; l < looks; l++) {
-      const int jj = look_[l], j = jlist[jj] & NEIGHMASK, number = first_pair_[ii] + jj;
-      const double motion = moved + apart_.moved(j);
-      const double d[3] = {x[j][0] - x[i][0], x[j][1] - x[i][1], x[j][2] - x[i][2]};
-      const double rsq = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], radsum = radius[i] + radius[j];
-      Near near{number, motion, rsq, &kept->firstneigh[i][jj], &kept->firstdouble[i][dnum * jj]};
-      if (rsq >= radsum * radsum) {
-        apart_.set_apart(number, std::sqrt(rsq) - radsum, motion);
-        if (*near.flags) close(near, i, j, s, on_i, on_j);
-        continue;
-      }
-      __builtin_prefetch(near.history);
-      __builtin_prefetch(near.history + dnum - 1);
-      near_.push_back(near);
-      queries_.push_back({i, j, {d[0], d[1], d[2]}, 0.0});
-    }
-    if (near_.size() >= BATCH || ii == list->inum - 1) contacts_of_batch(pair, s, on_i, on_j);
-  }
-  model_.endPass(s, on_i, on_j);
-}
-
-template <class Model>
-void EllipsoidLoop<Model>::close(const Near &near, int i, int j, Sides &s, Force &on_i, Force &on_j) {
-  s.i = i;
-  s.j = j;
-  s.itype = lmp_->atom->type[i];
-  s.jtype = lmp_->atom->type[j];
-  s.contact_flags = near.flags;
-  s.contact_history = near.history;
-  model_.surfacesClose(s, on_i, on_j);
-}
-
 /** The solver's answers, in the order of the neighbour list. */
 template <class Model>
-void EllipsoidLoop<Model>::contacts_of_batch(PairGran *pair, Sides &s, Force &on_i, Force &on_j) {
-  LAMMPS_NS::Atom *atom = lmp_->atom;
-  const int *type = atom->type, *mask = atom->mask;
-  const int nlocal = atom->nlocal, freeze = pair->freeze_group_bit();
-  double **f = atom->f, **torque = atom->torque;
-
+void EllipsoidLoop<Model>::solve_batch() {
   const int n = static_cast<int>(near_.size());
+  queries_.resize(n);
   contacts_.resize(n);
-  for (int k = 0; k < n; k++) queries_[k].start = surface_.start(near_[k].history);
+  for (int k = 0; k < n; k++) {
+    const Near &near = near_[k];
+    queries_[k] = {near.i, near.j, {near.d[0], near.d[1], near.d[2]}, surface_.start(near.history)};
+  }
   bodies_.solve(n, queries_.data(), contacts_.data());
   for (int k = 0; k < n; k++) {
     const Near &near = near_[k];
-    const int i = queries_[k].i, j = queries_[k].j;
-    s.contact_history = near.history;
-    for (int c = 0; c < 3; c++) s.delta[c] = -queries_[k].d[c];
-    s.i = i;
-    s.j = j;
-    s.radi = bodies_.equivalent_radius(i);
-    s.radj = bodies_.equivalent_radius(j);
-    if (!surface_.enter(contacts_[k], s, bodies_, atom)) {
+    if (enter(near, contacts_[k])) {
+      apart_.set_touching(near.number);
+    } else {
       apart_.set_apart(near.number, contacts_[k].gap, near.motion);
-      if (*near.flags) close(near, i, j, s, on_i, on_j);
-      continue;
+      if (*near.flags) close(near);
     }
-    apart_.set_touching(near.number);
-
-    s.itype = type[i];
-    s.jtype = type[j];
-    s.v_i = atom->v[i];
-    s.v_j = atom->v[j];
-    s.omega_i = atom->omega[i];
-    s.omega_j = atom->omega[j];
-    s.mi = atom->rmass[i];
-    s.mj = atom->rmass[j];
-    s.meff = s.mi * s.mj / (s.mi + s.mj);
-    if (mask[i] & freeze) s.meff = s.mj;
-    if (mask[j] & freeze) s.meff = s.mi;
-    s.radsum = atom->radius[i] + atom->radius[j];
-    s.rsq = near.rsq;
-    s.r = std::sqrt(s.rsq);
-    s.rinv = 1.0 / s.r;
-    s.contact_flags = near.flags;
-    on_i.reset();
-    on_j.reset();
-    model_.surfacesIntersect(s, on_i, on_j);
-    model_.endSurfacesIntersect(s, nullptr, on_i, on_j);
-
-    if (s.computeflag) {
-      const double relax_i = pair->relax(i), relax_j = pair->relax(j);
-      for (int c = 0; c < 3; c++) {
-        f[i][c] += relax_i * on_i.delta_F[c];
-        torque[i][c] += relax_i * on_i.delta_torque[c];
-        if (j >= nlocal) continue;
-        f[j][c] += relax_j * on_j.delta_F[c];
-        torque[j][c] += relax_j * on_j.delta_torque[c];
-      }
-    }
-    if (pair->evflag)
-      pair->ev_tally_xyz(i, j, nlocal, 0, 0.0, 0.0, on_i.delta_F[0], on_i.delta_F[1], on_i.delta_F[2], s.delta[0], s.delta[1], s.delta[2]);
   }
   near_.clear();
-  queries_.clear();
+}
+
+/** One contact: the model's forces on its two grains. False if they do not touch. */
+template <class Model>
+inline bool EllipsoidLoop<Model>::enter(const Near &near, const EllipsoidContact &contact) {
+  LAMMPS_NS::Atom *atom = lmp_->atom;
+  const int i = near.i, j = near.j;
+  s_.i = i;
+  s_.j = j;
+  for (int k = 0; k < 3; k++) s_.delta[k] = -near.d[k];
+  s_.radi = bodies_.equivalent_radius(i);
+  s_.radj = bodies_.equivalent_radius(j);
+  s_.contact_history = near.history;
+  if (!surface_.enter(contact, s_, bodies_, atom)) return false;
+
+  s_.itype = atom->type[i];
+  s_.jtype = atom->type[j];
+  s_.v_i = atom->v[i];
+  s_.v_j = atom->v[j];
+  s_.omega_i = atom->omega[i];
+  s_.omega_j = atom->omega[j];
+  s_.mi = atom->rmass[i];
+  s_.mj = atom->rmass[j];
+  const int freeze = pair_->freeze_group_bit();
+  s_.meff = s_.mi * s_.mj / (s_.mi + s_.mj);
+  if (atom->mask[i] & freeze) s_.meff = s_.mj;
+  if (atom->mask[j] & freeze) s_.meff = s_.mi;
+  s_.radsum = atom->radius[i] + atom->radius[j];
+  s_.rsq = near.rsq;
+  s_.r = std::sqrt(s_.rsq);
+  s_.rinv = 1.0 / s_.r;
+  s_.contact_flags = near.flags;
+  s_.has_force_update = true;
+  on_i_.reset();
+  on_j_.reset();
+  model_.surfacesIntersect(s_, on_i_, on_j_);
+  model_.endSurfacesIntersect(s_, nullptr, on_i_, on_j_);
+
+  const bool own_j = j < atom->nlocal;
+  if (s_.computeflag) {
+    const double relax_i = pair_->relax(i), relax_j = pair_->relax(j);
+    double *f_i = atom->f[i], *f_j = atom->f[j], *torque_i = atom->torque[i], *torque_j = atom->torque[j];
+    for (int k = 0; k < 3; k++) {
+      f_i[k] += relax_i * on_i_.delta_F[k];
+      torque_i[k] += relax_i * on_i_.delta_torque[k];
+      if (!own_j) continue;
+      f_j[k] += relax_j * on_j_.delta_F[k];
+      torque_j[k] += relax_j * on_j_.delta_torque[k];
+    }
+  }
+  if (pair_->evflag)
+    pair_->ev_tally_xyz(i, j, atom->nlocal, 0, 0.0, 0.0, on_i_.delta_F[0], on_i_.delta_F[1], on_i_.delta_F[2], s_.delta[0], s_.delta[1],
+                        s_.delta[2]);
+  return true;
+}
+
+/** A contact that has opened: the model forgets its springs. */
+template <class Model>
+inline void EllipsoidLoop<Model>::close(const Near &near) {
+  s_.i = near.i;
+  s_.j = near.j;
+  s_.itype = lmp_->atom->type[near.i];
+  s_.jtype = lmp_->atom->type[near.j];
+  s_.contact_flags = near.flags;
+  s_.contact_history = near.history;
+  s_.has_force_update = false;
+  model_.surfacesClose(s_, on_i_, on_j_);
 }
 
 }

@@ -12,31 +12,28 @@ namespace grainscope {
 
 /** Between the solver and the host's contact data and history: what `surface ellipsoid` means, whichever loop asks. */
 struct EllipsoidSurface {
-  // Columns of the contact history, those of `surface superquadric`, so that restart files of the two are interchangeable. `lambda`
-  // (less 1/2: changes its sign when the host swaps i and j) stands where the other keeps a number that is no lambda: a cold start.
-  int lambda, state, point, depth_i, depth_j;
+  // Columns of the contact history. As many as `surface superquadric` has, so that restart files of the two are interchangeable: what one
+  // left is a start for the other or no start, never a wrong one. Only `lambda` is remembered (less 1/2: changes its sign when the host
+  // swaps i and j; 0: none), beside the tangential spring in memory; the others are for compute pair/gran/local.
+  int depth_j, unused, point, depth_i, lambda;
   double curvature_limit = 0.0;
   bool mean = false, gaussian = false;
 
   using Sides = LIGGGHTS::ContactModels::SurfacesIntersectData;
 
-  double start(const double *history) const { return history[state] == TOUCHING ? history[lambda] + 0.5 : 0.0; }
+  double start(const double *history) const { return history[lambda] == 0.0 ? 0.0 : history[lambda] + 0.5; }
 
   /** Enters a contact into the history, and into `s` if it touches; else s.deltan is minus a lower bound of the distance. */
   bool enter(const EllipsoidContact &c, Sides &s, const EllipsoidBodies &bodies, const LAMMPS_NS::Atom *atom) const {
-    double *history = s.contact_history;
-    history[state] = c.touching ? TOUCHING : FAR;
     if (!c.touching) {
+      if (s.contact_history[lambda] != 0.0) s.contact_history[lambda] = 0.0;
       s.deltan = -c.gap;
       return false;
     }
-    history[lambda] = c.lambda - 0.5;
-    history[depth_i] = c.depth[0];
-    history[depth_j] = c.depth[1];
     // Two spheres take the models' shorter formulas, but where a limit makes them softer than spheres.
     s.is_non_spherical = !bodies.is_sphere(s.i) || !bodies.is_sphere(s.j) || (curvature_limit > 0.0 && curvature_limit < 1.0);
     s.reff = s.radi * s.radj / (s.radi + s.radj);
-    if (curvature_limit > 0.0) {
+    if (curvature_limit > 0.0 && s.is_non_spherical) {
       double ki = c.curvature[0], kj = c.curvature[1];
       if (mean) {
         double on_i[3], on_j[3];
@@ -52,9 +49,17 @@ struct EllipsoidSurface {
     s.deltan = c.depth[0] + c.depth[1];
     for (int k = 0; k < 3; k++) {
       s.en[k] = -c.normal[k];
-      s.contact_point[k] = history[point + k] = atom->x[s.i][k] + c.point[k];
+      s.contact_point[k] = atom->x[s.i][k] + c.point[k];
     }
+    if (s.is_non_spherical) s.contact_history[lambda] = c.lambda - 0.5;
     return true;
+  }
+
+  /** What compute pair/gran/local reads from the history. */
+  void show(const EllipsoidContact &c, const Sides &s) const {
+    s.contact_history[depth_i] = c.depth[0];
+    s.contact_history[depth_j] = c.depth[1];
+    for (int k = 0; k < 3; k++) s.contact_history[point + k] = s.contact_point[k];
   }
 
   /** Velocities of i against j at the contact point, and its distances from the centres. */
@@ -73,9 +78,6 @@ struct EllipsoidSurface {
     s.cri = arm_i.norm();
     s.crj = arm_j.norm();
   }
-
- private:
-  enum { FAR = 0, TOUCHING = 2 };  // in the other surface's words
 };
 
 /** A pair style that owns the bodies and the surface, so that its loop sees them; under any other the surface model has its own. */

@@ -20,13 +20,13 @@ class SurfaceModel<SURFACE_ELLIPSOID> : public SurfaceModelBase {
   SurfaceModel(LAMMPS *lmp, IContactHistorySetup *setup, ContactModelBase *model) : SurfaceModelBase(lmp, setup, model) {
     if (!atom->superquadric_flag)
       error->all(FLERR, "surface ellipsoid needs atom_style superquadric (spheres are ellipsoids with three equal semi-axes)");
-    surface_.lambda = setup->add_history_value("lambda", "1");
-    surface_.state = setup->add_history_value("particles_were_in_contact", "0");
+    surface_.depth_j = setup->add_history_value("a2", "0");
+    surface_.unused = setup->add_history_value("unused", "0");
     surface_.point = setup->add_history_value("cpx", "0");
     setup->add_history_value("cpy", "0");
     setup->add_history_value("cpz", "0");
     surface_.depth_i = setup->add_history_value("a1", "0");
-    surface_.depth_j = setup->add_history_value("a2", "0");
+    surface_.lambda = setup->add_history_value("lambda", "1");
     model->add_history_offset("contact_point_offset", surface_.point);
     model->add_history_offset("alpha1_offset", surface_.depth_i);
     model->add_history_offset("alpha2_offset", surface_.depth_j);
@@ -61,7 +61,9 @@ class SurfaceModel<SURFACE_ELLIPSOID> : public SurfaceModelBase {
     const grainscope::EllipsoidBodies::Query query{s.i, s.j, {-s.delta[0], -s.delta[1], -s.delta[2]}, surface_.start(s.contact_history)};
     grainscope::EllipsoidContact contact;
     bodies_->solve(1, &query, &contact);
-    return surface_.enter(contact, s, *bodies_, atom);
+    const bool touching = surface_.enter(contact, s, *bodies_, atom);
+    if (touching) surface_.show(contact, s);
+    return touching;
   }
 
   void surfacesIntersect(SurfacesIntersectData &s, ForceData &, ForceData &) {
