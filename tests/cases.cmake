@@ -98,3 +98,8 @@ add_cases(ellipsoid-forces cases/ellipsoid_forces.py LABEL case RANKS 1 CASES
   flows-on-from-the-other restart-of-prolate-grains restart-of-oblate-grains)
 add_cases(ellipsoid-forces cases/ellipsoid_forces.py LABEL case RANKS 1 2 CASES spheroid-1.5 restart-before-a-flip)
 add_cases(ellipsoid-forces cases/ellipsoid_forces.py LABEL case RANKS 2 CASES start-survives-a-swap)
+add_cases(ellipsoid-wall cases/ellipsoid_walls.py LABEL case RANKS 1 CASES
+  prolate-on-a-plane prolate-on-a-cylinder prolate-on-a-mesh oblate-on-a-plane oblate-on-a-cylinder oblate-on-a-mesh triaxial-on-a-plane
+  triaxial-on-a-cylinder triaxial-on-a-mesh sphere-on-a-plane gaussian-curvature-on-a-plane gaussian-curvature-on-a-mesh
+  mean-curvature-on-a-plane mean-curvature-on-a-mesh limit-alone-on-a-plane limit-alone-on-a-mesh)
+add_cases(ellipsoid-wall cases/ellipsoid_walls.py LABEL case RANKS 1 2 CASES pile)
