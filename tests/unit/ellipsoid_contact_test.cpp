@@ -37,8 +37,8 @@ void triaxial(RandomPairs &random, GrainPair &pair) {
 
 /** The last step, up to 3e-5, is carried over to second order: an error of some 3e-14 in lambda, more where C changes quickly with it. The
  *  point moves by as much times the larger semi-axis and the curvature of flat sides: up to 20^2 times the smallest semi-axis, 100 times
- *  more in unlike sizes. Twice the largest of 1e7. */
-const Limits ALIKE = {1e-11, 1e-11, 1e-11, 1e-11, 1e-10}, MIXED = {1e-11, 1e-9, 5e-12, 1e-10, 1e-9};
+ *  more in unlike sizes. Twice to three times the largest of 1e7. */
+const Limits ALIKE = {2e-11, 5e-11, 1e-11, 1e-10, 1e-10}, MIXED = {1e-11, 1e-9, 5e-12, 1e-10, 3e-11};
 
 /** Decisions agree with the exact ones where |F - 1| is above this many times the distance of 1 to the next number. */
 constexpr double BAND = 32.0 * std::numeric_limits<double>::epsilon();
