@@ -11,13 +11,14 @@ namespace grainscope {
 inline EllipsoidContact sphere_contact(double radius1, double radius2, const double d[3], double d2) {
   EllipsoidContact c{};
   const double r = std::sqrt(d2), sum = radius1 + radius2;
-  c.lambda = radius1 / sum;
+  const double inverse_sum = 1.0 / sum;
+  c.lambda = radius1 * inverse_sum;
   c.touching = r < sum;
   if (!c.touching) {
     c.gap = r - sum;
     return c;
   }
-  const double inverse_r = 1.0 / r, inside = (sum - r) / sum;
+  const double inverse_r = 1.0 / r, inside = (sum - r) * inverse_sum;
   for (int k = 0; k < 3; k++) {
     c.normal[k] = d[k] * inverse_r;
     c.point[k] = c.lambda * d[k];

@@ -219,7 +219,7 @@ void EllipsoidLoop<Model>::solve_batch() {
 
 /** One contact: the model's forces on its two grains. False if they do not touch. */
 template <class Model>
-inline bool EllipsoidLoop<Model>::enter(const Near &near, const EllipsoidContact &contact) {
+inline __attribute__((always_inline)) bool EllipsoidLoop<Model>::enter(const Near &near, const EllipsoidContact &contact) {
   LAMMPS_NS::Atom *atom = lmp_->atom;
   const int i = near.i, j = near.j;
   s_.i = i;

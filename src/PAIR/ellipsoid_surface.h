@@ -24,7 +24,8 @@ struct EllipsoidSurface {
   double start(const double *history) const { return history[lambda] == 0.0 ? 0.0 : history[lambda] + 0.5; }
 
   /** Enters a contact into the history, and into `s` if it touches; else s.deltan is minus a lower bound of the distance. */
-  bool enter(const EllipsoidContact &c, Sides &s, const EllipsoidBodies &bodies, const LAMMPS_NS::Atom *atom) const {
+  inline __attribute__((always_inline)) bool enter(const EllipsoidContact &c, Sides &s, const EllipsoidBodies &bodies,
+                                                   const LAMMPS_NS::Atom *atom) const {
     if (!c.touching) {
       if (s.contact_history[lambda] != 0.0) s.contact_history[lambda] = 0.0;
       s.deltan = -c.gap;
@@ -51,7 +52,12 @@ struct EllipsoidSurface {
       s.en[k] = -c.normal[k];
       s.contact_point[k] = atom->x[s.i][k] + c.point[k];
     }
-    if (s.is_non_spherical) s.contact_history[lambda] = c.lambda - 0.5;
+    if (s.is_non_spherical) {
+      s.contact_history[lambda] = c.lambda - 0.5;
+    } else {
+      s.cri = s.radi - c.depth[0];
+      s.crj = s.radj - c.depth[1];
+    }
     return true;
   }
 
@@ -62,7 +68,7 @@ struct EllipsoidSurface {
     for (int k = 0; k < 3; k++) s.contact_history[point + k] = s.contact_point[k];
   }
 
-  /** Velocities of i against j at the contact point, and its distances from the centres. */
+  /** Velocities of i against j at the contact point, and its distances from the centres (of spheres entered already). */
   void move(Sides &s, const LAMMPS_NS::Atom *atom) const {
     using Vector = Eigen::Map<const Eigen::Vector3d>;
     const Vector normal(s.en), point(s.contact_point), spin_i(s.omega_i), spin_j(s.omega_j);
@@ -75,6 +81,7 @@ struct EllipsoidSurface {
     s.wr1 = spin_i[0] - spin_j[0];
     s.wr2 = spin_i[1] - spin_j[1];
     s.wr3 = spin_i[2] - spin_j[2];
+    if (!s.is_non_spherical) return;
     s.cri = arm_i.norm();
     s.crj = arm_j.norm();
   }
