@@ -103,3 +103,12 @@ add_cases(ellipsoid-wall cases/ellipsoid_walls.py LABEL case RANKS 1 CASES
   triaxial-on-a-cylinder triaxial-on-a-mesh sphere-on-a-plane gaussian-curvature-on-a-plane gaussian-curvature-on-a-mesh
   mean-curvature-on-a-plane mean-curvature-on-a-mesh limit-alone-on-a-plane limit-alone-on-a-mesh)
 add_cases(ellipsoid-wall cases/ellipsoid_walls.py LABEL case RANKS 1 2 CASES pile)
+add_cases(ellipsoid-contact cases/ellipsoid_contacts.py LABEL case RANKS 1 CASES
+  poles-meet poles-meet-gaussian poles-meet-mean equators-meet-gaussian equators-meet-mean flat-faces-meet-gaussian flat-faces-meet-mean
+  unlike-grains-meet unlike-grains-meet-gaussian unlike-grains-meet-mean sphere-meets-pole-mean triaxial-meets-sphere-gaussian
+  triaxial-meets-sphere-mean limit-caps-the-radius limit-below-one-caps-spheres spheres-collide spheres-collide-head-on
+  spheres-collide-hooke-no-history spheres-collide-rolling spheres-part-at-e concentric-spheres concentric-spheroids concentric-triaxial
+  no-stale-springs host-keeps-springs)
+add_cases(contact-solver cases/contact_solver.py LABEL case RANKS 1 2 4 CASES lists-and-contacts)
+add_cases(contact-solver cases/contact_solver.py LABEL case RANKS 1 2 CASES add-up begins-with-the-pair-style does-not-disturb)
+add_cases(contact-solver cases/contact_solver.py LABEL case RANKS 2 4 CASES same-on-ranks)

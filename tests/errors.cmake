@@ -34,3 +34,10 @@ add_cases(error-measures errors/measures.py LABEL error RANKS 1 2 CASES
 add_cases(error-spheroid errors/spheroid.py LABEL error RANKS 1 CASES
   takes-no-keywords spheres triaxial-between-runs implicit-cfd-coupling)
 add_cases(error-spheroid errors/spheroid.py LABEL error RANKS 1 2 CASES triaxial-grains boxy-about-an-equator triaxial-inserted)
+add_cases(error-ellipsoid errors/ellipsoid.py LABEL error RANKS 1 CASES
+  boxy-one-way boxy-grain-under-gran nearly-an-ellipsoid-is-taken wall-of-spheres both-curvatures-of-a-wall limit-negative-under-gran
+  misspelt-surface solver-takes-no-keywords solver-of-spheres)
+add_cases(error-ellipsoid errors/ellipsoid.py LABEL error RANKS 1 2 CASES
+  boxy-between-runs boxy-created-later spheres both-curvatures limit-negative solver-of-a-group solver-needs-surface-ellipsoid
+  solver-needs-gran-insitu)
+add_cases(error-ellipsoid errors/ellipsoid.py LABEL error RANKS 1 2 4 CASES boxy-grain first-of-two-boxy-grains boxy-inserted)

@@ -89,7 +89,7 @@ def start_survives_a_swap(ranks):
               Grain((5.0, 12.1, 12.2), (1.5, 1.5, 2.25))]
     packing = Packing((24.0, 24.0, 24.0), grains, triclinic=False)
     deck = Deck(packing, surface="ellipsoid", processors="2 1 1", timestep=1e-7)
-    deck.body = ["compute solver all contact/solver", *thermo(1, *[f"c_solver[{k}]" for k in (3, 4)]), "dump order all custom 1 order.dump id",
+    deck.body = ["compute solver all contact/solver", *thermo(1, "c_solver[3]", "c_solver[4]"), "dump order all custom 1 order.dump id",
                  "run 40"]
     result = run(deck, ranks)
     order = [columns["id"].tolist() for _, columns in result.dump("order.dump")]

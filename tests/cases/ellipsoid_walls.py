@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Walls with surface ellipsoid: the host's own contact of a superquadric with a wall, to the last bit; and walls beside contacts of grains."""
+"""Walls with surface ellipsoid: the host's own contact of a superquadric with a wall, to the last bit; walls beside contacts of grains."""
 from dataclasses import replace
 import math
 import os
@@ -84,7 +84,8 @@ CASES = {
        for name, shape in (("prolate", (1.0, 1.0, 1.5)), ("oblate", (1.0, 1.0, 0.5)), ("triaxial", (0.7, 1.0, 1.3)))},
     "sphere-on-a-plane": as_superquadric("plane", (1.0, 1.0, 1.0)),
     **{f"{name}-on-a-{kind}": as_superquadric(kind, extra=extra) for kind in ("plane", "mesh") for name, extra in (
-        ("gaussian-curvature", f"gaussianCurvature yes {LIMIT}"), ("mean-curvature", f"meanCurvature yes {LIMIT}"), ("limit-alone", LIMIT))},
+        ("gaussian-curvature", f"gaussianCurvature yes {LIMIT}"), ("mean-curvature", f"meanCurvature yes {LIMIT}"),
+        ("limit-alone", LIMIT))},
     "pile": pile,
 }
 
