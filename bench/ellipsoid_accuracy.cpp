@@ -27,7 +27,8 @@ struct Errors {
     count++;
   }
   void print() const {
-    for (int q = 0; q < QUANTITIES; q++) std::printf(" %.0e, %.0e |", largest[q], std::sqrt(squares[q] / count));
+    const auto plain = [](double x) { return x < 1e-20 ? 0.0 : x; };  // exact in double precision
+    for (int q = 0; q < QUANTITIES; q++) std::printf(" %.0e, %.0e |", plain(largest[q]), plain(std::sqrt(squares[q] / count)));
   }
 };
 
