@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ellipsoid_contact.h"
 #include "lanes.h"
+#include "sphere_contact.h"
 #include "symmetry_axis.h"
 #include <algorithm>
 #include <cmath>
@@ -403,26 +404,6 @@ inline void shortest_axis(const Triaxial &body, double *n) {
   std::copy(body.axis[least], body.axis[least] + 3, n);
 }
 
-EllipsoidContact contact_of_spheres(double radius1, double radius2, const double *d) {
-  EllipsoidContact c{};
-  const double r = root(dot(d, d)), sum = radius1 + radius2, inside = (sum - r) / sum;
-  c.lambda = radius1 / sum;
-  c.touching = r < sum;
-  if (!c.touching) {
-    c.gap = r - sum;
-    return c;
-  }
-  for (int k = 0; k < 3; k++) {
-    c.normal[k] = d[k] / r;
-    c.point[k] = c.lambda * d[k];
-  }
-  c.depth[0] = radius1 * inside;
-  c.depth[1] = radius2 * inside;
-  c.curvature[0] = 1.0 / radius1;
-  c.curvature[1] = 1.0 / radius2;
-  return c;
-}
-
 /** Centres so close that their line has no direction. */
 template <class Body> inline bool concentric(const Body &one, const Body &two, const double *d) {
   return dot(d, d) < 1e-26 * std::min(smallest_square(one), smallest_square(two));
@@ -522,7 +503,7 @@ Triaxial make_triaxial(const double semi_axes[3], const double quaternion[4]) {
 template <>
 EllipsoidContact ellipsoid_contact(const Spheroid &one, const Spheroid &two, const double d[3], double start, double tolerance) {
   if (is_sphere(one) && is_sphere(two) && !concentric(one, two, d))
-    return contact_of_spheres(root(one.equatorial), root(two.equatorial), d);
+    return sphere_contact(root(one.equatorial), root(two.equatorial), d, dot(d, d));
   return regular_contact<SpheroidPair<double>>(one, two, pose_of(one), pose_of(two), d, start, tolerance);
 }
 
