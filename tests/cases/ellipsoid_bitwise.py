@@ -54,6 +54,14 @@ def mixed():
     return replace(packing, grains=grains, types=2)
 
 
+def half_spheres():
+    """Spheres in one half of the box, so that a rank may hold nothing else, and spheroids in the other."""
+    packing = dense_packing(1.0, minimum=200)
+    middle = 0.5 * packing.edges[0]
+    grains = [replace(g, semi_axes=(0.9, 0.9, 1.1)) if g.position[0] > middle else g for g in packing.grains]
+    return replace(packing, grains=grains)
+
+
 TYPES = Material(young=(5e6, 2e7), restitution=(0.3, 0.5, 0.5, 0.8), friction=(0.1, 0.4, 0.4, 0.9))
 CURVED = "curvatureLimitFactor 2"
 
@@ -73,8 +81,10 @@ def tumbling(edge, count=70, seed=3, **choices):
     return Packing((edge,) * 3, grains, **choices)
 
 
-def rods(body, edge=26.0, skin=7.0, lists=5, skipped=0.8, contacts=0.005, **choices):
-    packing = tumbling(edge, **{k: choices.pop(k) for k in ("triclinic",) if k in choices})
+def rods(body, edge=26.0, skin=7.0, lists=5, skipped=0.8, contacts=0.005, still=False, triclinic=True, **choices):
+    packing = tumbling(edge, triclinic=triclinic)
+    if still:
+        packing = replace(packing, grains=[replace(g, velocity=(0.0, 0.0, 0.0), omega=(0.0, 0.0, 0.0)) for g in packing.grains])
     deck = Deck(packing, surface="ellipsoid", **choices)
     steps = sum(int(line.split()[1]) for line in body if line.startswith("run "))
     deck.body = [f"neighbor {skin} bin", *dump_grains(packing, steps), *body]  # lists that last: a rod turns far within one
@@ -83,6 +93,7 @@ def rods(body, edge=26.0, skin=7.0, lists=5, skipped=0.8, contacts=0.005, **choi
 
 JUMPS = [line for k in range(8) for line in (
     "run 150", f"velocity all ramp v{'xyz'[k % 3]} {5 - 10 * (k % 2)} {10 * (k % 2) - 5} {'yzx'[k % 3]} 0 26 sum yes units box")]
+SQUEEZE = "fix squeeze all deform 1 x erate -0.5 y erate -0.5 z erate -0.5 remap x"  # grains go with it, and move no other way
 WALLS = [f"fix wall{axis}{k} all wall/gran model hertz tangential history surface ellipsoid primitive type 1 {axis}plane {26.0 * k}"
          for axis in "xyz" for k in (0, 1)]
 
@@ -102,8 +113,12 @@ def cohesive(ranks):
 CASES = {
     "spheroid-0.33": sheared(dense_packing(0.33), strain=1.7),
     "spheroid-1.5": sheared(dense_packing(1.5), strain=1.7),
-    "spheroid-3": sheared(dense_packing(3.0), strain=1.7),
+    "spheroid-3": sheared(dense_packing(3.0), 800),
     "spheres": sheared(dense_packing(), skipped=0.0),
+    "spheres-of-five-sizes": sheared(dense_packing(sizes=SIZES), 600, 0.6, 3, 0.0),
+    "frozen-spheres": sheared(dense_packing(), 600, 0.2, 3, 0.0, before=["group cold id 1:20", "fix cold cold freeze"]),
+    "softened-spheres": sheared(dense_packing(), 600, 0.6, 3, 0.0, extra="gaussianCurvature yes curvatureLimitFactor 0.5"),
+    "spheres-here-spheroids-there": sheared(half_spheres(), 600, 0.6, 3, 0.0, processors="* 1 1"),
     "polydisperse": sheared(dense_packing(1.5, sizes=SIZES)),
     "mixed-shapes-and-types": sheared(mixed(), material=TYPES),
     "frozen-grains": sheared(dense_packing(1.5), 600, 0.2, 3, before=["group cold id 1:20", "fix cold cold freeze"]),
@@ -122,6 +137,7 @@ CASES = {
     "tumbling-rods": rods(["run 1200"]),
     "tumbling-rods-with-jumps": rods(JUMPS),
     "tumbling-rods-in-a-deforming-box": rods(["fix squeeze all deform 1 y erate -0.1 xy erate 0.4 remap v", "run 700"], skin=3.0),
+    "rods-squeezed-by-the-box": rods([SQUEEZE, "run 270"], edge=40.0, skin=3.0, lists=3, contacts=1e-4, still=True),
     "tumbling-rods-between-walls": rods([*WALLS, "run 1000"], boundary="f f f", triclinic=False),
     "tumbling-rods-shrink-wrapped": rods(["run 500"], boundary="s s s", triclinic=False),
     "pushed-rods": rods(["group pushed id 1:20", "unfix integrate", "group free subtract all pushed",

@@ -61,7 +61,7 @@ def equivalent(*shapes):
 A, C = 1.0, 1.5        # prolate
 OA, OC = 1.2, 0.5      # oblate
 PROLATE, OBLATE, SPHERE = (A, A, C), (OA, OA, OC), (0.8, 0.8, 0.8)
-TRIAXIAL = (0.7, 1.0, 1.4)
+BALL, TRIAXIAL = (1.2, 1.2, 1.2), (0.7, 1.0, 1.4)
 
 
 def grain(shape, quaternion=UPRIGHT):
@@ -180,6 +180,8 @@ CASES = {
     "unlike-grains-meet-gaussian": meets(grain(PROLATE, LYING), grain(OBLATE), (C, OA), gaussian(pole(A, C), equator(OA, OC)),
                                          extra=GAUSSIAN),
     "unlike-grains-meet-mean": meets(grain(PROLATE, LYING), grain(OBLATE), (C, OA), mean(pole(A, C), equator(OA, OC)), extra=MEAN),
+    "spheres-meet": meets(grain(SPHERE), grain(BALL), (0.8, 1.2), equivalent(SPHERE, BALL)),
+    "spheres-meet-mean": meets(grain(SPHERE), grain(BALL), (0.8, 1.2), equivalent(SPHERE, BALL), extra=MEAN, axis=1),
     "sphere-meets-pole-mean": meets(grain(SPHERE), grain(PROLATE, LYING), (0.8, C), mean((1.25, 1.25), pole(A, C)), extra=MEAN),
     "triaxial-meets-sphere-gaussian": meets(grain(TRIAXIAL), grain(SPHERE), (1.0, 0.8),
                                             gaussian((1.0 / 0.7 ** 2, 1.0 / 1.4 ** 2), (1.25, 1.25)), extra=GAUSSIAN, axis=1),

@@ -15,7 +15,7 @@ from run import run
 # Of the rms force, and of that times the radius 1. The host's solver stops by the angle of the normals, at about 1e-5; its points, and so
 # the torques, are off by more.
 FORCE, TORQUE = 1e-4, 5e-4
-STEPS = 600
+STEPS = 400
 
 
 def vectors(columns, prefix):

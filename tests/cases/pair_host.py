@@ -20,8 +20,8 @@ def moving(alpha=1.5, **choices):
     return deck
 
 
-def local_output_does_not_disturb(ranks):
-    deck = moving()
+def local_output_does_not_disturb(ranks, **choices):
+    deck = moving(**choices)
     silent = run(replace(deck, body=[*deck.body, f"run {STEPS}"]), ranks).dump("grains.dump")
     output = ["compute pairs all pair/gran/local pos id force contactPoint delta", "dump pairs all local 50 pairs.dump c_pairs[1]",
               f"run {STEPS}"]
@@ -171,6 +171,7 @@ def host_deck_with_walls(ranks):
 
 CASES = {
     "pair-local-output-does-not-disturb": local_output_does_not_disturb,
+    "pair-local-output-does-not-disturb-ellipsoids": lambda ranks: local_output_does_not_disturb(ranks, surface="ellipsoid"),
     "contact-local-output-does-not-disturb": contact_local_output_does_not_disturb,
     "restart-continues": lambda ranks: restart_continues(replace(moving(), body=[]), ranks),
     "restart-of-spheres-continues": lambda ranks: restart_continues(Deck(dense_packing(atom_style="sphere")), ranks),
