@@ -84,9 +84,11 @@ add_cases(spheroid-motion cases/spheroid_motion.py LABEL case RANKS 1 2 4 CASES
 add_cases(ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case RANKS 1 CASES
   spheroid-0.33 spheroid-3 spheres polydisperse frozen-grains narrow-contact-distance gaussian-curvature mean-curvature
   mean-curvature-of-mixed-shapes curvature-keywords-without-limit tangential-off tangential-no-history hooke rolling-cdt rolling-epsd2
-  limit-force-undamped cohesion spheres-of-five-sizes frozen-spheres softened-spheres rods-squeezed-by-the-box tumbling-rods-with-jumps tumbling-rods-shrink-wrapped pushed-rods)
+  limit-force-undamped cohesion spheres-of-five-sizes frozen-spheres softened-spheres rods-squeezed-by-the-box tumbling-rods-with-jumps
+  tumbling-rods-shrink-wrapped pushed-rods)
 add_cases(ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case RANKS 1 2 CASES
-  spheroid-1.5 mixed-shapes-and-types spheres-here-spheroids-there tumbling-rods tumbling-rods-in-a-deforming-box tumbling-rods-between-walls)
+  spheroid-1.5 mixed-shapes-and-types spheres-here-spheroids-there tumbling-rods tumbling-rods-in-a-deforming-box
+  tumbling-rods-between-walls)
 add_cases(same-on-ranks cases/ranks.py LABEL case RANKS 2 4 CASES ellipsoids-0.33 ellipsoids-1.5 ellipsoids-3 ellipsoids-polydisperse)
 add_cases(same-everywhere cases/same_everywhere.py LABEL case RANKS 2 4 CASES ellipsoids)
 add_cases(ellipsoid-rows cases/ellipsoid_rows.py LABEL case RANKS 1 CASES ellipsoid-0.33 ellipsoid-3)
@@ -107,7 +109,8 @@ add_cases(ellipsoid-wall cases/ellipsoid_walls.py LABEL case RANKS 1 2 CASES pil
 add_cases(ellipsoid-contact cases/ellipsoid_contacts.py LABEL case RANKS 1 CASES
   poles-meet poles-meet-gaussian poles-meet-mean equators-meet-gaussian equators-meet-mean flat-faces-meet-gaussian flat-faces-meet-mean
   unlike-grains-meet unlike-grains-meet-gaussian unlike-grains-meet-mean sphere-meets-pole-mean triaxial-meets-sphere-gaussian
-  triaxial-meets-sphere-mean spheres-meet spheres-meet-mean limit-caps-the-radius limit-below-one-caps-spheres spheres-collide spheres-collide-head-on
+  triaxial-meets-sphere-mean spheres-meet spheres-meet-mean limit-caps-the-radius limit-below-one-caps-spheres spheres-collide
+  spheres-collide-head-on
   spheres-collide-hooke-no-history spheres-collide-rolling spheres-part-at-e concentric-spheres concentric-spheroids concentric-triaxial
   no-stale-springs host-keeps-springs)
 add_cases(contact-solver cases/contact_solver.py LABEL case RANKS 1 2 4 CASES lists-and-contacts)
