@@ -84,8 +84,8 @@ add_cases(spheroid-motion cases/spheroid_motion.py LABEL case RANKS 1 2 4 CASES
 add_cases(ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case RANKS 1 CASES
   spheroid-0.33 spheroid-3 spheres polydisperse frozen-grains narrow-contact-distance gaussian-curvature mean-curvature
   mean-curvature-of-mixed-shapes curvature-keywords-without-limit tangential-off tangential-no-history hooke rolling-cdt rolling-epsd2
-  limit-force-undamped cohesion spheres-of-five-sizes frozen-spheres softened-spheres rods-squeezed-by-the-box tumbling-rods-with-jumps
-  tumbling-rods-shrink-wrapped pushed-rods)
+  limit-force-undamped moved-by-nve-spheroid cohesion spheres-of-five-sizes frozen-spheres softened-spheres rods-squeezed-by-the-box
+  tumbling-rods-with-jumps tumbling-rods-shrink-wrapped pushed-rods)
 add_cases(ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case RANKS 1 2 CASES
   spheroid-1.5 mixed-shapes-and-types spheres-here-spheroids-there tumbling-rods tumbling-rods-in-a-deforming-box
   tumbling-rods-between-walls)
@@ -112,7 +112,7 @@ add_cases(ellipsoid-contact cases/ellipsoid_contacts.py LABEL case RANKS 1 CASES
   triaxial-meets-sphere-mean spheres-meet spheres-meet-mean limit-caps-the-radius limit-below-one-caps-spheres spheres-collide
   spheres-collide-head-on
   spheres-collide-hooke-no-history spheres-collide-rolling spheres-part-at-e concentric-spheres concentric-spheroids concentric-triaxial
-  no-stale-springs host-keeps-springs)
+  no-stale-springs no-stale-springs-of-poles host-keeps-springs host-keeps-springs-of-poles)
 add_cases(contact-solver cases/contact_solver.py LABEL case RANKS 1 2 4 CASES lists-and-contacts)
 add_cases(contact-solver cases/contact_solver.py LABEL case RANKS 1 2 CASES add-up begins-with-the-pair-style does-not-disturb)
 add_cases(contact-solver cases/contact_solver.py LABEL case RANKS 2 4 CASES same-on-ranks)

@@ -133,6 +133,7 @@ CASES = {
     "rolling-cdt": sheared(dense_packing(1.5), 600, 0.6, 3, rolling="cdt"),
     "rolling-epsd2": sheared(dense_packing(0.5), 600, 0.6, 3, rolling="epsd2"),
     "limit-force-undamped": sheared(dense_packing(1.5), 600, 0.6, 3, extra="tangential_damping off limitForce on"),
+    "moved-by-nve-spheroid": sheared(dense_packing(0.5), 600, 0.6, 3, before=["unfix integrate", "fix integrate all nve/spheroid"]),
     "cohesion": cohesive,
     "tumbling-rods": rods(["run 1200"]),
     "tumbling-rods-with-jumps": rods(JUMPS),

@@ -137,10 +137,11 @@ def concentric(shapes, overlap):
     return case
 
 
-def dipped(pair, ranks):
-    """A sphere that is swung against another and off again, fast, within one neighbour list, while both spin: its tangential force. (The
-    host's loop ends a spring where spheres are apart but their bounding spheres, 1e-4 larger, are not: it is jumped over.)"""
-    packing = boxed(Grain((0.0, 0.0, 0.0), omega=(0.0, 0.0, 0.1)), Grain((2.06, 0.0, 0.0), omega=(0.0, 0.0, 0.1)))
+def dipped(pair, ranks, shape):
+    """A grain that is swung along x against another and off again, fast, within one neighbour list, while both spin: its tangential force.
+    (The host's loop ends a spring where grains are apart but their bounding spheres, 1e-4 larger, are not: it is jumped over.)"""
+    one, two = (Grain((x, 0.0, 0.0), shape, omega=(0.0, 0.0, 0.1)) for x in (0.0, 2.0 * shape[0] + 0.06))
+    packing = boxed(one, two)
     deck = Deck(packing, pair=pair, surface="ellipsoid", contact_distance_factor=1.0, timestep=PERIOD / TIMES,
                 extra="tangential_damping off", material=Material(friction=(1e6,)))
     deck.body = ["neighbor 1.0 bin", "unfix integrate", "group swinging id 2", f"fix swing swinging move wiggle -0.2 0 0 {PERIOD}",
@@ -155,17 +156,21 @@ def dipped(pair, ranks):
 PERIOD, TIMES = 0.2, 40
 
 
-def no_stale_springs(ranks):
+def no_stale_springs(shape):
     """A contact that opens loses its spring at once, at contact distance factor 1.0 too: the second touch is as the first."""
-    first, second = dipped("gran/insitu", ranks)
-    # 1e-9: the swing comes back to the same place to the last bits, of 2, and the overlap is 1/100 of it.
-    require_close(second, first, 1e-9, "tangential force of the second touch")
+    def case(ranks):
+        first, second = dipped("gran/insitu", ranks, shape)
+        # 1e-9: the swing comes back to the same place to the last bits, of 2, and the overlap is 1/100 of it.
+        require_close(second, first, 1e-9, "tangential force of the second touch")
+    return case
 
 
-def host_keeps_springs(ranks):
+def host_keeps_springs(shape):
     """The fault of the host's loop that ours survives: were it gone, the warning and contact_distance_factor would be, too."""
-    first, second = dipped("gran", ranks)
-    require(np.abs(second - first).max() > 0.1 * np.abs(first).max(), "pair_style gran has no stale springs any more: drop the correction")
+    def case(ranks):
+        first, second = dipped("gran", ranks, shape)
+        require(np.abs(second - first).max() > 0.1 * np.abs(first).max(), "pair_style gran has no stale springs any more")
+    return case
 
 
 CASES = {
@@ -199,8 +204,10 @@ CASES = {
     "concentric-spheres": concentric((SPHERE, SPHERE), 1.6),
     "concentric-spheroids": concentric((PROLATE, OBLATE), 2.0),
     "concentric-triaxial": concentric((TRIAXIAL, TRIAXIAL), 1.4),
-    "no-stale-springs": no_stale_springs,
-    "host-keeps-springs": host_keeps_springs,
+    "no-stale-springs": no_stale_springs((1.0, 1.0, 1.0)),
+    "no-stale-springs-of-poles": no_stale_springs((1.5, 1.0, 1.0)),
+    "host-keeps-springs": host_keeps_springs((1.0, 1.0, 1.0)),
+    "host-keeps-springs-of-poles": host_keeps_springs((1.5, 1.0, 1.0)),
 }
 
 if __name__ == "__main__":
