@@ -157,8 +157,8 @@ TEST(separation_memory, never_overlooks_a_contact) {
         left_out += !looks;
         looked_at += looks;
         if (looks) g.look(k);
-        if (!looks && step % 4 == 0)
-          ASSERT_TRUE(g.memory.may_touch(k, g.motion(k) + g.distance(k))) << "trial " << trial << ", step " << step << ", pair " << k;
+        if (looks || step % 4) continue;
+        ASSERT_TRUE(g.memory.may_touch(k, g.motion(k) + g.distance(k))) << "trial " << trial << ", step " << step << ", pair " << k;
       }
       const Matrix3d f = Matrix3d::Identity() + flow;
       for (int i = 0; i < 12; i++) {
