@@ -84,15 +84,15 @@ add_cases(spheroid-motion cases/spheroid_motion.py LABEL case RANKS 1 2 4 CASES
 add_cases(ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case RANKS 1 CASES
   spheroid-0.33 spheroid-3 spheres polydisperse frozen-grains narrow-contact-distance gaussian-curvature mean-curvature
   mean-curvature-of-mixed-shapes curvature-keywords-without-limit tangential-off tangential-no-history hooke rolling-cdt rolling-epsd2
-  limit-force-undamped moved-by-nve-spheroid cohesion spheres-of-five-sizes frozen-spheres softened-spheres rods-squeezed-by-the-box
-  tumbling-rods-with-jumps tumbling-rods-shrink-wrapped pushed-rods)
+  limit-force-undamped moved-by-nve-spheroid mixed-shapes-and-types cohesion spheres-of-five-sizes frozen-spheres softened-spheres
+  rods-squeezed-by-the-box tumbling-rods-with-jumps tumbling-rods-shrink-wrapped pushed-rods)
 add_cases(ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case RANKS 1 2 CASES
-  spheroid-1.5 mixed-shapes-and-types spheres-here-spheroids-there tumbling-rods tumbling-rods-in-a-deforming-box
-  tumbling-rods-between-walls)
-add_cases(same-on-ranks cases/ranks.py LABEL case RANKS 2 4 CASES ellipsoids-0.33 ellipsoids-1.5 ellipsoids-3 ellipsoids-polydisperse)
+  spheroid-1.5 spheres-here-spheroids-there tumbling-rods tumbling-rods-in-a-deforming-box tumbling-rods-between-walls)
+add_cases(same-on-ranks cases/ranks.py LABEL case RANKS 4 CASES ellipsoids-0.33 ellipsoids-polydisperse)
+add_cases(same-on-ranks cases/ranks.py LABEL case RANKS 2 4 CASES ellipsoids-1.5 ellipsoids-3)
 add_cases(same-everywhere cases/same_everywhere.py LABEL case RANKS 2 4 CASES ellipsoids)
 add_cases(ellipsoid-rows cases/ellipsoid_rows.py LABEL case RANKS 1 CASES ellipsoid-0.33 ellipsoid-3)
-add_cases(ellipsoid-rows cases/ellipsoid_rows.py LABEL case RANKS 1 2 CASES ellipsoid-1.5)
+add_cases(ellipsoid-rows cases/ellipsoid_rows.py LABEL case RANKS 2 CASES ellipsoid-1.5)
 add_cases(pair cases/pair_host.py LABEL case RANKS 1 2 CASES
   virial-of-ellipsoids restart-of-ellipsoids-continues pair-local-output-does-not-disturb-ellipsoids)
 add_cases(asking cases/asking.py LABEL case RANKS 1 CASES as-pair-gran-local-ellipsoids as-pair-gran-local-oblate-ellipsoids)

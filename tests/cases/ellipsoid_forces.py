@@ -35,12 +35,12 @@ def made_by(surface, deck, ranks):
     return run(replace(deck, surface=surface, body=body), ranks).folder / "state.restart"
 
 
-def same_forces(packing, extra=""):
+def same_forces(packing, extra="", makers=("superquadric", "ellipsoid")):
     # Without tangential damping: with it the host's force jumps where sliding begins, and a contact there may be seen on either side.
     deck = Deck(packing, extra=f"tangential_damping off {extra}")
 
     def case(ranks):
-        for maker in ("superquadric", "ellipsoid"):
+        for maker in makers:
             state = made_by(maker, deck, ranks)
             (found, ours), (expected, theirs) = (evaluated(deck, state, surface, ranks) for surface in ("ellipsoid", "superquadric"))
             require(ours > 2 * len(packing.grains), f"only {ours} contacts")
@@ -104,12 +104,12 @@ CASES = {
     **{f"spheroid-{alpha:g}": same_forces(dense_packing(alpha, wobble=0.3)) for alpha in (0.33, 0.5, 1.5, 3.0)},
     "spheres": same_forces(dense_packing()),
     "polydisperse": same_forces(dense_packing(1.5, sizes=(0.8, 1.0, 1.2), wobble=0.3)),
-    "gaussian-curvature": same_forces(dense_packing(1.5, wobble=0.3), f"gaussianCurvature yes {CURVED}"),
-    "mean-curvature": same_forces(dense_packing(0.5, wobble=0.3), f"meanCurvature yes {CURVED}"),
-    "limit-without-curvature-keywords": same_forces(dense_packing(1.5, wobble=0.3), CURVED),
+    "gaussian-curvature": same_forces(dense_packing(1.5, wobble=0.3), f"gaussianCurvature yes {CURVED}", ["superquadric"]),
+    "mean-curvature": same_forces(dense_packing(0.5, wobble=0.3), f"meanCurvature yes {CURVED}", ["superquadric"]),
+    "limit-without-curvature-keywords": same_forces(dense_packing(1.5, wobble=0.3), CURVED, ["superquadric"]),
     "flows-on-from-the-other": flows_on_from_the_other,
     "restart-of-prolate-grains": restart_goes_on(dense_packing(1.5), 0.3, 240, 600),
-    "restart-of-oblate-grains": restart_goes_on(dense_packing(0.5, minimum=300), 0.3, 240, 600),
+    "restart-of-oblate-grains": restart_goes_on(dense_packing(0.5, minimum=300), 0.3, 240, 300),
     "restart-before-a-flip": restart_goes_on(tilted(dense_packing(1.5), 0.48), 0.05, 40, 300),
     "start-survives-a-swap": start_survives_a_swap,
 }
