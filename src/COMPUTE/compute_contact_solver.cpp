@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_contact_solver.h"
 #include "arguments.h"
+#include "ellipsoid_bodies.h"
 #include "pair_gran_insitu.h"
 #include "error.h"
 #include "update.h"
@@ -35,7 +36,7 @@ void ComputeContactSolver::compute_vector() {
 
 double ComputeContactSolver::compute_scalar() {
   invoked_scalar = update->ntimestep;
-  if (invoked_vector != update->ntimestep) compute_vector();
+  compute_vector();  // again: a run may have begun at this step since
   scalar = vector[5];
   return scalar;
 }

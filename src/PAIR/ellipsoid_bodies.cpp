@@ -4,7 +4,6 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
-#include "neighbor.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,21 +12,18 @@ namespace grainscope {
 
 void EllipsoidBodies::prepare() {
   const int n = atom->nlocal + atom->nghost;
-  if (neighbor->ago == 0 || list_ != neighbor->lastcall) {
+  if (list_.renewed(*neighbor, *update)) {
     refuse_other_blockiness();
     read_shapes(n);
-    list_ = neighbor->lastcall;
   }
   if (only_spheres_) return;
   for (int i = 0; i < n; i++)
     if (!is_sphere(i)) rotated_axis(atom->quaternion[i], grains_[i].axis, grains_[i].spheroid.u);
-  if (frames_.empty()) return;
-  for (int i = 0; i < n; i++) frames_[i] = make_triaxial(atom->shape[i], atom->quaternion[i]);
 }
 
 void EllipsoidBodies::read_shapes(int n) {
   grains_.resize(n);
-  bool triaxial = false;
+  some_triaxial_ = false;
   only_spheres_ = true;
   for (int i = 0; i < n; i++) {
     const double *s = atom->shape[i];
@@ -39,10 +35,9 @@ void EllipsoidBodies::read_shapes(int n) {
     grain.across = std::sqrt(grain.spheroid.equatorial);
     grain.axis = std::max(axis.index, 0);
     grain.triaxial = axis.shape == Shape::triaxial;
-    triaxial = triaxial || grain.triaxial;
+    some_triaxial_ = some_triaxial_ || grain.triaxial;
     only_spheres_ = only_spheres_ && axis.shape == Shape::sphere;
   }
-  frames_.resize(triaxial ? n : 0);
 }
 
 /** The host takes a blockiness within 0.01 of 2 for an ellipsoid's; so do we. */
@@ -68,42 +63,58 @@ void EllipsoidBodies::refuse_other_blockiness() {
   error->all(FLERR, message);
 }
 
+Triaxial EllipsoidBodies::frame(int i) const { return make_triaxial(atom->shape[i], atom->quaternion[i]); }
+
+inline void EllipsoidBodies::add_pair(const Query &q) {
+  pairs_.push_back({&grains_[q.i].spheroid, &grains_[q.j].spheroid, {q.d[0], q.d[1], q.d[2]}, q.start});
+}
+
 void EllipsoidBodies::solve(int n, const Query *queries, EllipsoidContact *contacts) {
-  if (frames_.empty()) {
-    pairs_.resize(n);
-    for (int k = 0; k < n; k++) {
-      const Query &q = queries[k];
-      pairs_[k] = {&grains_[q.i].spheroid, &grains_[q.j].spheroid, {q.d[0], q.d[1], q.d[2]}, q.start};
-    }
+  pairs_.clear();
+  if (!some_triaxial_) {
+    for (int k = 0; k < n; k++) add_pair(queries[k]);
     ellipsoid_contacts(n, pairs_.data(), contacts);
   } else {
+    place_.clear();
     for (int k = 0; k < n; k++) {
       const Query &q = queries[k];
-      const Grain &one = grains_[q.i], &two = grains_[q.j];
-      contacts[k] = one.triaxial || two.triaxial ? ellipsoid_contact(frames_[q.i], frames_[q.j], q.d, q.start)
-                                                 : ellipsoid_contact(one.spheroid, two.spheroid, q.d, q.start);
+      if (grains_[q.i].triaxial || grains_[q.j].triaxial) {
+        contacts[k] = ellipsoid_contact(frame(q.i), frame(q.j), q.d, q.start);
+      } else {
+        add_pair(q);
+        place_.push_back(k);
+      }
     }
+    solved_.resize(pairs_.size());
+    ellipsoid_contacts(static_cast<int>(pairs_.size()), pairs_.data(), solved_.data());
+    for (std::size_t k = 0; k < place_.size(); k++) contacts[place_[k]] = solved_[k];
   }
   for (int k = 0; k < n; k++) count(queries[k], contacts[k]);
 }
 
-void EllipsoidBodies::count(const Query &query, const EllipsoidContact &contact) {
+void EllipsoidBodies::count(const Query &query, EllipsoidContact &contact) {
   counts.solved++;
   counts.steps += contact.steps;
   counts.touching += contact.touching;
   counts.most_steps = std::max<double>(counts.most_steps, contact.steps);
   if (!contact.fallback) return;
   counts.fallbacks++;
+  const double r = grains_[query.i].equivalent_radius, *d = query.d;
+  if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < 1e-20 * r * r && atom->tag[query.i] > atom->tag[query.j])
+    for (int k = 0; k < 3; k++) {  // concentric: its two owners must push apart
+      contact.normal[k] = -contact.normal[k];
+      contact.point[k] = -contact.point[k];
+    }
   if (warned_) return;
   warned_ = true;
   char message[200];
   snprintf(message, sizeof message, "surface ellipsoid: no regular contact of grains %d and %d (concentric?), their normal is arbitrary "
-           "(told once; compute contact/solver counts)", atom->tag[query.i], atom->tag[query.j]);
+           "(told once per rank; compute contact/solver counts)", atom->tag[query.i], atom->tag[query.j]);
   error->warning(FLERR, message);
 }
 
 double EllipsoidBodies::mean_curvature(int i, const double y[3]) const {
-  return grains_[i].triaxial ? grainscope::mean_curvature(frames_[i], y) : grainscope::mean_curvature(grains_[i].spheroid, y);
+  return grains_[i].triaxial ? grainscope::mean_curvature(frame(i), y) : grainscope::mean_curvature(grains_[i].spheroid, y);
 }
 
 }

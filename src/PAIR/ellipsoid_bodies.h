@@ -3,7 +3,9 @@
 #define GRAINSCOPE_ELLIPSOID_BODIES_H
 
 #include "sphere_contact.h"
+#include "neighbor.h"
 #include "pointers.h"
+#include "update.h"
 #include <vector>
 
 namespace grainscope {
@@ -18,7 +20,21 @@ struct SolverCounts {
   double fallbacks = 0.0;  // contacts whose answer is not the regular one
 };
 
-/** Every owned and ghost grain as an ellipsoid: shapes are read once per neighbour list, orientations once per force evaluation. */
+/** Tells whether neighbour lists, or grains between two runs, have changed since it was asked last. All ranks alike. */
+class ListMark {
+ public:
+  bool renewed(const LAMMPS_NS::Neighbor &neighbor, const LAMMPS_NS::Update &update) {
+    if (neighbor.ago != 0 && built_ == neighbor.lastcall && run_ == update.firststep) return false;
+    built_ = neighbor.lastcall;
+    run_ = update.firststep;
+    return true;
+  }
+
+ private:
+  LAMMPS_NS::bigint built_ = -1, run_ = -1;
+};
+
+/** Every owned and ghost grain as an ellipsoid: shapes are read once per neighbour list and run, orientations once per force evaluation. */
 class EllipsoidBodies : private LAMMPS_NS::Pointers {
  public:
   explicit EllipsoidBodies(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
@@ -62,15 +78,18 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
     bool triaxial;
   };
   std::vector<Grain> grains_;
-  std::vector<Triaxial> frames_;  // of all grains, if one of them is triaxial
-  bool only_spheres_ = false;
-  LAMMPS_NS::bigint list_ = -1;
+  bool only_spheres_ = false, some_triaxial_ = false;
+  ListMark list_;
   std::vector<EllipsoidPair> pairs_;
+  std::vector<int> place_;                 // of each of them among the queries
+  std::vector<EllipsoidContact> solved_;
   bool warned_ = false;
 
   void read_shapes(int n);
   void refuse_other_blockiness();
-  void count(const Query &query, const EllipsoidContact &contact);
+  void add_pair(const Query &query);
+  Triaxial frame(int i) const;
+  void count(const Query &query, EllipsoidContact &contact);
 };
 
 }

@@ -56,7 +56,7 @@ class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model> {
     int number;        // of the pair in the neighbour list
     double motion;     // of its two grains, so far
   };
-  static constexpr std::size_t BATCH = 512;  // contacts solved at a time: about what the first cache holds
+  static constexpr std::size_t BATCH = 512;  // contacts solved at a time: their data stay in the second cache
 
   void own_compute_force(int eflag, int vflag);
   void spheres();
@@ -79,7 +79,7 @@ class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model> {
 
   SeparationMemory apart_;
   std::vector<int> first_pair_;  // of each grain in the neighbour list
-  LAMMPS_NS::bigint list_ = -1;
+  ListMark list_;
   std::vector<int> look_;        // neighbours of one grain that may touch it, by place in its list
   std::vector<Near> near_;
   std::vector<EllipsoidBodies::Query> queries_;
@@ -177,17 +177,15 @@ void EllipsoidLoop<Model>::ellipsoids() {
 template <class Model>
 void EllipsoidLoop<Model>::follow_motion() {
   const LAMMPS_NS::Atom *atom = lmp_->atom;
-  const LAMMPS_NS::Neighbor *neighbor = lmp_->neighbor;
   const LAMMPS_NS::NeighList *list = pair_->list;
-  if (neighbor->ago == 0 || list_ != neighbor->lastcall) {
-    list_ = neighbor->lastcall;
+  if (list_.renewed(*lmp_->neighbor, *lmp_->update)) {
     int pairs = 0;
     first_pair_.resize(list->inum);
     for (int ii = 0; ii < list->inum; ii++) {
       first_pair_[ii] = pairs;
       pairs += list->numneigh[list->ilist[ii]];
     }
-    apart_.restart(atom->nlocal + atom->nghost, pairs, neighbor->cutneighmax);
+    apart_.restart(atom->nlocal + atom->nghost, pairs, lmp_->neighbor->cutneighmax);
   }
   const BoxState box(lmp_);
   apart_.move(box.edges, Eigen::Map<const Eigen::Vector3d>(lmp_->domain->boxlo), atom->x, atom->quaternion,

@@ -15,7 +15,7 @@ struct EllipsoidSurface {
   // Columns of the contact history. As many as `surface superquadric` has, so that restart files of the two are interchangeable: what one
   // left is a start for the other or no start, never a wrong one. Only `lambda` is remembered (less 1/2: changes its sign when the host
   // swaps i and j; 0: none), beside the tangential spring in memory; the others are for compute pair/gran/local.
-  int depth_j, unused, point, depth_i, lambda;
+  int depth_j, point, depth_i, lambda;
   double curvature_limit = 0.0;
   bool mean = false, gaussian = false;
 
@@ -85,13 +85,6 @@ struct EllipsoidSurface {
     s.cri = arm_i.norm();
     s.crj = arm_j.norm();
   }
-};
-
-/** A pair style that owns the bodies and the surface, so that its loop sees them; under any other the surface model has its own. */
-struct EllipsoidOwner {
-  virtual ~EllipsoidOwner() {}
-  virtual EllipsoidBodies &ellipsoid_bodies() = 0;
-  virtual EllipsoidSurface &ellipsoid_surface() = 0;
 };
 
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pair_gran_insitu.h"
 #include "contact_observer.h"
+#include "ellipsoid_surface.h"
 #include "gran_insitu_models.h"
 #include "atom.h"
 #include "comm.h"
@@ -106,7 +107,7 @@ void PairGranInsitu::init_granular() {
 
 void PairGranInsitu::warn_of_stale_springs() {
   if (impl_->warned_of_stale_springs || impl_->observer.law() != ContactObserver::TangentialLaw::history) return;
-  if (neighbor->contactDistanceFactor > 1.0) return;
+  if (neighbor->contactDistanceFactor > 1.0 || contact_match("surface", "ellipsoid")) return;
   int spheres = atom->sphere_flag;
   if (atom->superquadric_flag)
     for (int i = 0; i < atom->nlocal && !spheres; i++)

@@ -8,7 +8,7 @@ PairStyle(gran/insitu,PairGranInsitu)
 #ifndef LMP_PAIR_GRAN_INSITU_H
 #define LMP_PAIR_GRAN_INSITU_H
 
-#include "ellipsoid_surface.h"
+#include "ellipsoid_owner.h"
 #include "pair_gran_proxy.h"
 #include <memory>
 

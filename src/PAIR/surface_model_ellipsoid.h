@@ -5,6 +5,7 @@ SURFACE_MODEL(SURFACE_ELLIPSOID,ellipsoid,11)
 #ifndef GRAINSCOPE_SURFACE_MODEL_ELLIPSOID_H
 #define GRAINSCOPE_SURFACE_MODEL_ELLIPSOID_H
 
+#include "ellipsoid_owner.h"
 #include "ellipsoid_surface.h"
 #include "surface_model_superquadric.h"
 #include <memory>
@@ -21,7 +22,7 @@ class SurfaceModel<SURFACE_ELLIPSOID> : public SurfaceModelBase {
     if (!atom->superquadric_flag)
       error->all(FLERR, "surface ellipsoid needs atom_style superquadric (spheres are ellipsoids with three equal semi-axes)");
     surface_.depth_j = setup->add_history_value("a2", "0");
-    surface_.unused = setup->add_history_value("unused", "0");
+    setup->add_history_value("unused", "0");  // stays 0: not touching, to the other surface
     surface_.point = setup->add_history_value("cpx", "0");
     setup->add_history_value("cpy", "0");
     setup->add_history_value("cpz", "0");
@@ -55,7 +56,9 @@ class SurfaceModel<SURFACE_ELLIPSOID> : public SurfaceModelBase {
 
   void connectToProperties(PropertyRegistry &) {}
 
-  void beginPass(SurfacesIntersectData &, ForceData &, ForceData &) { bodies_->prepare(); }
+  void beginPass(SurfacesIntersectData &, ForceData &, ForceData &) {
+    if (bodies_) bodies_->prepare();
+  }
 
   bool checkSurfaceIntersect(SurfacesIntersectData &s) {
     const grainscope::EllipsoidBodies::Query query{s.i, s.j, {-s.delta[0], -s.delta[1], -s.delta[2]}, surface_.start(s.contact_history)};
