@@ -85,9 +85,9 @@ add_cases(ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case RANKS 1 
   spheroid-0.33 spheroid-3 spheres polydisperse frozen-grains narrow-contact-distance gaussian-curvature mean-curvature
   mean-curvature-of-mixed-shapes curvature-keywords-without-limit tangential-off tangential-no-history hooke rolling-cdt rolling-epsd2
   limit-force-undamped moved-by-nve-spheroid mixed-shapes-and-types cohesion spheres-of-five-sizes frozen-spheres softened-spheres
-  rods-squeezed-by-the-box tumbling-rods-with-jumps tumbling-rods-shrink-wrapped pushed-rods)
+  rods-squeezed-by-the-box tumbling-rods-with-jumps tumbling-rods-shrink-wrapped pushed-rods shapes-set-between-runs)
 add_cases(ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case RANKS 1 2 CASES
-  spheroid-1.5 spheres-here-spheroids-there tumbling-rods tumbling-rods-in-a-deforming-box tumbling-rods-between-walls)
+  spheroid-1.5 spheres-here-spheroids-there tumbling-rods tumbling-rods-in-a-deforming-box tumbling-rods-between-walls between-runs)
 add_cases(same-on-ranks cases/ranks.py LABEL case RANKS 4 CASES ellipsoids-0.33 ellipsoids-polydisperse)
 add_cases(same-on-ranks cases/ranks.py LABEL case RANKS 2 4 CASES ellipsoids-1.5 ellipsoids-3)
 add_cases(same-everywhere cases/same_everywhere.py LABEL case RANKS 2 4 CASES ellipsoids)

@@ -81,13 +81,13 @@ def tumbling(edge, count=70, seed=3, **choices):
     return Packing((edge,) * 3, grains, **choices)
 
 
-def rods(body, edge=26.0, skin=7.0, lists=5, skipped=0.8, contacts=0.005, still=False, triclinic=True, **choices):
+def rods(body, edge=26.0, skin=7.0, lists=5, skipped=0.8, contacts=0.005, still=False, triclinic=True, before=(), **choices):
     packing = tumbling(edge, triclinic=triclinic)
     if still:
         packing = replace(packing, grains=[replace(g, velocity=(0.0, 0.0, 0.0), omega=(0.0, 0.0, 0.0)) for g in packing.grains])
     deck = Deck(packing, surface="ellipsoid", **choices)
     steps = sum(int(line.split()[1]) for line in body if line.startswith("run "))
-    deck.body = [f"neighbor {skin} bin", *dump_grains(packing, steps), *body]  # lists that last: a rod turns far within one
+    deck.body = [f"neighbor {skin} bin", *before, *dump_grains(packing, steps), *body]  # lists that last: a rod turns far within one
     return lambda ranks: same_as_gran(deck, ranks, lists, skipped, contacts)
 
 
@@ -141,6 +141,11 @@ CASES = {
     "rods-squeezed-by-the-box": rods([SQUEEZE, "run 270"], edge=40.0, skin=3.0, lists=3, contacts=1e-4, still=True),
     "tumbling-rods-between-walls": rods([*WALLS, "run 1000"], boundary="f f f", triclinic=False),
     "tumbling-rods-shrink-wrapped": rods(["run 500"], boundary="s s s", triclinic=False),
+    "shapes-set-between-runs": rods([*WALLS, "run 155", "set group all shape 0.7 0.7 2.5", "run 60 pre no"], boundary="f f f", triclinic=False,
+                                    lists=2),
+    "between-runs": rods(["run 60", "run 60 pre no post no", 'run 90 every 30 "set atom 1*20 quat 1 2 3 40"', "delete_atoms group gone compress no",
+                          "run 60", "change_box all x scale 1.05 y scale 0.97 remap", "run 60", "run 60 pre no"],
+                         before=["group gone id 5 15 25"], skin=3.0),
     "pushed-rods": rods(["group pushed id 1:20", "unfix integrate", "group free subtract all pushed",
                          "fix integrate free nve/superquadric integration_scheme 1", "fix push pushed move wiggle 3 0 0 0.5", "run 600"]),
 }

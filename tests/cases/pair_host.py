@@ -66,9 +66,9 @@ def pair_style_again(ranks):
     require_same_snapshots(twice.dump("grains.dump"), once.dump("grains.dump"), "issued twice against once")
 
 
-def stale_springs(factor, model, expected, packing=dense_packing(1.0, atom_style="sphere")):
+def stale_springs(factor, model, expected, packing=dense_packing(1.0, atom_style="sphere"), surface="superquadric"):
     def case(ranks):
-        deck = Deck(packing, contact_distance_factor=factor, tangential=model, body=["run 20", "run 20"])
+        deck = Deck(packing, contact_distance_factor=factor, tangential=model, surface=surface, body=["run 20", "run 20"])
         found = run(deck, ranks).output.count(WARNING)
         require(found == expected, f"factor {factor}, tangential {model}: {found} warnings, expected {expected}")
     return case
@@ -181,6 +181,7 @@ CASES = {
     "stale-springs-cured-no-warning": stale_springs(1.05, "history", 0),
     "no-springs-no-warning": stale_springs(1.0, "off", 0),
     "stale-springs-of-round-superquadrics": stale_springs(1.0, "history", 1, dense_packing(1.0)),
+    "no-stale-springs-of-ellipsoids": stale_springs(1.0, "history", 0, dense_packing(1.0), "ellipsoid"),
     "no-stale-springs-of-spheroids": stale_springs(1.0, "history", 0, dense_packing(1.5)),
     "sinks-come-and-go": sinks_come_and_go,
     "every-way-to-ask": every_way_to_ask,
