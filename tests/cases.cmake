@@ -7,8 +7,8 @@ add_cases(pair cases/pair_host.py LABEL case RANKS 1 2 CASES
   pair-local-output-does-not-disturb contact-local-output-does-not-disturb restart-continues restart-of-spheres-continues
   clear-and-begin-again pair-style-again stale-springs-warned-once sinks-come-and-go virial-of-spheroids host-deck-with-walls)
 add_cases(pair cases/pair_host.py LABEL case RANKS 1 CASES
-  stale-springs-cured-no-warning stale-springs-of-round-superquadrics no-stale-springs-of-spheroids every-way-to-ask
-  spin-of-frictionless-spheres no-springs-no-warning check-timestep-gran virial-of-plain-gran-is-wrong)
+  stale-springs-cured-no-warning stale-springs-of-round-superquadrics no-stale-springs-of-spheroids no-stale-springs-of-ellipsoids
+  every-way-to-ask spin-of-frictionless-spheres no-springs-no-warning check-timestep-gran virial-of-plain-gran-is-wrong)
 add_cases(oracle cases/measures_against_oracle.py LABEL case RANKS 1 2 CASES
   spheres spheres-in-the-open spheroid-1.5 spheroid-1.5-in-the-open spheres-through-a-flip spheroids-through-a-flip walls-not-counted)
 add_cases(oracle cases/measures_against_oracle.py LABEL case RANKS 1 CASES
