@@ -65,6 +65,11 @@ void EllipsoidBodies::refuse_other_blockiness() {
 
 Triaxial EllipsoidBodies::frame(int i) const { return make_triaxial(atom->shape[i], atom->quaternion[i]); }
 
+EllipsoidContact EllipsoidBodies::solve_alone(const Query &q) const {
+  if (grains_[q.i].triaxial || grains_[q.j].triaxial) return ellipsoid_contact(frame(q.i), frame(q.j), q.d, q.start);
+  return ellipsoid_contact(grains_[q.i].spheroid, grains_[q.j].spheroid, q.d, q.start);
+}
+
 inline void EllipsoidBodies::add_pair(const Query &q) {
   pairs_.push_back({&grains_[q.i].spheroid, &grains_[q.j].spheroid, {q.d[0], q.d[1], q.d[2]}, q.start});
 }
@@ -79,7 +84,7 @@ void EllipsoidBodies::solve(int n, const Query *queries, EllipsoidContact *conta
     for (int k = 0; k < n; k++) {
       const Query &q = queries[k];
       if (grains_[q.i].triaxial || grains_[q.j].triaxial) {
-        contacts[k] = ellipsoid_contact(frame(q.i), frame(q.j), q.d, q.start);
+        contacts[k] = solve_alone(q);
       } else {
         add_pair(q);
         place_.push_back(k);
@@ -100,11 +105,19 @@ void EllipsoidBodies::count(const Query &query, EllipsoidContact &contact) {
   if (!contact.fallback) return;
   counts.fallbacks++;
   const double r = grains_[query.i].equivalent_radius, *d = query.d;
-  if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < 1e-20 * r * r && atom->tag[query.i] > atom->tag[query.j])
-    for (int k = 0; k < 3; k++) {  // concentric: its two owners must push apart
-      contact.normal[k] = -contact.normal[k];
-      contact.point[k] = -contact.point[k];
+  if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < 1e-20 * r * r && atom->tag[query.i] > atom->tag[query.j]) {
+    // Concentric: its two owners must choose the same normal, so the one that sees it the other way round turns round.
+    const EllipsoidContact turned = solve_alone({query.j, query.i, {-d[0], -d[1], -d[2]}, 0.0});
+    for (int k = 0; k < 3; k++) {
+      contact.normal[k] = -turned.normal[k];
+      contact.point[k] = turned.point[k];
     }
+    for (int k = 0; k < 2; k++) {
+      contact.depth[k] = turned.depth[1 - k];
+      contact.curvature[k] = turned.curvature[1 - k];
+    }
+    contact.lambda = 1.0 - turned.lambda;
+  }
   if (warned_) return;
   warned_ = true;
   char message[200];

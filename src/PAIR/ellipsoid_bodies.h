@@ -89,6 +89,7 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
   void refuse_other_blockiness();
   void add_pair(const Query &query);
   Triaxial frame(int i) const;
+  EllipsoidContact solve_alone(const Query &query) const;
   void count(const Query &query, EllipsoidContact &contact);
 };
 
