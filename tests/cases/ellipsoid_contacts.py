@@ -137,6 +137,17 @@ def concentric(shapes, overlap):
     return case
 
 
+def concentric_between_ranks(ranks):
+    """Alike but turned, so that the shortest axes differ, and each grain on its own rank: both owners choose the same normal."""
+    packing = boxed(Grain((-1e-15, 0.0, 0.0), PROLATE, UPRIGHT), Grain((1e-15, 0.0, 0.0), PROLATE, about_y(0.7)))
+    deck = Deck(packing, surface="ellipsoid", processors="2 1 1", body=[*dump_grains(packing, 1), "run 0"])
+    grains = run(deck, ranks).dump("grains.dump")[0][1]
+    force = np.stack([grains[name] for name in ("fx", "fy", "fz")])
+    size = np.linalg.norm(force[:, 0])
+    require(size > 0.0, "no force")
+    require_close(force.sum(axis=1), [0.0] * 3, 1e-12, "sum of the forces", size)
+
+
 def dipped(pair, ranks, shape):
     """A grain that is swung along x against another and off again, fast, within one neighbour list, while both spin: its tangential force.
     (The host's loop ends a spring where grains are apart but their bounding spheres, 1e-4 larger, are not: it is jumped over.)"""
@@ -204,6 +215,7 @@ CASES = {
     "concentric-spheres": concentric((SPHERE, SPHERE), 1.6),
     "concentric-spheroids": concentric((PROLATE, OBLATE), 2.0),
     "concentric-triaxial": concentric((TRIAXIAL, TRIAXIAL), 1.4),
+    "concentric-between-ranks": concentric_between_ranks,
     "no-stale-springs": no_stale_springs((1.0, 1.0, 1.0)),
     "no-stale-springs-of-poles": no_stale_springs((1.5, 1.0, 1.0)),
     "host-keeps-springs": host_keeps_springs((1.0, 1.0, 1.0)),
