@@ -113,7 +113,7 @@ add_cases(ellipsoid-contact cases/ellipsoid_contacts.py LABEL case RANKS 1 CASES
   spheres-collide-head-on
   spheres-collide-hooke-no-history spheres-collide-rolling spheres-part-at-e concentric-spheres concentric-spheroids concentric-triaxial
   no-stale-springs no-stale-springs-of-poles host-keeps-springs host-keeps-springs-of-poles)
-add_cases(ellipsoid-contact cases/ellipsoid_contacts.py LABEL mpi RANKS 2 CASES concentric-between-ranks)
+add_cases(ellipsoid-contact cases/ellipsoid_contacts.py LABEL case RANKS 2 CASES concentric-between-ranks)
 add_cases(contact-solver cases/contact_solver.py LABEL case RANKS 1 2 4 CASES lists-and-contacts)
 add_cases(contact-solver cases/contact_solver.py LABEL case RANKS 1 2 CASES add-up begins-with-the-pair-style does-not-disturb)
 add_cases(contact-solver cases/contact_solver.py LABEL case RANKS 2 4 CASES same-on-ranks)
