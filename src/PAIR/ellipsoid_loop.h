@@ -4,6 +4,7 @@
 
 #include "box_state.h"
 #include "ellipsoid_surface.h"
+#include "gran_insitu_models.h"
 #include "observed_contact_model.h"
 #include "separation_memory.h"
 #include "domain.h"
@@ -19,7 +20,7 @@ namespace grainscope {
  *  the host's last bit, but neighbours that are surely apart are not looked at. Whatever else is asked of the loop (rigid bodies,
  *  multicontact, stored contact forces, compute pair/gran/local) goes the host's way. */
 template <class Model>
-class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model> {
+class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model>, public EndsSprings {
   using Host = LIGGGHTS::PairStyles::Granular<Model>;
   using PairGran = LAMMPS_NS::PairGran;
 

@@ -6,6 +6,11 @@
 
 namespace grainscope {
 
+/** A loop of ours that ends a spring with its contact; the host's may keep it until the next neighbour list. */
+struct EndsSprings {
+  virtual ~EndsSprings() {}
+};
+
 /** The observed pair loop for the contact-model combination `hash`: compiled for every combination of the whitelist, the host's
  *  dynamic path for all others. */
 LIGGGHTS::PairStyles::IGranularPairStyle *create_observed_loop(int64_t hash, LAMMPS_NS::LAMMPS *lmp, LAMMPS_NS::PairGran *pair);
