@@ -201,8 +201,8 @@ GRAINSCOPE_CLONES void solve_lanes(const SpheroidOf<Lanes> &one, const SpheroidO
 }
 
 Spheroid make_spheroid(const double semi_axes[3], const double quaternion[4]) {
-  const int k = std::max(symmetry_axis(semi_axes).index, 0);
-  const bool sphere = symmetry_axis(semi_axes).index < 0;
+  const int axis = symmetry_axis(semi_axes).index, k = std::max(axis, 0);
+  const bool sphere = axis < 0;
   Spheroid body;
   rotated_axis(quaternion, k, body.u);
   body.equatorial = semi_axes[(k + 1) % 3] * semi_axes[(k + 2) % 3];
