@@ -3,6 +3,7 @@
 #include "arguments.h"
 #include "contact_measures.h"
 #include "contact_observer.h"
+#include "fix_ledger_record.h"
 #include "grain_power.h"
 #include "atom.h"
 #include "domain.h"
@@ -14,7 +15,7 @@ using Eigen::Vector3d;
 using grainscope::Contact;
 
 struct ComputeDissipation::Impl {
-  enum class Mode { instantaneous, step } mode = Mode::step;
+  enum class Mode { instantaneous, step, ledger } mode = Mode::step;
   double normal = 0.0, friction = 0.0, tangential_damping = 0.0, contacts = 0.0, sliding = 0.0;
   grainscope::GrainPower normal_damping_forces, tangential_damping_forces;
 };
@@ -25,27 +26,33 @@ ComputeDissipation::ComputeDissipation(LAMMPS *lmp, int &iarg, int narg, char **
   while (!arguments.done()) {
     const std::string keyword = arguments.word("a keyword");
     if (keyword != "mode") arguments.fail("the only keyword is 'mode', got '" + keyword + "'");
-    impl_->mode = arguments.choice(keyword, {"instantaneous", "step"}) == "step" ? Impl::Mode::step : Impl::Mode::instantaneous;
+    const std::string mode = arguments.choice(keyword, {"instantaneous", "step", "ledger"});
+    impl_->mode = mode == "step" ? Impl::Mode::step : mode == "ledger" ? Impl::Mode::ledger : Impl::Mode::instantaneous;
   }
   scalar_flag = vector_flag = 1;
   extscalar = 1;
   extvector = 1;
   size_vector = 5;
   vector = new double[size_vector]();
+  if (impl_->mode == Impl::Mode::ledger) FixLedgerRecord::make(lmp, id, igroup);
 }
 
-ComputeDissipation::~ComputeDissipation() { delete[] vector; }
+ComputeDissipation::~ComputeDissipation() {
+  if (impl_->mode == Impl::Mode::ledger) FixLedgerRecord::forget(lmp, id);
+  delete[] vector;
+}
 
 void ComputeDissipation::init() {
   ContactCompute::init();
   require_known_losses();
+  if (impl_->mode == Impl::Mode::ledger) FixLedgerRecord::find(lmp, id);
 }
 
 bool ComputeDissipation::needs_images() const { return impl_->mode == Impl::Mode::step; }
 
 void ComputeDissipation::begin_contacts() {
   impl_->normal = impl_->friction = impl_->tangential_damping = impl_->contacts = impl_->sliding = 0.0;
-  if (impl_->mode == Impl::Mode::instantaneous) return;
+  if (impl_->mode != Impl::Mode::step) return;
   impl_->normal_damping_forces.reset(atom->nlocal);
   impl_->tangential_damping_forces.reset(atom->nlocal);
 }
@@ -55,6 +62,7 @@ void ComputeDissipation::add_contact(const Contact &c) {
   Impl &sums = *impl_;
   sums.contacts += c.weight;
   if (c.sliding) sums.sliding += c.weight;
+  if (sums.mode == Impl::Mode::ledger) return;
   const bool damped = !c.sliding && c.tangential_damping > 0.0;
 
   if (sums.mode == Impl::Mode::instantaneous) {
@@ -84,10 +92,22 @@ void ComputeDissipation::compute_vector() {
     friction /= update->dt;
     tangential_damping = -sums.tangential_damping_forces.power(atom->v, atom->omega);
   }
+  if (sums.mode == Impl::Mode::ledger) return tell_ledger();
   const double values[5] = {normal, friction, tangential_damping, sums.contacts, sums.sliding};
   std::copy(values, values + 5, vector);
   sum_over_ranks(vector, 5);
   for (int k = 0; k < 5; k++) vector[k] += 0.0;  // no negative zeros
+  scalar = vector[0] + vector[1] + vector[2];
+}
+
+void ComputeDissipation::tell_ledger() {
+  using E = grainscope::EnergyLedger;
+  const auto last = FixLedgerRecord::find(lmp, id)->account().last;
+  const E::Entry losses[3] = {E::D_n, E::D_t, E::D_damp};
+  for (int k = 0; k < 3; k++) vector[k] = last[losses[k]] / update->dt;
+  vector[3] = impl_->contacts;
+  vector[4] = impl_->sliding;
+  sum_over_ranks(vector + 3, 2);
   scalar = vector[0] + vector[1] + vector[2];
 }
 

@@ -6,6 +6,17 @@
 
 namespace grainscope {
 
+/** What a contact remembers of the force evaluation before, in columns of the contact history (`pair_style gran/insitu ... ledger on`).
+ *  Nothing of it changes its sign when i and j are swapped. Works are those of the half step after x_{n-1}, with the velocities before it. */
+struct ContactPast {
+  bool touched = false;                  // in the evaluation before; else all below is 0
+  double overlap = 0.0;
+  double elastic_force = 0.0;            // k_n overlap
+  double tangential_stiffness = 0.0;     // k_t
+  double elastic_work = 0.0;             // taken up by the normal spring, -F_elastic u_n dt/2
+  double spring_work = 0.0;              // taken up by the tangential spring, k_t s . u_t dt/2
+};
+
 /** One grain-grain contact of one force evaluation, as grain i sees it, in simulation units.
  *  Velocities are those that entered the force (x_n, v_{n-1/2}, omega_{n-1/2}); forces are those that drove the step:
  *  per grain they sum to f. All vectors are in the laboratory frame. The details are filled in only when a sink needs them. */
@@ -32,6 +43,13 @@ struct Contact {
   double tangential_stiffness;           // k_t
   double damping_coefficient;            // gamma_n: damping force / normal velocity
   double tangential_damping;             // gamma_t, acting while the contact does not slide
+  Eigen::Vector3d arm;                   // from the centre of i to the contact point; from that of j it is arm + branch
+  Eigen::Vector3d spring;                // tangential spring s after the update (0 without one): its force on i is -k_t s
+  Eigen::Vector3d spring_before;         // the same before it
+  Eigen::Vector3d cut;                   // what the friction limit cut from it
+  Eigen::Vector3d spin;                  // angular velocity of i less that of j
+  Eigen::Vector3d rolling_torque;        // on i, its opposite on j: what the torque has beside the force's
+  const ContactPast *past;               // null unless the history has it
 };
 
 }

@@ -2,6 +2,7 @@
 #include "contact_observer.h"
 #include "atom.h"
 #include "update.h"
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -29,19 +30,22 @@ void ContactObserver::remove_all() {
   listening_.clear();
 }
 
-bool ContactObserver::begin() {
+bool ContactObserver::begin(bool springs_move) {
+  springs_move_ = springs_move;
   listening_.clear();
   bool images = false;
   for (ContactSink *sink : sinks_)
     if (sink->wants_contacts()) listening_.push_back(sink);
-  active_ = !listening_.empty();
+  active_ = !listening_.empty() || knows_past();
+  stamp_before_ = stamp_;
+  stamp_ = lmp->update->ntimestep + (runs_ % 1024) / 1024.0;
   if (active_) {
     box_ = BoxState(lmp);
     x_ = lmp->atom->x;
     n_local_ = lmp->atom->nlocal;
     dt_ = lmp->update->dt;
   }
-  details_ = false;
+  details_ = knows_past();
   for (ContactSink *sink : listening_) {
     sink->begin_contacts();
     details_ = details_ || sink->needs_details();
@@ -56,7 +60,7 @@ bool ContactObserver::begin() {
 inline ContactObserver::Sliding ContactObserver::judge_sliding(const Sides &s, double limit) const {
   if (law_ == TangentialLaw::history) {
     double x = spring_[0], y = spring_[1], z = spring_[2];
-    if (s.computeflag && s.shearupdate) {
+    if (springs_move_) {
       const double dt = dt_;
       x += s.vtr1 * dt;
       y += s.vtr2 * dt;
@@ -67,12 +71,51 @@ inline ContactObserver::Sliding ContactObserver::judge_sliding(const Sides &s, d
       z -= along * s.en[2];
     }
     const double length = std::sqrt(x * x + y * y + z * z);
-    if (s.kt * length > limit) return {true, length - limit / s.kt};
+    if (s.kt * length > limit) return {true, length - limit / s.kt, {x, y, z}};
   } else if (law_ == TangentialLaw::no_history) {
     const double speed = std::sqrt(s.vtr1 * s.vtr1 + s.vtr2 * s.vtr2 + s.vtr3 * s.vtr3);
-    if (limit < s.gammat * speed) return {true, speed * dt_};
+    if (limit < s.gammat * speed) return {true, speed * dt_, {}};
   }
-  return {false, 0.0};
+  return {false, 0.0, {}};
+}
+
+const char *ContactObserver::past_column(int k) {
+  static const char *const names[past_columns] = {"past_stamp", "past_overlap", "past_elastic_force", "past_kt", "past_elastic_work",
+                                                  "past_spring_work"};
+  return names[k];
+}
+
+ContactPast ContactObserver::read_past(const Sides &s) const {
+  const double *at = s.contact_history + past_offset_;
+  if (at[0] != stamp_before_) return ContactPast();
+  return {true, at[1], at[2], at[3], at[4], at[5]};
+}
+
+void ContactObserver::write_past(const Sides &s, const Contact &c) const {
+  double *at = s.contact_history + past_offset_;
+  const double half = 0.5 * dt_, elastic_force = c.normal_stiffness * c.overlap;
+  at[0] = stamp_;
+  at[1] = c.overlap;
+  at[2] = elastic_force;
+  at[3] = c.tangential_stiffness;
+  at[4] = -half * elastic_force * c.normal_velocity;
+  at[5] = half * c.tangential_stiffness * c.spring.dot(c.tangential_velocity);
+}
+
+/** What only the energy ledger asks for. */
+void ContactObserver::add_springs(const Sides &s, const Sliding &sliding, const LIGGGHTS::ContactModels::ForceData &force_on_i, Contact &c) const {
+  c.spring.setZero();
+  c.spring_before.setZero();
+  c.cut.setZero();
+  if (law_ == TangentialLaw::history) {
+    c.spring = Map<const Vector3d>(s.contact_history + spring_offset_);
+    c.spring_before = Map<const Vector3d>(spring_);
+    if (sliding.yes && springs_move_) c.cut = Map<const Vector3d>(sliding.uncut) - c.spring;
+  }
+  c.rolling_torque.setZero();
+  if (!rolls_) return;
+  c.spin = Map<const Vector3d>(s.omega_i) - Map<const Vector3d>(s.omega_j);
+  c.rolling_torque = Map<const Vector3d>(force_on_i.delta_torque) - c.arm.cross(c.force);
 }
 
 void ContactObserver::observe(const Sides &s, const LIGGGHTS::ContactModels::ForceData &force_on_i) {
@@ -107,6 +150,14 @@ void ContactObserver::observe(const Sides &s, const LIGGGHTS::ContactModels::For
     c.tangential_stiffness = s.kt;
     c.damping_coefficient = s.gamman;
     c.tangential_damping = law_ == TangentialLaw::off ? 0.0 : s.gammat;
+    c.arm = c.point - xi;
+  }
+  ContactPast past;
+  if (knows_past()) {
+    past = read_past(s);
+    c.past = &past;
+    add_springs(s, sliding, force_on_i, c);
+    write_past(s, c);
   }
   for (ContactSink *sink : listening_) sink->add_contact(c);
 }

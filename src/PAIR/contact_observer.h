@@ -31,9 +31,21 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   bool elastic() const { return elastic_; }
   void set_friction(double **coefficients) { friction_ = coefficients; }
   TangentialLaw law() const { return law_; }
+  /** First of the columns of the contact history that hold a ContactPast, or -1. */
+  void set_past(int offset) { past_offset_ = offset; }
+  bool knows_past() const { return past_offset_ >= 0; }
+  static constexpr int past_columns = 6;
+  static const char *past_column(int k);
+  void set_rolling(bool rolls) { rolls_ = rolls; }
+  bool rolls() const { return rolls_; }
+  /** A run begins: what contacts remember is of the evaluation before only when it was of this run. */
+  void begin_run() { runs_++; }
 
-  /** Asks the sinks, before a force evaluation. Returns true if one of them needs image shifts. */
-  bool begin();
+  /** Asks the sinks, before a force evaluation. `springs_move`: false in the first of a run. Returns true if one of them needs image
+   *  shifts. */
+  bool begin(bool springs_move);
+  /** Whether tangential springs were moved in the last evaluation. */
+  bool springs_move() const { return springs_move_; }
   void end() { active_ = false; }
   bool active() const { return active_; }
   /** The box as it was in the evaluation that was observed last. */
@@ -62,6 +74,11 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   TangentialLaw law_ = TangentialLaw::other;
   int spring_offset_ = 0;
   bool elastic_ = false;
+  bool rolls_ = false;
+  bool springs_move_ = true;
+  int past_offset_ = -1;
+  long runs_ = 0;
+  double stamp_ = 0.0, stamp_before_ = 0.0;   // of this evaluation and the one before: step, and a fraction that tells runs apart
   double spring_[3] = {0.0, 0.0, 0.0};
   double **friction_ = nullptr;
   BoxState box_;
@@ -73,8 +90,12 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   struct Sliding {
     bool yes;
     double slip;
+    double uncut[3];   // the spring before the limit
   };
   Sliding judge_sliding(const Sides &s, double limit) const;
+  void add_springs(const Sides &s, const Sliding &sliding, const LIGGGHTS::ContactModels::ForceData &force_on_i, Contact &c) const;
+  ContactPast read_past(const Sides &s) const;
+  void write_past(const Sides &s, const Contact &c) const;
 };
 
 }

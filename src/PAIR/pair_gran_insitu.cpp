@@ -10,9 +10,11 @@
 #include "fix_contact_history.h"
 #include "force.h"
 #include "global_properties.h"
+#include "modify.h"
 #include "neigh_list.h"
 #include "neighbor.h"
 #include "update.h"
+#include <algorithm>
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -26,6 +28,8 @@ struct PairGranInsitu::Impl {
   grainscope::EllipsoidSurface surface;
   std::unique_ptr<LIGGGHTS::PairStyles::IGranularPairStyle> loop;
   double **friction = nullptr;
+  std::string models;              // the words of the command, for messages
+  bool ledger = false;
   bool warned_of_stale_springs = false;
   bool sending_images = false;
   bigint images_of_build = -1;
@@ -36,6 +40,8 @@ PairGranInsitu::PairGranInsitu(LAMMPS *lmp) : PairGranProxy(lmp), impl_(new Impl
 }
 
 PairGranInsitu::~PairGranInsitu() {}
+
+const std::string &PairGranInsitu::models() const { return impl_->models; }
 
 ContactObserver &PairGranInsitu::observer() { return impl_->observer; }
 
@@ -58,16 +64,23 @@ void PairGranInsitu::settings(int narg, char **arg) {
   if (force->pair != this)
     error->all(FLERR, "pair_style gran/insitu cannot be a sub-style of hybrid: contact history works with one granular style only; "
                       "use it alone");
+  std::vector<char *> words(arg, arg + narg);
+  impl_->ledger = take_ledger(words);
+  narg = words.size();
+  arg = words.data();
   std::string received;
   for (int k = 0; k < narg; k++) received += std::string(k ? " " : "") + arg[k];
+  impl_->models = received;
   const int64_t hash = LIGGGHTS::PairStyles::Factory::instance().selectVariant("gran", narg, arg, force->custom_contact_models);
   if (hash == -1)
     error->all(FLERR, ("pair_style gran/insitu: invalid contact model (check for typos, and enable at least one model), got '" + received +
                        "'").c_str());
   history_arg.clear();
+  impl_->observer.set_past(-1);
   dnum_pairgran = 0;
   impl_->loop.reset(grainscope::create_observed_loop(hash, lmp, this));
   impl_->loop->settings(narg, arg, this);
+  if (impl_->ledger) add_past_columns();
 
   // fix contacthistory and fix check/timestep/gran look for a style of exactly this name; restart files carry it too.
   delete[] force->pair_style;
@@ -75,9 +88,64 @@ void PairGranInsitu::settings(int narg, char **arg) {
   strcpy(force->pair_style, "gran");
 }
 
+/** Takes `ledger on|off` out of the words, which are otherwise the host's. */
+bool PairGranInsitu::take_ledger(std::vector<char *> &words) {
+  const auto at = std::find_if(words.begin(), words.end(), [](const char *word) { return !strcmp(word, "ledger"); });
+  if (at == words.end()) return false;
+  const std::string got = at + 1 == words.end() ? "the end of the command" : at[1];
+  if (got != "on" && got != "off") error->all(FLERR, ("pair_style gran/insitu: 'ledger' must be on or off, got '" + got + "'").c_str());
+  const auto next = words.erase(at, at + 2);
+  if (std::any_of(next, words.end(), [](const char *word) { return !strcmp(word, "ledger"); }))
+    error->all(FLERR, "pair_style gran/insitu: 'ledger' is given twice");
+  return got == "on";
+}
+
+void PairGranInsitu::add_past_columns() {
+  impl_->observer.set_past(history_arg.size());
+  for (int k = 0; k < ContactObserver::past_columns; k++) add_history_value(ContactObserver::past_column(k), "0");
+  if (comm->me != 0) return;
+  for (FILE *out : {screen, logfile})
+    if (out)
+      fprintf(out, "pair_style gran/insitu: 'ledger on' keeps %d numbers more for every pair of neighbours (%d instead of %d); restart files "
+              "with and without them are not interchangeable\n", ContactObserver::past_columns, dnum_pairgran,
+              dnum_pairgran - ContactObserver::past_columns);
+}
+
+namespace {
+
+/** What a restart file holds for fixes that are not defined yet is the host's own matter: a derived class may look. */
+struct RestartData : Modify {
+  static const char *of(Modify *modify, const char *id) {
+    for (int k = 0; k < modify->*(&RestartData::nfix_restart_global); k++)
+      if (!strcmp((modify->*(&RestartData::id_restart_global))[k], id)) return (modify->*(&RestartData::state_restart_global))[k];
+    return nullptr;
+  }
+};
+
+}
+
+/** The host would say no more than that the models differ. */
+void PairGranInsitu::require_same_columns_in_restart() {
+  if (!history || fix_history) return;
+  const char *state = RestartData::of(modify, "contacthistory");
+  if (!state) return;
+  double columns[2];  // the host writes the number of columns, and one more
+  memcpy(columns, state, sizeof columns);
+  const int found = static_cast<int>(columns[0]), wanted = dnum_pairgran, past = ContactObserver::past_columns;
+  const std::string numbers = std::to_string(found) + " numbers per contact, and this pair_style has " + std::to_string(wanted) + ": ";
+  if (found == wanted) return;
+  if (found == wanted - past && impl_->ledger)
+    error->all(FLERR, ("pair_style gran/insitu: the restart file holds " + numbers + "it was written without 'ledger on', so the ledger cannot "
+                       "be continued from it. Say 'ledger off', or write the restart file with 'ledger on'").c_str());
+  if (found == wanted + past && !impl_->ledger)
+    error->all(FLERR, ("pair_style gran/insitu: the restart file holds " + numbers + "it was written with 'ledger on'. Say 'ledger on'").c_str());
+}
+
 void PairGranInsitu::init_style() {
   impl_->observer.remove_all();
+  impl_->observer.begin_run();
   impl_->images_of_build = -1;
+  require_same_columns_in_restart();
   PairGranProxy::init_style();
   warn_of_stale_springs();
 }
@@ -96,6 +164,7 @@ void PairGranInsitu::init_granular() {
   bool elastic = false;
   for (const char *model : {"hertz", "hooke", "hertz/stiffness", "hooke/stiffness"}) elastic = elastic || contact_match("normal", model);
   impl_->observer.set_elastic(elastic);
+  impl_->observer.set_rolling(!contact_match("rolling_friction", "off"));
 
   impl_->friction = nullptr;
   if (law == Law::no_history || law == Law::history) {
@@ -137,7 +206,7 @@ void PairGranInsitu::require_box_large_enough() {
 
 void PairGranInsitu::compute(int eflag, int vflag) {
   if (neighbor->ago == 0 && history) require_box_large_enough();
-  if (impl_->observer.begin()) update_image_shifts();
+  if (impl_->observer.begin(!update->setupflag)) update_image_shifts();
   PairGran::compute(eflag, vflag);
   impl_->observer.end();
 }

@@ -11,6 +11,8 @@ PairStyle(gran/insitu,PairGranInsitu)
 #include "ellipsoid_owner.h"
 #include "pair_gran_proxy.h"
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace grainscope { class ContactObserver; }
 
@@ -42,6 +44,8 @@ class PairGranInsitu : public PairGranProxy, public grainscope::EllipsoidOwner {
   void unpack_comm(int n, int first, double *buf);
 
   grainscope::ContactObserver &observer();
+  /** The words of the command that name models and settings. */
+  const std::string &models() const;
   grainscope::EllipsoidBodies &ellipsoid_bodies();
   grainscope::EllipsoidSurface &ellipsoid_surface();
 
@@ -49,6 +53,9 @@ class PairGranInsitu : public PairGranProxy, public grainscope::EllipsoidOwner {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 
+  bool take_ledger(std::vector<char *> &words);
+  void add_past_columns();
+  void require_same_columns_in_restart();
   void require_box_large_enough();
   void warn_of_stale_springs();
   void update_image_shifts();

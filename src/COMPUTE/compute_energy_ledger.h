@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifdef COMPUTE_CLASS
+
+ComputeStyle(energy/ledger,ComputeEnergyLedger)
+
+#else
+
+#ifndef LMP_COMPUTE_ENERGY_LEDGER_H
+#define LMP_COMPUTE_ENERGY_LEDGER_H
+
+#include "compute.h"
+
+namespace LAMMPS_NS {
+
+/** Where the energy of a group goes: what came in, what is stored and what was lost since the compute was defined, and whether it adds up.
+ *  scalar: |residual| over everything dissipated so far [-], intensive; 0 while nothing was.
+ *  vector (35, extensive but for 18): 1-4 work W_shear, W_box, W_frame, W_other [energy]; 5-8 losses D_n, D_t, D_damp, D_rolling; 9-12 losses
+ *  of the contact law itself G_k, G_p, G_n, G_open; 13-16 stored now U_n, U_t, K_tr, K_rot; 17 residual, 18 the same over D_n + D_t + D_damp + D_rolling;
+ *  19-35 the rates of 1-17 in the last step [power]. Zero for an empty group. */
+class ComputeEnergyLedger : public Compute {
+ public:
+  ComputeEnergyLedger(class LAMMPS *lmp, int &iarg, int narg, char **arg);
+  ~ComputeEnergyLedger();
+  void init();
+  double compute_scalar();
+  void compute_vector();
+};
+
+}
+
+#endif
+#endif

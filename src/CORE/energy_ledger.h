@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_ENERGY_LEDGER_H
+#define GRAINSCOPE_ENERGY_LEDGER_H
+
+#include "contact.h"
+#include <Eigen/Geometry>
+#include <array>
+#include <vector>
+
+namespace grainscope {
+
+/** What the contact law must be known for: elastic normal force ~ overlap^exponent at a given curvature (3/2 Hertz, 1 Hooke), and which
+ *  parts it has beside the normal spring and dashpot. */
+struct LedgerLaw {
+  double exponent = 1.5;
+  bool spring = false;    // a tangential one
+  bool viscous = false;   // tangential damping, or friction without a spring
+  bool rolling = false;
+};
+
+/** The affine flow that velocities are told against, L (x - centre), and how fast the edges of the box change in length. */
+struct LedgerFrame {
+  Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();       // L, upper triangular
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  Eigen::Vector3d edge_lengths = Eigen::Vector3d::Ones();   // diagonal of H
+  Eigen::Vector3d edge_rates = Eigen::Vector3d::Zero();     // diagonal of dH/dt
+
+  Eigen::Vector3d flow(const Eigen::Vector3d &x) const { return gradient * (x - centre); }
+  bool operator==(const LedgerFrame &o) const { return gradient == o.gradient && centre == o.centre; }
+};
+
+/** Where the energy of a group of grains goes, exactly as velocity Verlet moves it: what enters, what is stored, what is lost. Every entry
+ *  is a sum over this rank's grains and contacts; sums over ranks are the truth. Losses and supplies are positive.
+ *
+ *  The step from n to n+1 moves x^n to x^{n+1} with v = v^{n+1/2}, so that (F^n + F^{n+1})/2 . v dt, each force with its own lever arms, is
+ *  exactly the change of K = sum m v^2/2 - dt^2 F^2/8m, and likewise for rotations. Velocities are peculiar, p = v - L (x - x_c); in terms of
+ *  contact velocities u, sum_grains F.p + T.w = sum_contacts F.u - F.L r.
+ *
+ *  Per contact, s the tangential spring, 0 and 1 the two ends of the step, `cut` what friction takes from the spring:
+ *    D_t = (k0 s0 + k1 s1)/2 . cut          G_k = -(k1 - k0)/2 s0.s1          (k_t follows the overlap, the spring does not)
+ *    G_p: the rest of the spring's work, (k0 s0.u0 + k1 s1.u1) dt/2 = dU_t + D_t + G_k + G_p: the spring is turned into the contact plane
+ *    G_open: the spring of a contact that opens, with the work of its last half step
+ *    G_n: work of the elastic normal force that follows neither the overlap d nor the stiffness: -(F0 n0.u0 + F1 n1.u1) dt/2 -
+ *         (F0 + F1)/2 (d1 - d0) - (dU_n/dk)_mean dk
+ *    G_dt: what that trapezium rule over the overlap differs from dU_n: the error of the time step, of second order in dt
+ *  Then all terms cancel: what is left is rounding, the rotation of an integrator that does not conserve the energy of a free grain, and
+ *  whatever moved the grains or their velocities behind the ledger's back.
+ *  Source of the identities: velocity Verlet (kick, drift, kick); see doc/compute_energy_ledger.md. */
+class EnergyLedger {
+ public:
+  /** Rows of the account, each an energy. */
+  enum Entry { W_shear, W_box, W_frame, W_other, D_n, D_t, D_damp, D_rolling, G_k, G_p, G_n, G_open, G_dt, entries };
+  enum Store { U_n, U_t, K_tr, K_rot, stores };
+  using Entries = std::array<double, entries>;
+  using Stores = std::array<double, stores>;
+
+  /** One grain at the beginning or the end of a step. */
+  struct Grain {
+    int index;
+    double mass;
+    Eigen::Vector3d x, v, omega, force, torque, angular_momentum;
+    Eigen::Vector3d spin_up;  // torque / inertia: dw/dt without the gyroscopic part
+  };
+
+  void set_law(const LedgerLaw &law);
+
+  /** A force evaluation begins: forget the contacts of the last. */
+  void begin_evaluation(int n_local);
+  /** A contact of two grains of the group. `springs_move`: false in the first evaluation of a run. */
+  void add(const Contact &contact, double dt, bool springs_move);
+
+  /** After the forces of step n are complete, before the second kick: v = v^{n-1/2}, x = x^n, w and angular momentum likewise. */
+  void begin_end_of_step() { ends_ = Ends(); }
+  void end_of_step(const Grain &grain, double dt);
+  /** Books the step from n-1 to n. */
+  void book_step(double dt);
+
+  /** Before the first kick of the next step, with all that was changed since: v = v^n. */
+  void begin_start_of_step(const LedgerFrame &frame);
+  void start_of_step(const Grain &grain, double dt);
+  /** Books what was changed between the steps, and takes the frame. */
+  void book_start(double dt);
+
+  /** This rank's part of everything booked, of the last step alone, and of what is stored now. */
+  const Entries &totals() const { return totals_; }
+  const Entries &last() const { return last_; }
+  const Stores &stored() const { return stored_; }
+  const Stores &stored_before() const { return stored_before_; }
+  double start_energy() const { return start_energy_; }
+  /** W - D - G - (stored - stored at the start), of `totals` with all W, D and G positive as told above. */
+  static double residual(const Entries &totals, double stored_change);
+
+  /** State for restart files; sums over ranks may be given to one rank. */
+  static constexpr int state_size = entries + 2;
+  std::array<double, state_size> state() const;
+  void restore(const std::array<double, state_size> &state);
+
+ private:
+  enum Part { elastic, damping, spring, viscous, rolling, parts };
+  /** Sums over the contacts of one evaluation. */
+  struct Contacts {
+    double work[parts] = {};           // of the half step before it: taken from the grains, -F.u dt/2
+    Eigen::Matrix3d moment[parts];     // sum F r^T
+    double normal_energy = 0.0, spring_energy = 0.0;
+    double elastic_path = 0.0;         // (F0 + F1)/2 dd + (dU/dk) dk of contacts that touched before
+    double new_elastic = 0.0;          // work[elastic] of those that did not
+    double kept_elastic = 0.0, kept_spring = 0.0, kept_energy = 0.0;  // of the past of those that did
+    double friction = 0.0, stiffening = 0.0, travel = 0.0, revived = 0.0;
+    Contacts() { for (auto &m : moment) m.setZero(); }
+  };
+  struct Ends { double k_tr = 0.0, k_rot = 0.0, other = 0.0; };
+  struct Starts { double work[parts] = {}, other = 0.0, shear = 0.0, box = 0.0, k_old = 0.0, k_carried = 0.0, k_new = 0.0, k_rot = 0.0; };
+
+  LedgerLaw law_;
+  int slot_[parts];                    // of a part in a grain's wrenches, or -1
+  int slots_ = 0;
+  std::vector<double> wrenches_;       // force and torque of each part on each local grain
+  Contacts contacts_, before_;
+  Ends ends_;
+  Starts starts_;
+  LedgerFrame frame_, next_;
+  bool stepped_ = false;               // the contacts were booked as the end of a step
+  bool started_ = false;               // there was a step before
+  Entries totals_{}, last_{}, between_{};
+  Stores stored_{}, stored_before_{};
+  double start_energy_ = 0.0, last_energy_ = 0.0;
+
+  double *wrench(int i, Part part) { return &wrenches_[(static_cast<std::size_t>(i) * slots_ + slot_[part]) * 6]; }
+  void add_wrench(int i, Part part, const Eigen::Vector3d &force, const Eigen::Vector3d &arm);
+  void add_past(const Contact &c, const ContactPast &past, double elastic_force);
+  void add_spring(const Contact &c, const ContactPast &past);
+};
+
+}
+
+#endif
