@@ -59,18 +59,28 @@ compute n all reduce max c_g[1]
 """ + "".join(f"fix {name} all ave/time {PAPER_INTERVAL} 1 {PAPER_INTERVAL} {value} file /dev/null\n" for name, value in (
     ("scalars", "c_a c_b c_c c_d c_h c_i c_n"), ("surface", "c_e mode vector"), ("direction", "c_f mode vector"),
     ("memory", "c_j mode vector"), ("linear", "c_k mode vector"), ("spin", "c_l mode vector"), ("layers", "c_m mode vector")))
+SETTINGS = "tangential_damping off gaussianCurvature yes curvatureLimitFactor 100"
+LEDGER = {  # with `ledger on`, which wants a restart file of its own
+    "ledger on, idle": "",
+    "ledger on, energy/ledger": "compute observer all energy/ledger\n" + EVERY_STEP.format(value="c_observer[18]"),
+}
 CONTACTS = "compute count all stress/contact\nthermo_style custom step c_count[30]\n"
 
 
 class Bench:
-    def __init__(self, binary, state, folder):
-        self.binary, self.state, self.folder = binary, state, folder
+    def __init__(self, binary, state, folder, settings=SETTINGS):
+        self.binary, self.state, self.folder, self.settings = binary, state, folder, settings
+
+    def with_ledger(self):
+        """The same packing, prepared with `ledger on`."""
+        settings = "ledger on " + SETTINGS
+        return Bench(self.binary, prepare(self.binary, self.folder, settings), self.folder, settings)
 
     def run(self, pair, observers, steps, prefix=()):
         deck = self.folder / "observers"
         deck.write_text(observers)
         command = [*prefix, str(self.binary), "-in", str(HERE / "in.overhead"), "-log", "none", "-var", "state", str(self.state),
-                   "-var", "pair", pair, "-var", "steps", str(steps), "-var", "observers", str(deck)]
+                   "-var", "pair", pair, "-var", "steps", str(steps), "-var", "observers", str(deck), "-var", "settings", self.settings]
         result = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, errors="replace")
         if result.returncode:
             raise SystemExit(f"the run failed: {' '.join(command)}\n{result.stdout}{result.stderr}")
@@ -93,11 +103,20 @@ class Bench:
         return float(re.search(r"^\s*0\s+(\S+)", self.run("gran/insitu", CONTACTS + "reset_timestep 0\n", 0).stdout, re.M)[1])
 
 
+def prepare(binary, folder, settings=SETTINGS):
+    """The dense packing's restart file."""
+    state = folder / f"dense-{len(settings)}.restart"
+    subprocess.run([str(binary), "-in", str(HERE / "in.dense"), "-var", "out", str(state), "-var", "settings", settings, "-log", "none"],
+                   cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    return state
+
+
 def count_instructions(bench, steps):
     base = bench.instructions("gran", "", steps)
     print(f"| case | instructions per step | over gran |\n|---|---|---|\n| pair_style gran | {base:.4g} | |", flush=True)
-    for label, observers in OBSERVERS.items():
-        count = bench.instructions("gran/insitu", observers, steps)
+    ledger = bench.with_ledger()
+    for label, observers in {**OBSERVERS, **LEDGER}.items():
+        count = (ledger if label in LEDGER else bench).instructions("gran/insitu", observers, steps)
         print(f"| {label} | {count:.4g} | {100 * (count / base - 1):+.2f} % |", flush=True)
 
 
@@ -113,11 +132,13 @@ def count_whole_set(bench):
 
 def take_time(bench, steps, repeats):
     contacts = bench.contacts()
-    times = {label: [] for label in ("pair_style gran", *OBSERVERS)}
+    ledger = bench.with_ledger()
+    cases = {**OBSERVERS, **LEDGER}
+    times = {label: [] for label in ("pair_style gran", *cases)}
     for _ in range(repeats):
         times["pair_style gran"].append(bench.seconds("gran", "", steps))
-        for label, observers in OBSERVERS.items():
-            times[label].append(bench.seconds("gran/insitu", observers, steps))
+        for label, observers in cases.items():
+            times[label].append((ledger if label in LEDGER else bench).seconds("gran/insitu", observers, steps))
     base = statistics.median(times["pair_style gran"])
     print(f"{contacts:.0f} contacts, medians of {repeats} runs of {steps} steps\n\n| case | ms per step | over gran | ns per contact |\n|---|---|---|---|")
     for label, values in times.items():
@@ -136,11 +157,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         binary, state = arguments.binary.resolve(), arguments.state and arguments.state.resolve()
-        if not state:
-            state = folder / "dense.restart"
-            subprocess.run([str(binary), "-in", str(HERE / "in.dense"), "-var", "out", str(state), "-log", "none"], cwd=folder,
-                           check=True, stdout=subprocess.DEVNULL)
-        bench = Bench(binary, state, folder)
+        bench = Bench(binary, state or prepare(binary, folder), folder)
         if arguments.paper:
             count_whole_set(bench)
         elif arguments.time:

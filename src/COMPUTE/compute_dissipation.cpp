@@ -4,6 +4,7 @@
 #include "contact_measures.h"
 #include "contact_observer.h"
 #include "fix_ledger_record.h"
+#include "ledger_account.h"
 #include "grain_power.h"
 #include "atom.h"
 #include "domain.h"

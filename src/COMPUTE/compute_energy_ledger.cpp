@@ -2,6 +2,7 @@
 #include "compute_energy_ledger.h"
 #include "arguments.h"
 #include "fix_ledger_record.h"
+#include "ledger_account.h"
 #include "update.h"
 #include <cmath>
 
@@ -38,7 +39,7 @@ void ComputeEnergyLedger::init() { FixLedgerRecord::find(lmp, id); }
 
 void ComputeEnergyLedger::compute_vector() {
   invoked_vector = update->ntimestep;
-  const FixLedgerRecord::Account account = FixLedgerRecord::find(lmp, id)->account();
+  const grainscope::LedgerAccount account = FixLedgerRecord::find(lmp, id)->account();
   for (int k = 0; k < E::entries; k++) {
     vector[k] = account.totals[k];
     vector[rates + k] = account.last[k] / update->dt;

@@ -25,8 +25,13 @@ struct LedgerFrame {
   Eigen::Vector3d edge_lengths = Eigen::Vector3d::Ones();   // diagonal of H
   Eigen::Vector3d edge_rates = Eigen::Vector3d::Zero();     // diagonal of dH/dt
 
-  Eigen::Vector3d flow(const Eigen::Vector3d &x) const { return gradient * (x - centre); }
-  bool operator==(const LedgerFrame &o) const { return gradient == o.gradient && centre == o.centre; }
+  Eigen::Vector3d gradient_times(const Eigen::Vector3d &r) const {
+    const Eigen::Matrix3d &l = gradient;
+    return {l(0, 0) * r[0] + l(0, 1) * r[1] + l(0, 2) * r[2], l(1, 1) * r[1] + l(1, 2) * r[2], l(2, 2) * r[2]};
+  }
+  Eigen::Vector3d flow(const Eigen::Vector3d &x) const { return gradient_times(x - centre); }
+  /** The same flow everywhere? */
+  bool operator==(const LedgerFrame &o) const { return gradient == o.gradient && gradient * centre == gradient * o.centre; }
 };
 
 /** Where the energy of a group of grains goes, exactly as velocity Verlet moves it: what enters, what is stored, what is lost. Every entry
@@ -54,12 +59,11 @@ class EnergyLedger {
   using Entries = std::array<double, entries>;
   using Stores = std::array<double, stores>;
 
-  /** One grain at the beginning or the end of a step. */
+  /** One grain: three components each, in the laboratory frame. */
   struct Grain {
     int index;
     double mass;
-    Eigen::Vector3d x, v, omega, force, torque, angular_momentum;
-    Eigen::Vector3d spin_up;  // torque / inertia: dw/dt without the gyroscopic part
+    const double *x, *v, *force, *torque;
   };
 
   void set_law(const LedgerLaw &law);
@@ -69,20 +73,23 @@ class EnergyLedger {
   /** A contact of two grains of the group. `springs_move`: false in the first evaluation of a run. */
   void add(const Contact &contact, double dt, bool springs_move);
 
-  /** After the forces of step n are complete, before the second kick: v = v^{n-1/2}, x = x^n, w and angular momentum likewise. */
+  /** After the forces of step n are complete, before the second kick: v = v^{n-1/2}, x = x^n; angular velocity and momentum likewise. */
   void begin_end_of_step() { ends_ = Ends(); }
-  void end_of_step(const Grain &grain, double dt);
+  void end_of_step(const Grain &grain, const double omega[3], const double momentum[3], double dt);
   /** Books the step from n-1 to n. */
   void book_step(double dt);
 
-  /** Before the first kick of the next step, with all that was changed since: v = v^n. */
+  /** Before the first kick of the next step, with all that was changed since: v = v^n. Angular velocity, after the kick, and momentum,
+   *  before it: inertia w = L + torque dt/2. */
   void begin_start_of_step(const LedgerFrame &frame);
-  void start_of_step(const Grain &grain, double dt);
+  void start_of_step(const Grain &grain, const double omega_after[3], const double momentum[3], double dt);
   /** Books what was changed between the steps, and takes the frame. */
   void book_start(double dt);
 
+  /** A run has begun and its first step has not: what is stored now is known after begin_start_of_step() to book_start(). */
+  bool pending() const { return !stepped_; }
   /** This rank's part of everything booked, of the last step alone, and of what is stored now. */
-  const Entries &totals() const { return totals_; }
+  Entries totals() const;
   const Entries &last() const { return last_; }
   const Stores &stored() const { return stored_; }
   const Stores &stored_before() const { return stored_before_; }
@@ -97,36 +104,42 @@ class EnergyLedger {
 
  private:
   enum Part { elastic, damping, spring, viscous, rolling, parts };
+  /** Eight numbers of each part: force and torque on a grain (and two that are 0); or in sums over contacts F_a r_b (xx yy zz yz xz xy), F.u
+   *  (and 0). */
+  static constexpr int power_lane = 6;
   /** Sums over the contacts of one evaluation. */
   struct Contacts {
-    double work[parts] = {};           // of the half step before it: taken from the grains, -F.u dt/2
-    Eigen::Matrix3d moment[parts];     // sum F r^T
+    double sums[parts][8] = {};
     double normal_energy = 0.0, spring_energy = 0.0;
     double elastic_path = 0.0;         // (F0 + F1)/2 dd + (dU/dk) dk of contacts that touched before
-    double new_elastic = 0.0;          // work[elastic] of those that did not
+    double new_elastic = 0.0;          // the half step's work of those that did not
     double kept_elastic = 0.0, kept_spring = 0.0, kept_energy = 0.0;  // of the past of those that did
     double friction = 0.0, stiffening = 0.0, travel = 0.0, revived = 0.0;
-    Contacts() { for (auto &m : moment) m.setZero(); }
   };
   struct Ends { double k_tr = 0.0, k_rot = 0.0, other = 0.0; };
-  struct Starts { double work[parts] = {}, other = 0.0, shear = 0.0, box = 0.0, k_old = 0.0, k_carried = 0.0, k_new = 0.0, k_rot = 0.0; };
+  struct Starts { double rate[parts] = {}, work[parts] = {}, other = 0.0, shear = 0.0, box = 0.0, k_old = 0.0, k_carried = 0.0, k_new = 0.0, k_rot = 0.0; };
 
   LedgerLaw law_;
+  double energy_factor_ = 0.4;         // U_n = energy_factor k_n overlap^2
   int slot_[parts];                    // of a part in a grain's wrenches, or -1
   int slots_ = 0;
-  std::vector<double> wrenches_;       // force and torque of each part on each local grain
+  std::vector<double> wrenches_;       // eight numbers for each part on each local grain
+  bool cleared_ = false;               // and all are 0
   Contacts contacts_, before_;
   Ends ends_;
   Starts starts_;
-  LedgerFrame frame_, next_;
+  LedgerFrame frame_, next_, carried_;
+  bool moved_ = false, driven_ = false;  // the frame changed since the last step: carried on by its velocities, by new velocities
   bool stepped_ = false;               // the contacts were booked as the end of a step
   bool started_ = false;               // there was a step before
   Entries totals_{}, last_{}, between_{};
   Stores stored_{}, stored_before_{};
   double start_energy_ = 0.0, last_energy_ = 0.0;
 
-  double *wrench(int i, Part part) { return &wrenches_[(static_cast<std::size_t>(i) * slots_ + slot_[part]) * 6]; }
-  void add_wrench(int i, Part part, const Eigen::Vector3d &force, const Eigen::Vector3d &arm);
+  double *wrench(int i, int part) { return &wrenches_[8 * (static_cast<std::size_t>(i) * slots_ + slot_[part])]; }
+  static double half_work(const Contacts &contacts, int part, double dt);
+  template <class Lanes> void add_part(const Contact &c, int part, Lanes on_i, Lanes on_j, Lanes sums);
+  void add_tangential(const Contact &c, int part, const Eigen::Vector3d &force, const Eigen::Vector3d &arm_j);
   void add_past(const Contact &c, const ContactPast &past, double elastic_force);
   void add_spring(const Contact &c, const ContactPast &past);
 };

@@ -4,6 +4,13 @@
 
 #include <cmath>
 
+// The widest vectors of the processor that the program finds itself on.
+#if defined(__x86_64__) && defined(__GNUC__) && defined(__GLIBC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define GRAINSCOPE_CLONES __attribute__((flatten, target_clones("avx512f", "avx2", "default")))
+#else
+#define GRAINSCOPE_CLONES
+#endif
+
 namespace grainscope {
 
 /** Several numbers side by side, worked on at once: what a kernel written for `Real` becomes with Real = Lanes. Every lane goes through the

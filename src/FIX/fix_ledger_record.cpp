@@ -2,7 +2,9 @@
 #include "fix_ledger_record.h"
 #include "box_state.h"
 #include "contact_observer.h"
+#include "ledger_account.h"
 #include "pair_gran_insitu.h"
+#include "spheroid_rotation.h"
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
@@ -12,6 +14,7 @@
 #include "update.h"
 #include <cstring>
 #include <initializer_list>
+#include <memory>
 
 using namespace LAMMPS_NS;
 using Eigen::Map;
@@ -30,6 +33,13 @@ bool one_of(const char *style, std::initializer_list<const char *> styles) {
   return false;
 }
 
+EnergyLedger::Grain grain(const Atom *atom, int i) { return {i, atom->rmass[i], atom->x[i], atom->v[i], atom->f[i], atom->torque[i]}; }
+
+grainscope::LedgerFrame frame_of(LAMMPS *lmp) {
+  const BoxState box(lmp);
+  return {box.velocity_gradient, box.centre, box.edges.diagonal(), box.edge_velocities.diagonal()};
+}
+
 /** Rotation from the frame of a grain's principal axes into the laboratory's. */
 Matrix3d rotation(const double q[4]) {
   const double w = q[0], x = q[1], y = q[2], z = q[3];
@@ -42,28 +52,38 @@ Matrix3d rotation(const double q[4]) {
 
 }
 
-FixLedgerRecord::FixLedgerRecord(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg) {
+struct FixLedgerRecord::Impl {
+  EnergyLedger ledger;
+  PairGranInsitu *pair = nullptr;
+  std::string name;             // of the compute, for messages
+  double arrived = 0.0;         // grains on this rank at the ends of steps less those at their beginnings: over all ranks 0
+  bool stepping = false;        // between the two
+};
+
+FixLedgerRecord::FixLedgerRecord(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), impl_(new Impl) {
   if (narg != 4) error->all(FLERR, "fix ledger/record: is made by the computes that need it, not by an input script");
-  name_ = arg[3];
+  impl_->name = arg[3];
   restart_global = 1;
 }
+
+FixLedgerRecord::~FixLedgerRecord() {}
 
 int FixLedgerRecord::setmask() { return FixConst::PRE_INITIAL_INTEGRATE | FixConst::PRE_FINAL_INTEGRATE; }
 
 void FixLedgerRecord::fail(const std::string &message) const {
-  error->all(FLERR, (name_ + ": " + message).c_str());
+  error->all(FLERR, (impl_->name + ": " + message).c_str());
   std::abort();  // not reached: error->all ends the run
 }
 
 void FixLedgerRecord::require_known_models() const {
-  const std::string got = ", got '" + pair_->models() + "'";
+  const std::string got = ", got '" + impl_->pair->models() + "'";
   const auto matches = [this](const char *kind, std::initializer_list<const char *> models) {
     for (const char *model : models)
-      if (pair_->contact_match(kind, model)) return true;
+      if (impl_->pair->contact_match(kind, model)) return true;
     return false;
   };
-  if (!pair_->observer().elastic()) fail("knows the energy of the normal models hertz, hooke, hertz/stiffness and hooke/stiffness only" + got);
-  if (pair_->observer().law() == ContactObserver::TangentialLaw::other) fail("knows the energy of 'tangential' off, no_history and history only" + got);
+  if (!impl_->pair->observer().elastic()) fail("knows the energy of the normal models hertz, hooke, hertz/stiffness and hooke/stiffness only" + got);
+  if (impl_->pair->observer().law() == ContactObserver::TangentialLaw::other) fail("knows the energy of 'tangential' off, no_history and history only" + got);
   if (!matches("cohesion", {"off"})) fail("does not know the energy of cohesion" + got);
   if (!matches("rolling_friction", {"off", "cdt", "epsd", "epsd2"})) fail("knows the work of 'rolling_friction' off, cdt, epsd and epsd2 only" + got);
   if (!matches("surface", {"default", "superquadric", "ellipsoid"})) fail("knows 'surface' default, superquadric and ellipsoid only" + got);
@@ -95,91 +115,108 @@ void FixLedgerRecord::require_flowing_box() const {
 }
 
 void FixLedgerRecord::init() {
-  pair_ = PairGranInsitu::required_by(lmp, name_.c_str());
-  ContactObserver &observer = pair_->observer();
+  impl_->pair = PairGranInsitu::required_by(lmp, impl_->name.c_str());
+  ContactObserver &observer = impl_->pair->observer();
   if (!observer.knows_past())
-    fail("needs 'ledger on' in pair_style gran/insitu, which remembers what each contact stored, got '" + pair_->models() + "'");
+    fail("needs 'ledger on' in pair_style gran/insitu, which remembers what each contact stored, got '" + impl_->pair->models() + "'");
   require_known_models();
   require_moved_by_verlet();
   require_flowing_box();
   using Law = ContactObserver::TangentialLaw;
   const bool history = observer.law() == Law::history;
-  ledger_.set_law({pair_->stressStrainExponent(), history, history || observer.law() == Law::no_history, observer.rolls()});
+  impl_->ledger.set_law({impl_->pair->stressStrainExponent(), history, history || observer.law() == Law::no_history, observer.rolls()});
   observer.add(this);
-  arrived_ = 0.0;
-  stepping_ = false;
+  impl_->arrived = 0.0;
+  impl_->stepping = false;
 }
 
-void FixLedgerRecord::begin_contacts() { ledger_.begin_evaluation(atom->nlocal); }
+void FixLedgerRecord::begin_contacts() { impl_->ledger.begin_evaluation(atom->nlocal); }
 
 void FixLedgerRecord::add_contact(const Contact &c) {
-  if (atom->mask[c.i] & atom->mask[c.j] & groupbit) ledger_.add(c, update->dt, pair_->observer().springs_move());
+  if (atom->mask[c.i] & atom->mask[c.j] & groupbit) impl_->ledger.add(c, update->dt, impl_->pair->observer().springs_move());
 }
 
-grainscope::LedgerFrame FixLedgerRecord::frame() const {
-  const BoxState box(lmp);
-  return {box.velocity_gradient, box.centre, box.edges.diagonal(), box.edge_velocities.diagonal()};
+/** Of a sphere, whose angular momentum the host does not keep. */
+double FixLedgerRecord::moment_of_inertia(int i) const {
+  return (domain->dimension == 2 ? 0.5 : 0.4) * atom->rmass[i] * atom->radius[i] * atom->radius[i];
 }
 
-/** `starting`: at the beginning of a step, where rates of change are asked for. */
-EnergyLedger::Grain FixLedgerRecord::grain(int i, bool starting) const {
-  EnergyLedger::Grain g;
-  g.index = i;
-  g.mass = atom->rmass[i];
-  g.x = Map<const Vector3d>(atom->x[i]);
-  g.v = Map<const Vector3d>(atom->v[i]);
-  g.omega = Map<const Vector3d>(atom->omega[i]);
-  g.force = Map<const Vector3d>(atom->f[i]);
-  g.torque = Map<const Vector3d>(atom->torque[i]);
+/** Angular momentum now, and angular velocity after the kick of the coming half step. Spheroids: from the angular momentum, which the
+ *  integrators keep; the host's `velocity setAngular` leaves omega at odds with it. */
+void FixLedgerRecord::coming_spin(int i, double momentum[3], double omega_after[3]) const {
+  const double half = 0.5 * update->dt, *torque = atom->torque[i];
+  double kicked[3];
   if (!atom->superquadric_flag) {
-    const double inertia = (domain->dimension == 2 ? 0.5 : 0.4) * g.mass * atom->radius[i] * atom->radius[i];
-    g.angular_momentum = inertia * g.omega;
-    g.spin_up = g.torque / inertia;
-  } else {
-    g.angular_momentum = Map<const Vector3d>(atom->angmom[i]);
-    if (!starting) return g;
-    // From the angular momentum, which the integrators keep: the host's `velocity setAngular` leaves omega at odds with it.
-    const Matrix3d r = rotation(atom->quaternion[i]);
-    const Map<const Vector3d> inertia(atom->inertia[i]);
-    g.omega = r * (r.transpose() * g.angular_momentum).cwiseQuotient(inertia);
-    g.spin_up = r * (r.transpose() * g.torque).cwiseQuotient(inertia);
+    const double inertia = moment_of_inertia(i);
+    for (int k = 0; k < 3; k++) {
+      momentum[k] = inertia * atom->omega[i][k];
+      omega_after[k] = atom->omega[i][k] + half / inertia * torque[k];
+    }
+    return;
   }
-  return g;
+  for (int k = 0; k < 3; k++) {
+    momentum[k] = atom->angmom[i][k];
+    kicked[k] = momentum[k] + half * torque[k];
+  }
+  const double *inertia = atom->inertia[i], *q = atom->quaternion[i];
+  if (grainscope::is_symmetric_top(inertia)) return grainscope::angular_velocity(inertia, kicked, q, omega_after);
+  const Matrix3d r = rotation(q);
+  Map<Vector3d>(omega_after + 0) = r * (r.transpose() * Map<const Vector3d>(kicked)).cwiseQuotient(Map<const Vector3d>(inertia));
+}
+
+/** The number of grains. */
+double FixLedgerRecord::start_step(EnergyLedger &ledger) const {
+  double grains = 0.0;
+  ledger.begin_start_of_step(frame_of(lmp));
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    double momentum[3], omega_after[3];
+    coming_spin(i, momentum, omega_after);
+    ledger.start_of_step(grain(atom, i), omega_after, momentum, update->dt);
+    grains += 1.0;
+  }
+  ledger.book_start(update->dt);
+  return grains;
 }
 
 void FixLedgerRecord::pre_initial_integrate() {
-  ledger_.begin_start_of_step(frame());
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
-    ledger_.start_of_step(grain(i, true), update->dt);
-    arrived_ -= 1.0;
-  }
-  ledger_.book_start(update->dt);
-  stepping_ = true;
+  impl_->arrived -= start_step(impl_->ledger);
+  impl_->stepping = true;
 }
 
 void FixLedgerRecord::pre_final_integrate() {
-  ledger_.begin_end_of_step();
+  impl_->ledger.begin_end_of_step();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
-    ledger_.end_of_step(grain(i, false), update->dt);
-    arrived_ += 1.0;
+    double momentum[3];
+    const double *omega = atom->omega[i];
+    if (!atom->superquadric_flag)
+      for (int k = 0; k < 3; k++) momentum[k] = moment_of_inertia(i) * omega[k];
+    impl_->ledger.end_of_step(grain(atom, i), omega, atom->superquadric_flag ? atom->angmom[i] : momentum, update->dt);
+    impl_->arrived += 1.0;
   }
-  ledger_.book_step(update->dt);
-  stepping_ = false;
+  impl_->ledger.book_step(update->dt);
+  impl_->stepping = false;
 }
 
-FixLedgerRecord::Account FixLedgerRecord::account() const {
+grainscope::LedgerAccount FixLedgerRecord::account() const {
   using E = EnergyLedger;
-  Account sum;
+  grainscope::LedgerAccount sum;
+  if (!impl_->pair) fail("was not set up: do not use 'pre no' in the first run with it");
+  std::unique_ptr<E> ahead;  // as the first step of the run will begin
+  if (impl_->ledger.pending()) {
+    ahead.reset(new E(impl_->ledger));
+    start_step(*ahead);
+  }
+  const E &ledger = ahead ? *ahead : impl_->ledger;
   double values[2 * E::entries + 2 * E::stores + 2], *at = values;
   const auto put = [&at](const auto &numbers) { for (double one : numbers) *at++ = one; };
-  put(ledger_.totals());
-  put(ledger_.last());
-  put(ledger_.stored());
-  put(ledger_.stored_before());
-  *at++ = ledger_.start_energy();
-  *at++ = stepping_ ? 0.0 : arrived_;
+  put(ledger.totals());
+  put(ledger.last());
+  put(ledger.stored());
+  put(ledger.stored_before());
+  *at++ = ledger.start_energy();
+  *at++ = impl_->stepping ? 0.0 : impl_->arrived;
   MPI_Allreduce(MPI_IN_PLACE, values, at - values, MPI_DOUBLE, MPI_SUM, world);
   at = values;
   const auto take = [&at](auto &numbers) { for (double &one : numbers) one = *at++; };
@@ -230,7 +267,7 @@ void FixLedgerRecord::forget(LAMMPS *lmp, const char *compute) {
 
 /** Summed over ranks, so that any number of them may continue. */
 void FixLedgerRecord::write_restart(FILE *file) {
-  auto state = ledger_.state();
+  auto state = impl_->ledger.state();
   MPI_Allreduce(MPI_IN_PLACE, state.data(), state.size(), MPI_DOUBLE, MPI_SUM, world);
   if (comm->me != 0) return;
   const int size = state.size() * sizeof(double);
@@ -241,5 +278,5 @@ void FixLedgerRecord::write_restart(FILE *file) {
 void FixLedgerRecord::restart(char *buffer) {
   std::array<double, EnergyLedger::state_size> state{};
   if (comm->me == 0) memcpy(state.data(), buffer, sizeof state);
-  ledger_.restore(state);
+  impl_->ledger.restore(state);
 }

@@ -9,9 +9,14 @@ FixStyle(ledger/record,FixLedgerRecord)
 #define LMP_FIX_LEDGER_RECORD_H
 
 #include "contact_sink.h"
-#include "energy_ledger.h"
 #include "fix.h"
+#include <memory>
 #include <string>
+
+namespace grainscope {
+class EnergyLedger;
+struct LedgerAccount;
+}
 
 namespace LAMMPS_NS {
 
@@ -21,6 +26,7 @@ namespace LAMMPS_NS {
 class FixLedgerRecord : public Fix, public grainscope::ContactSink {
  public:
   FixLedgerRecord(class LAMMPS *lmp, int narg, char **arg);
+  ~FixLedgerRecord();
   int setmask();
   void init();
   void pre_initial_integrate();
@@ -39,27 +45,20 @@ class FixLedgerRecord : public Fix, public grainscope::ContactSink {
   /** To be called by the compute's destructor. */
   static void forget(class LAMMPS *lmp, const char *id);
 
-  struct Account {
-    grainscope::EnergyLedger::Entries totals, last;
-    grainscope::EnergyLedger::Stores stored, change;  // `change`: in the last step
-    double residual, last_residual;
-  };
   /** Everything booked so far, summed over all ranks. Collective. */
-  Account account() const;
+  grainscope::LedgerAccount account() const;
 
  private:
-  grainscope::EnergyLedger ledger_;
-  class PairGranInsitu *pair_ = nullptr;
-  std::string name_;            // of the compute, for messages
-  double arrived_ = 0.0;        // grains on this rank at the ends of steps less those at their beginnings: over all ranks 0
-  bool stepping_ = false;       // between the two
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 
   [[noreturn]] void fail(const std::string &message) const;
   void require_known_models() const;
   void require_moved_by_verlet() const;
   void require_flowing_box() const;
-  grainscope::LedgerFrame frame() const;
-  grainscope::EnergyLedger::Grain grain(int i, bool starting) const;
+  double start_step(grainscope::EnergyLedger &ledger) const;
+  double moment_of_inertia(int i) const;
+  void coming_spin(int i, double momentum[3], double omega_after[3]) const;
   static std::string id_for(const char *compute);
 };
 
