@@ -21,7 +21,8 @@ COLOURS = dict(zip(MEASURES, RUN_COLOURS))
 MODES = ("instantaneous", "step", "ledger")
 LEAKS = ("G_k", "G_p", "G_n", "G_open", "G_dt")
 MISSED = [f"{mode}_{part} - ledger_{part}" for mode in ("instantaneous", "step") for part in "nt"]
-WINDOW = 0.04
+PAIRS = (((0.0, 0.4), "0.04"), ((10.0,), "0.01"))  # frictions, and a strain over which chaos has not yet parted the runs
+FINEST_LONG = "fraction 0.1"
 Flow = namedtuple("Flow", "alpha mu I e")
 
 
@@ -54,10 +55,17 @@ class Results:
                       if name == "default" or name.startswith("fraction"))
 
 
-def pooled(results, study, quantity, setting, **wanted):
-    """Mean over the flows, and its standard error from their spread."""
-    values = [row["value"] for row in results.pick(study, quantity, setting=setting, **wanted)]
-    return np.mean(values), np.std(values, ddof=1) / math.sqrt(len(values))
+def pooled(results, quantity, setting, frictions, window):
+    """Mean over the flows of a paired error, and its standard error from those of the flows."""
+    if quantity == "ledger_t":
+        frictions = [mu for mu in frictions if mu > 0]
+    rows = [row for mu in frictions for row in results.pick("paired", quantity, setting=setting, I=0.1, mu=mu, at=window)]
+    return np.mean([row["value"] for row in rows]), math.sqrt(sum(row["error"] ** 2 for row in rows)) / len(rows)
+
+
+def worst(results, quantity, setting, frictions, window):
+    """The largest paired error of a flow."""
+    return max(abs(row["value"]) for mu in frictions for row in results.pick("paired", quantity, setting=setting, I=0.1, mu=mu, at=window))
 
 
 def long_errors(results, quantity, setting):
@@ -65,10 +73,10 @@ def long_errors(results, quantity, setting):
     differences, errors = [], []
     for flow in results.flows("long"):
         value, error = results.pair("long", quantity, setting=setting, **flow)
-        reference, reference_error = results.pair("long", quantity, setting="fraction 0.05", **flow)
+        reference, reference_error = results.pair("long", quantity, setting=FINEST_LONG, **flow)
         unit = reference
         if quantity.startswith("step"):
-            unit = sum(results.pair("long", f"step_{part}", setting="fraction 0.05", **flow)[0] for part in "nt")
+            unit = sum(results.pair("long", f"step_{part}", setting=FINEST_LONG, **flow)[0] for part in "nt")
         differences.append((value - reference) / unit)
         errors.append(math.hypot(error, reference_error) / unit)
     return np.mean(differences), math.sqrt(np.sum(np.square(errors))) / len(errors)
@@ -104,35 +112,38 @@ def floor_label(axis, value, text):
 
 def draw_step(results, path):
     """Errors against the time step: energy, pairs of short runs, long runs."""
-    figure, axes = plt.subplots(1, 3, figsize=(12.5, 3.8), constrained_layout=True, sharey=True)
+    figure, axes = plt.subplots(2, 2, figsize=(10.5, 7.4), constrained_layout=True, sharex=True, sharey=True)
+    energy, *pairs, long = axes.flat
     for alpha in ALPHAS:
         for inertial, line in ((0.1, "-"), (0.01, "--")):
             fractions, names = zip(*results.steps("account", alpha=alpha, mu=0.4, I=inertial))
-            axes[0].plot(fractions, [energy_error(results, alpha, name, inertial) for name in names], line, color=shape_colour(alpha),
-                         marker=shape_marker(alpha), markersize=4, linewidth=1.2)
-    guide(axes[0], [0.01, 0.6], 0.03, 2)
-    axes[0].legend(handles=[shape_handle(alpha) for alpha in ALPHAS] + [Line2D([], [], color="k", label="$I = 0.1$"),
-                   Line2D([], [], color="k", linestyle="--", label="$I = 0.01$")], fontsize=8)
-    axes[0].set_title("energy of the time step, |G_dt|/(D_n + D_t)", fontsize=9)
-    steps = [step for step in results.steps("paired", I=0.1)]
+            energy.plot(fractions, [energy_error(results, alpha, name, inertial) for name in names], line, color=shape_colour(alpha),
+                        marker=shape_marker(alpha), markersize=4, linewidth=1.2)
+    guide(energy, [0.01, 0.6], 0.01, 2)
+    energy.legend(handles=[shape_handle(alpha) for alpha in ALPHAS] + [Line2D([], [], color="k", label="$I = 0.1$"),
+                  Line2D([], [], color="k", linestyle="--", label="$I = 0.01$")], fontsize=8)
+    energy.set_title("energy error of the time step, |G_dt|/(D_n + D_t)", fontsize=9)
+    steps = results.steps("paired", I=0.1)
+    for axis, (frictions, window) in zip(pairs, PAIRS):
+        for quantity, label in MEASURES.items():
+            found = [pooled(results, quantity, name, frictions, window) for _, name in steps]
+            points(axis, [fraction for fraction, _ in steps], [(abs(value), error) for value, error in found], color=COLOURS[quantity],
+                   marker="o", label=label)
+        guide(axis, [0.02, 0.6], 0.03, 1)
+        axis.set_title(f"runs from the same states, mean over strain {window}, $\\mu_p$ = {' and '.join(f'{mu:g}' for mu in frictions)}", fontsize=9)
     for quantity, label in MEASURES.items():
-        pairs = [pooled(results, "paired", quantity, name, I=0.1, at=f"{WINDOW:g}") for _, name in steps]
-        points(axes[1], [fraction for fraction, _ in steps], [(abs(value), error) for value, error in pairs], color=COLOURS[quantity], marker="o",
-               label=label)
-    guide(axes[1], [0.02, 0.6], 0.03, 1)
-    axes[1].legend(fontsize=8)
-    axes[1].set_title(f"short runs from the same states, strain {WINDOW:g}", fontsize=9)
-    for quantity, label in MEASURES.items():
-        name_of = quantity.replace("ledger", "step")
-        pairs = [(fraction, *long_errors(results, name_of, name)) for fraction, name in results.steps("long") if fraction > 0.05]
-        points(axes[2], [p[0] for p in pairs], [(abs(p[1]), p[2]) for p in pairs], color=COLOURS[quantity], marker="o", label=label)
-    axes[2].set_title("long runs against 0.05, all flows", fontsize=9)
-    for axis in axes:
+        found = [(fraction, *long_errors(results, quantity.replace("ledger", "step"), name)) for fraction, name in results.steps("long")
+                 if name != FINEST_LONG]
+        points(long, [one[0] for one in found], [(abs(one[1]), one[2]) for one in found], color=COLOURS[quantity], marker="o", label=label)
+    long.set_title("long runs against those of step 0.1, all $\\mu_p$", fontsize=9)
+    long.legend(fontsize=8, loc="lower left")
+    for axis in axes.flat:
         step_axis(axis, (0.01, 0.02, 0.05, 0.1, 0.2, 0.5))
         axis.set_yscale("log")
         axis.set_ylim(1e-8, 0.3)
         axis.axvline(0.15, color="0.9", linewidth=4, zorder=0)
-    axes[0].set_ylabel("relative error")
+    for axis in axes[:, 0]:
+        axis.set_ylabel("relative error")
     save(figure, path)
 
 
@@ -155,9 +166,12 @@ def draw_cost(results, path):
     names = [name for _, name in results.steps("paired", I=0.1)]
     times = [np.mean([relative_time(results, alpha, name) for alpha in ALPHAS]) for name in names]
     for quantity, label in MEASURES.items():
-        pairs = [pooled(results, "paired", quantity, name, I=0.1, at=f"{WINDOW:g}") for name in names]
-        points(axes[1], times, [(abs(value), error) for value, error in pairs], color=COLOURS[quantity], marker="o", label=label)
-    axes[1].set_title(f"means over strain {WINDOW:g} from the same states", fontsize=9)
+        for (frictions, window), line in zip(PAIRS, ("-", "--")):
+            pairs = [pooled(results, quantity, name, frictions, window) for name in names]
+            points(axes[1], times, [(abs(value), error) for value, error in pairs], color=COLOURS[quantity], marker="o", linestyle=line,
+                   label=label if line == "-" else None)
+    axes[1].set_ylim(1e-7, 0.1)
+    axes[1].set_title(r"runs from the same states ($\mu_p$ = 0 and 0.4; dashed: 10)", fontsize=9)
     for level in (0.01, 0.001):
         floor_label(axes[1], level, f"{100 * level:g} %")
     axes[1].legend(fontsize=8)
@@ -198,7 +212,7 @@ def draw_sampling(results, path):
     axis.set_xscale("log")
     axis.set_yscale("log")
     axis.set_xlabel("strain between samples")
-    axis.set_ylabel("relative error of the mean over strain 8")
+    axis.set_ylabel("relative error of the mean over strain 6")
     axis.legend(fontsize=8)
     save(figure, path)
 
@@ -267,13 +281,15 @@ def print_steps(results):
     for fraction, name in results.steps("account", mu=0.4, I=0.1):
         cells = [f"{fraction:g}", f"{np.mean([relative_time(results, alpha, name) for alpha in ALPHAS]):.2f}"]
         cells += [percent(energy_error(results, alpha, name)) for alpha in ALPHAS]
+        for frictions, window in PAIRS:
+            for quantity in MEASURES:
+                cells.append("0" if name == "fraction 0.01" else percent(*pooled(results, quantity, name, frictions, window)))
+            cells.append("0" if name == "fraction 0.01" else percent(worst(results, "mu_eff", name, frictions, window)))
         for quantity in MEASURES:
-            cells.append("0" if name == "fraction 0.01" else percent(*pooled(results, "paired", quantity, name, I=0.1, at=f"{WINDOW:g}")))
-        for quantity in MEASURES:
-            known = any(name == other for fraction, other in results.steps("long") if fraction > 0.05)
+            known = any(name == other for _, other in results.steps("long") if other != FINEST_LONG)
             cells.append(percent(*long_errors(results, quantity.replace("ledger", "step"), name)) if known else "")
         rows.append(cells)
-    table("Time step, errors in %", ["dt / T_R", "time", *(f"G_dt, alpha {a:g}" for a in ALPHAS), *(f"pairs: {q}" for q in MEASURES),
+    table("Time step, errors in %", ["dt / T_R", "time", *(f"G_dt, alpha {a:g}" for a in ALPHAS), *(f"{mu}: {q}" for mu in ("mu_p 0, 0.4", "mu_p 10") for q in (*MEASURES, "worst mu_eff")),
                                      *(f"long: {q}" for q in MEASURES)], rows)
 
 
@@ -283,7 +299,7 @@ def print_variants(results):
     for name in names:
         cells = [name, ", ".join(f"{relative_time(results, alpha, name):.2f}" for alpha in ALPHAS)]
         for quantity in MEASURES:
-            cells.append(percent(*pooled(results, "paired", quantity, name, at=f"{WINDOW:g}")))
+            cells.append(percent(*pooled(results, quantity, name, *PAIRS[0])))
         cells.append(percent(max(abs(row["value"]) for row in results.pick("account", "residual", setting=name))))
         rows.append(cells)
     table("Other settings against the default, %", ["setting", "time, alpha = 0.33, 1, 1.5", *MEASURES, "largest residual"], rows)
@@ -320,7 +336,7 @@ def print_sampling(results):
     rows = []
     for name in dict.fromkeys(row["setting"] for row in results.pick("sampling", "mu_eff")):
         rows.append([name, *(percent(results.pair("sampling", quantity.replace("ledger", "step"), setting=name)[0]) for quantity in MEASURES)])
-    table("Sampling, % of each mean over strain 8", ["", *MEASURES], rows)
+    table("Sampling, % of each mean over strain 6", ["", *MEASURES], rows)
 
 
 def main():

@@ -13,7 +13,7 @@ COLUMN = {name: number for number, name in enumerate(
 SOLID = 4 / 3 * math.pi * 500 * np.mean(np.linspace(0.8, 1.2, 15) ** 3)  # volume of the grains over alpha
 BLOCKS = 8
 WINDOWS = (0.01, 0.04)  # strain, at I = 0.1
-FINEST_PAIRED, FINEST_LONG = "fraction 0.01", "fraction 0.05"
+FINEST_PAIRED, FINEST_OF_MODES = "fraction 0.01", "fraction 0.05"
 
 
 @dataclass
@@ -138,7 +138,7 @@ def of_divergence(scratch, runs, bins=25):
     """How far the shear stress of single rows is from that of the reference, root mean square over a bin of strain."""
     groups = {key: Rows.read(scratch, group[0]).values for key, group in grouped(runs).items()}
     for (flow, label), own in groups.items():
-        other = reference_of(groups, flow, label, FINEST_LONG)
+        other = reference_of(groups, flow, label, FINEST_OF_MODES)
         if other:
             apart = (own["sigma_xy"] - other["sigma_xy"]) / other["sigma_xy"].mean()
             passed = own["strain"] - own["strain"][0]

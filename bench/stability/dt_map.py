@@ -17,9 +17,10 @@ import sys
 
 import numpy as np
 
+import dt_chart
 from dt_network import Network
 from dt_pairs import Pairs
-from dt_tools import HERE, YOUNG, Runner, Table, damping_ratio, hertz_time, rayleigh_time
+from dt_tools import HERE, Runner, Table, damping_ratio, hertz_time, rayleigh_time
 
 ALPHAS = (0.2, 0.33, 0.5, 0.67, 1.0, 1.5, 2.0, 3.0, 5.0)
 PRESSURES = ("1e-5", "1e-3")      # over the smallest semi-axis ratio and Young's modulus: the paper's, and one for soft grains
@@ -101,13 +102,13 @@ def pairs(runner):
 
 FLOWS = ("0.05", "0.15", "0.3", "0.5", "0.7", "1", "1.4", "2")    # time steps over Rayleigh's time
 FLOW_LAWS = (("0.1", "off"), ("0.99", "off"), ("0.1", "on"))
-LEDGER = ("W_shear", "W_box", "W_frame", "W_other", "D_n", "D_t", "G_k", "G_p", "G_n", "G_open", "G_dt", "residual")
+LEDGER = ("W_shear", "W_box", "W_frame", "W_other", "D_n", "D_t", "D_damp", "G_k", "G_p", "G_n", "G_open", "G_dt", "U_n", "U_t", "K_tr", "K_rot",
+          "residual")
 
 
 def flow(runner):
-    """Pressure over the packing's and kinetic energy (means over the second half), largest overlap over the diameter at the end, the ledger;
-    inf: grains were lost, or the run came to a standstill."""
-    table = Table("dt_flow", 5, ("press", "alpha", "e", "damping", "dt_over_rayleigh", "pressure", "kinetic", "overlap", *LEDGER, "ended"))
+    """Largest overlap over the diameter, of 20 looks, and the ledger at the end. inf: grains were lost, or the run came to a standstill."""
+    table = Table("dt_flow", 5, ("press", "alpha", "e", "damping", "dt_over_rayleigh", "overlap", *LEDGER))
     for press, alpha, (e, damping), fraction in ((p, a, law, f) for p in PRESSURES for a in ALPHAS[::2] for law in FLOW_LAWS for f in FLOWS):
         key = (press, f"{alpha:g}", e, damping, fraction)
         if table.has(*key) or (press == "1e-5" and fraction == "0.05" and damping == "on"):
@@ -115,10 +116,14 @@ def flow(runner):
         stem = runner.packing(alpha, press)
         rows, ended = runner.thermo("in.dt_flow", state=f"{stem}.restart", alpha=f"{alpha:g}", press=press, e=e, damping=damping,
                                     dt=repr(float(fraction) * rayleigh_time(alpha)))
-        ended = ended and len(rows) > 1
-        last = rows[-1] if ended else np.full(19, np.inf)
-        target = float(press) * min(1, alpha) * YOUNG
-        table.add(*key, last[1] / target, last[3], last[4] / (2 * alpha**(1 / 3)), *last[5:17], "yes" if ended else "no")
+        if ended and len(rows) > 1:
+            table.add(*key, rows[:, 1].max() / (2 * alpha**(1 / 3)), *rows[-1, 2:])
+        else:
+            table.add(*key, *[math.inf] * (1 + len(LEDGER)))
+
+
+def chart(_):
+    dt_chart.draw()
 
 
 def main():

@@ -116,3 +116,13 @@ def axes_of(quaternions):
 
 def unit(vectors):
     return vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
+
+
+def rows_of(name, **wanted):
+    """Rows of a table of this folder that have these values."""
+    with open(HERE / f"{name}.csv") as file:
+        return [row for row in csv.DictReader(file) if all(row[c] == v for c, v in wanted.items())]
+
+
+def column(rows, name):
+    return np.array([float(row[name]) for row in rows])

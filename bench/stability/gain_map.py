@@ -38,6 +38,7 @@ FEW = {0.001: ((1.0, 2.0, 5.0, 10.0), (0.3, 1.0, 2.5, 5.0, 10.0))}  # intervals 
 STARTS = {0.1: (0.2, 1.0, 20.0), 0.03: (0.2, 1.0, 20.0), 0.01: (1.0, 20.0), 0.001: (1.0,)}  # intervals of the dilute starts
 INPUTS, SKIPPED = 60, 15  # of a run at least, and of them those that are left out
 LEAST_STRAIN = 0.8        # of a run, over the root of I
+CLOSE = 1.1               # the edge is known when two gains are as near as this
 CLIPS = {"wide": "limit 0.3 maxrate {:g}", "default": ""}
 LARGEST_ERROR = 1.0       # root mean square of P/P_t - 1: contacts open all over
 ALTERNATING = -0.5        # correlation of an error with the next: the swings are the controller's own, not the flow's
@@ -191,18 +192,37 @@ def cells_of(inertial, alpha):
         yield inertial, alpha, 1.0, gain, "default"
 
 
+def edge(rows, interval):
+    """Largest gain up to which the control converges at an interval, and the least that does not."""
+    held = held_errors(rows)[interval]
+    verdicts = {float(row["gain"]): verdict(row, held) for row in rows
+                if row["interval"] == interval and row["clip"] == "wide" and row["gain"] not in ("auto", "0")}
+    bad = min((gain for gain, found in verdicts.items() if found != "converged"), default=math.inf)
+    return max((gain for gain in verdicts if gain < bad), default=0.0), bad
+
+
 def measure(bench, inertials, alphas):
-    """Runs every cell that is not in the file yet. Fixed gains are told in those of `gain auto` at the same place."""
+    """Runs every cell that is not in the file yet, and more gains between the last that converges and the first that does not. Gains are
+    told in those of `gain auto` at the same place."""
     done = {tuple(row[name] for name in KEY): row for row in read(CELL_FILE)}
     for inertial, alpha in itertools.product(inertials, alphas):
         for key in cells_of(inertial, alpha):
-            if key in done:
-                continue
-            interval, gain, clip = key[2:]
-            kp = None if gain == "auto" else float(gain) * done[inertial, alpha, interval, "auto", "wide"]["kp"]
-            row = done[key] = cell(bench, *key, kp)
-            append(CELL_FILE, row, CELL_COLUMNS)
-            print(*key, *(f"{name} {row.get(name)}" for name in ("rms", "lag1", "lag2", "clipped", "ended")), flush=True)
+            if key not in done:
+                run_cell(bench, key, done)
+        for interval in FEW.get(inertial, (INTERVALS,))[0]:
+            while True:
+                good, bad = edge([row for key, row in done.items() if key[:2] == (inertial, alpha)], interval)
+                if good == 0.0 or not CLOSE * good < bad < math.inf:
+                    break
+                run_cell(bench, (inertial, alpha, interval, f"{math.sqrt(good * bad):.3g}", "wide"), done)
+
+
+def run_cell(bench, key, done):
+    inertial, alpha, interval, gain, clip = key
+    kp = None if gain == "auto" else float(gain) * done[inertial, alpha, interval, "auto", "wide"]["kp"]
+    row = done[key] = cell(bench, *key, kp)
+    append(CELL_FILE, row, CELL_COLUMNS)
+    print(*key, *(f"{name} {row.get(name)}" for name in ("rms", "lag1", "lag2", "clipped", "ended")), flush=True)
 
 
 def dilute(bench, inertials, alphas):
@@ -318,9 +338,7 @@ def boundary_table(flows):
         held = held_errors(rows)
         for automatic in (row for row in rows if row["gain"] == "auto"):
             interval, time = automatic["interval"], automatic["steps"] * automatic["dt"]
-            fixed = [row for row in rows if row["interval"] == interval and row["clip"] == "wide" and row["gain"] not in ("auto", "0")]
-            bad = min((float(row["gain"]) for row in fixed if verdict(row, held[interval]) != "converged"), default=math.inf)
-            good = max((float(row["gain"]) for row in fixed if float(row["gain"]) < bad), default=0.0)
+            good, bad = edge(rows, interval)
             print(f"| {inertial:g} | {alpha:g} | {interval:g} | {automatic['steps']:.0f} | {stiffness * time / eta:.2g} "
                   f"| {boundary(eta, stiffness, time, automatic['dt']):.1f} | {good:g} | {bad:g} | {automatic['rms']:.3f} | {held[interval]:.2f} |")
             if verdict(automatic, held[interval]) != "converged":

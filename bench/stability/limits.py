@@ -16,6 +16,7 @@ import sys
 
 import numpy as np
 
+import limits_chart
 from dt_tools import YOUNG, Runner, Table, rayleigh_time, unit
 
 SHAPES = (0.33, 1.0, 3.0)
@@ -162,6 +163,10 @@ def said(runner):
     for options in ({"e": "0"}, {"e": "0.05"}, {"e": "1.01"}, {"mu": "-0.1"}, {"mu": "1e300"}, {"e": "0.0501"}):
         text = runner.output("in.limits", state=f"{stem}.restart", alpha="1", steps=10, inertial=0, **options)
         print(options, [line for line in text.splitlines() if "ERROR" in line or "WARNING" in line] or "runs")
+
+
+def chart(_):
+    limits_chart.draw()
 
 
 def main():

@@ -2,6 +2,7 @@
 #include "energy_ledger.h"
 #include "lanes.h"
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 namespace grainscope {
@@ -12,13 +13,15 @@ using Eigen::Vector3d;
 
 namespace {
 
+double sum_of_three(const double *x) { return x[0] + x[1] + x[2]; }
+
 /** L:M of two upper triangles, on the diagonal and off it. */
-double on_diagonal(const Matrix3d &l, const double m[6]) { return l(0, 0) * m[0] + l(1, 1) * m[1] + l(2, 2) * m[2]; }
-double off_diagonal(const Matrix3d &l, const double m[6]) { return l(1, 2) * m[3] + l(0, 2) * m[4] + l(0, 1) * m[5]; }
+double on_diagonal(const Matrix3d &l, const double m[8]) { return l(0, 0) * m[0] + l(1, 1) * m[1] + l(2, 2) * m[2]; }
+double off_diagonal(const Matrix3d &l, const double m[8]) { return l(1, 2) * m[4] + l(0, 2) * m[5] + l(0, 1) * m[6]; }
 
 template <class Numbers>
 double sum(const Numbers &numbers) {
-  return std::accumulate(numbers.begin(), numbers.end(), 0.0);
+  return std::accumulate(std::begin(numbers), std::end(numbers), 0.0);
 }
 
 /** overlap^(exponent - 1): k_n over it depends on curvature and material alone. */
@@ -54,37 +57,46 @@ void EnergyLedger::begin_evaluation(int n_local) {
 
 namespace {
 
-/** Force and torque about a centre. */
-GRAINSCOPE_INLINE Lanes wrench_of(const Vector3d &f, const Vector3d &arm) {
-  return Lanes{f[0], f[1], f[2], arm[1] * f[2] - arm[2] * f[1], arm[2] * f[0] - arm[0] * f[2], arm[0] * f[1] - arm[1] * f[0], 0.0, 0.0};
-}
+/** Four numbers side by side, and where the allocator put them. */
+typedef double Four __attribute__((vector_size(32)));
+typedef double FourInMemory __attribute__((vector_size(32), aligned(8), may_alias));
+GRAINSCOPE_INLINE FourInMemory &four_at(double *memory) { return *reinterpret_cast<FourInMemory *>(memory); }
+GRAINSCOPE_INLINE const FourInMemory &four_at(const double *memory) { return *reinterpret_cast<const FourInMemory *>(memory); }
+/** The fourth repeats the third, and is read by nobody. (A zero there would be cheap too, but by an instruction that valgrind does not know.) */
+GRAINSCOPE_INLINE Four four_of(double x, double y, double z) { return Four{x, y, z, z}; }
+GRAINSCOPE_INLINE Four four_of(const Vector3d &v) { return four_of(v[0], v[1], v[2]); }
+GRAINSCOPE_INLINE Four four_times(double x) { return Four{x, x, x, x}; }
 
-/** What is summed of a force over contacts (upper triangle: the flow's gradient has no other), `power` being F.u. */
-GRAINSCOPE_INLINE Lanes sums_of(const Contact &c, const Vector3d &f, double power) {
-  const Vector3d &r = c.branch;
-  return c.weight * Lanes{f[0] * r[0], f[1] * r[1], f[2] * r[2], f[1] * r[2], f[0] * r[2], f[0] * r[1], power, 0.0};
+/** Torque of a force. */
+GRAINSCOPE_INLINE Four torque_of(const Vector3d &arm, const Vector3d &f) {
+  return four_of(arm[1] * f[2] - arm[2] * f[1], arm[2] * f[0] - arm[0] * f[2], arm[0] * f[1] - arm[1] * f[0]);
 }
-
-/** Power of a wrench. */
-GRAINSCOPE_INLINE double power(const double wrench[6], const Vector3d &v, const Vector3d &omega) {
-  return wrench[0] * v[0] + wrench[1] * v[1] + wrench[2] * v[2] + wrench[3] * omega[0] + wrench[4] * omega[1] + wrench[5] * omega[2];
-}
-
-/** Lanes where the allocator put them. */
-typedef double LanesInMemory __attribute__((vector_size(8 * LANES), aligned(8), may_alias));
-GRAINSCOPE_INLINE LanesInMemory &lanes_at(double *memory) { return *reinterpret_cast<LanesInMemory *>(memory); }
 
 }
 
-template <class Lanes>
-GRAINSCOPE_INLINE void EnergyLedger::add_part(const Contact &c, int part, Lanes on_i, Lanes on_j, Lanes sums) {
-  lanes_at(contacts_.sums[part]) += sums;
-  lanes_at(wrench(c.i, part)) += on_i;
-  if (!c.ghost) lanes_at(wrench(c.j, part)) -= on_j;
-}
+/** A force along one direction: what it does to its two grains, and what is summed of it. */
+struct EnergyLedger::Unit {
+  Four force, torque_i, torque_j, diagonal, beside;
 
-GRAINSCOPE_INLINE void EnergyLedger::add_tangential(const Contact &c, int part, const Vector3d &force, const Vector3d &arm_j) {
-  add_part(c, part, wrench_of(force, c.arm), wrench_of(force, arm_j), sums_of(c, force, force.dot(c.tangential_velocity)));
+  GRAINSCOPE_INLINE Unit(const Contact &c, const Vector3d &f, const Vector3d &arm_j, double power)
+      : force(four_of(f)), torque_i(torque_of(c.arm, f)), torque_j(torque_of(arm_j, f)) {
+    const Vector3d &r = c.branch;
+    const Four weight = four_times(c.weight);
+    diagonal = weight * Four{f[0] * r[0], f[1] * r[1], f[2] * r[2], power};
+    beside = weight * four_of(f[1] * r[2], f[0] * r[2], f[0] * r[1]);
+  }
+};
+
+GRAINSCOPE_INLINE void EnergyLedger::add_part(int part, double size, const Unit &unit, double *of_i, double *of_j) {
+  const Four times = four_times(size), force = times * unit.force;
+  const int at = 8 * slot_[part];
+  four_at(contacts_.sums[part] + 0) += times * unit.diagonal;
+  four_at(contacts_.sums[part] + 4) += times * unit.beside;
+  four_at(of_i + at + 0) += force;
+  four_at(of_i + at + 4) += times * unit.torque_i;
+  if (!of_j) return;
+  four_at(of_j + at + 0) -= force;
+  four_at(of_j + at + 4) -= times * unit.torque_j;
 }
 
 GRAINSCOPE_INLINE void EnergyLedger::add_past(const Contact &c, const ContactPast &past, double elastic_force) {
@@ -121,22 +133,23 @@ void EnergyLedger::add(const Contact &c, double dt, bool springs_move) {
   cleared_ = false;
   const double elastic_force = c.normal_stiffness * c.overlap;
   const Vector3d arm_j = c.arm + c.branch;
-  const Lanes on_i = wrench_of(c.normal, c.arm), on_j = wrench_of(c.normal, arm_j), sums = sums_of(c, c.normal, c.normal_velocity);
-  add_part(c, elastic, elastic_force * on_i, elastic_force * on_j, elastic_force * sums);
-  add_part(c, damping, c.normal_damping * on_i, c.normal_damping * on_j, c.normal_damping * sums);
+  double *const of_i = wrenches_of(c.i), *const of_j = c.ghost ? nullptr : wrenches_of(c.j);
+  const Unit normal(c, c.normal, arm_j, c.normal_velocity);
+  add_part(elastic, elastic_force, normal, of_i, of_j);
+  add_part(damping, c.normal_damping, normal, of_i, of_j);
   if (slot_[spring] >= 0) {
     Vector3d force = c.tangential_force;
     if (law_.viscous && !c.sliding && c.tangential_damping != 0.0) {
       const Vector3d viscous_force = -c.tangential_damping * c.tangential_velocity;
       force -= viscous_force;
-      add_tangential(c, viscous, viscous_force, arm_j);
+      add_part(viscous, 1.0, Unit(c, viscous_force, arm_j, viscous_force.dot(c.tangential_velocity)), of_i, of_j);
     }
-    add_tangential(c, spring, force, arm_j);
+    add_part(spring, 1.0, Unit(c, force, arm_j, force.dot(c.tangential_velocity)), of_i, of_j);
   }
   if (law_.rolling) {
-    const Vector3d &t = c.rolling_torque;
-    const Lanes torque{0.0, 0.0, 0.0, t[0], t[1], t[2], 0.0, 0.0};
-    add_part(c, rolling, torque, torque, sums_of(c, Vector3d::Zero(), t.dot(c.spin)));
+    Unit unit(c, Vector3d::Zero(), arm_j, c.rolling_torque.dot(c.spin));
+    unit.torque_i = unit.torque_j = four_of(c.rolling_torque);
+    add_part(rolling, 1.0, unit, of_i, of_j);
   }
   contacts_.normal_energy += c.weight * elastic_force * c.overlap * energy_factor_;
   if (law_.spring) contacts_.spring_energy += 0.5 * c.weight * c.tangential_stiffness * c.spring.squaredNorm();
@@ -148,19 +161,23 @@ void EnergyLedger::add(const Contact &c, double dt, bool springs_move) {
   if (law_.spring) add_spring(c, past);
 }
 
+GRAINSCOPE_CLONES
 void EnergyLedger::end_of_step(const Grain &g, const double omega[3], const double momentum[3], double dt) {
   const Map<const Vector3d> force(g.force), torque(g.torque), w(omega), angular(momentum);
   const Vector3d p = Map<const Vector3d>(g.v) - frame_.flow(Map<const Vector3d>(g.x));
   ends_.k_tr += 0.5 * p.dot(g.mass * p + dt * force);
   ends_.k_rot += 0.5 * w.dot(angular + dt * torque);
-  double other = force.dot(p) + torque.dot(w);
-  const double *at = &wrenches_[8 * static_cast<std::size_t>(g.index) * slots_];
-  for (int k = 0; k < slots_; k++) other -= power(at + 8 * k, p, w);
-  ends_.other += 0.5 * dt * other;
+  Four other_force = four_of(force), other_torque = four_of(torque);
+  const double *at = wrenches_of(g.index);
+  for (int k = 0; k < slots_; k++, at += 8) {
+    other_force -= four_at(at + 0);
+    other_torque -= four_at(at + 4);
+  }
+  four_at(ends_.other) += other_force * four_of(p) + other_torque * four_of(w);
 }
 
 /** Taken from the grains in the half step before an evaluation. */
-double EnergyLedger::half_work(const Contacts &contacts, int part, double dt) { return -0.5 * dt * contacts.sums[part][power_lane]; }
+double EnergyLedger::half_work(const Contacts &contacts, int part, double dt) { return -0.5 * dt * contacts.sums[part][power_place]; }
 
 void EnergyLedger::book_step(double dt) {
   Entries step{};
@@ -174,7 +191,7 @@ void EnergyLedger::book_step(double dt) {
       step[W_shear] -= 0.5 * dt * off_diagonal(frame_.gradient, end->sums[k]);
     }
   }
-  step[W_other] = starts_.other + ends_.other;
+  step[W_other] = 0.5 * dt * (sum_of_three(starts_.other) + sum_of_three(ends_.other));
   step[D_n] = work[damping];
   step[D_damp] = work[viscous];
   step[D_rolling] = work[rolling];
@@ -209,6 +226,7 @@ void EnergyLedger::begin_start_of_step(const LedgerFrame &frame) {
   starts_ = Starts();
 }
 
+GRAINSCOPE_CLONES
 void EnergyLedger::start_of_step(const Grain &g, const double omega_after[3], const double momentum[3], double dt) {
   const Map<const Vector3d> x(g.x), v(g.v), force(g.force), torque(g.torque), spin(omega_after);
   const Vector3d kick = 0.5 * dt / g.mass * force, flow = next_.flow(x), now = v - flow, p = now + kick;
@@ -218,16 +236,17 @@ void EnergyLedger::start_of_step(const Grain &g, const double omega_after[3], co
   if (moved_) starts_.k_old += kinetic(v - frame_.flow(x));
   if (!stepped_) starts_.k_rot += 0.5 * spin.dot(Map<const Vector3d>(momentum) - 0.5 * dt * torque);
 
-  double other = force.dot(p) + torque.dot(spin);
+  const Four velocity = four_of(p), turning = four_of(spin);
+  Four other = four_of(force) * velocity + four_of(torque) * turning;
   for (int k = 0; k < parts; k++) {
     if (slot_[k] < 0) continue;
-    double *part = wrench(g.index, k);
-    const double rate = power(part, p, spin);
-    starts_.rate[k] += rate;
-    other -= rate;
+    double *part = wrenches_of(g.index) + 8 * slot_[k];
+    const Four power = four_at(part + 0) * velocity + four_at(part + 4) * turning;
+    four_at(starts_.rate[k]) += power;
+    other -= power;
     std::fill(part, part + 8, 0.0);
   }
-  starts_.other += 0.5 * dt * other;
+  four_at(starts_.other) += other;
 
   // The coming drift in the frame: told before it, because a grain that is wrapped afterwards takes on another velocity.
   const Vector3d after = p + flow, drift = dt * next_.gradient_times(after), middle = g.mass * (p - 0.5 * drift);
@@ -238,7 +257,7 @@ void EnergyLedger::start_of_step(const Grain &g, const double omega_after[3], co
 
 void EnergyLedger::book_start(double dt) {
   for (int k = 0; k < parts; k++)
-    starts_.work[k] = -0.5 * dt * (starts_.rate[k] + on_diagonal(next_.gradient, contacts_.sums[k]) + off_diagonal(next_.gradient, contacts_.sums[k]));
+    starts_.work[k] = -0.5 * dt * (sum_of_three(starts_.rate[k]) + on_diagonal(next_.gradient, contacts_.sums[k]) + off_diagonal(next_.gradient, contacts_.sums[k]));
   cleared_ = true;
   if (stepped_) {
     const double carried = driven_ ? starts_.k_carried : starts_.k_new, old = moved_ ? starts_.k_old : carried;

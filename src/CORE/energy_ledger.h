@@ -104,9 +104,8 @@ class EnergyLedger {
 
  private:
   enum Part { elastic, damping, spring, viscous, rolling, parts };
-  /** Eight numbers of each part: force and torque on a grain (and two that are 0); or in sums over contacts F_a r_b (xx yy zz yz xz xy), F.u
-   *  (and 0). */
-  static constexpr int power_lane = 6;
+  /** Eight numbers of each part: force, -, torque, - on a grain; or in sums over contacts F_a r_b xx yy zz, F.u, F_a r_b yz xz xy, -. */
+  static constexpr int power_place = 3;
   /** Sums over the contacts of one evaluation. */
   struct Contacts {
     double sums[parts][8] = {};
@@ -116,8 +115,8 @@ class EnergyLedger {
     double kept_elastic = 0.0, kept_spring = 0.0, kept_energy = 0.0;  // of the past of those that did
     double friction = 0.0, stiffening = 0.0, travel = 0.0, revived = 0.0;
   };
-  struct Ends { double k_tr = 0.0, k_rot = 0.0, other = 0.0; };
-  struct Starts { double rate[parts] = {}, work[parts] = {}, other = 0.0, shear = 0.0, box = 0.0, k_old = 0.0, k_carried = 0.0, k_new = 0.0, k_rot = 0.0; };
+  struct Ends { double k_tr = 0.0, k_rot = 0.0, other[4] = {}; };  // arrays: three terms of a sum, dt/2 times
+  struct Starts { double rate[parts][4] = {}, work[parts] = {}, other[4] = {}, shear = 0.0, box = 0.0, k_old = 0.0, k_carried = 0.0, k_new = 0.0, k_rot = 0.0; };
 
   LedgerLaw law_;
   double energy_factor_ = 0.4;         // U_n = energy_factor k_n overlap^2
@@ -136,10 +135,10 @@ class EnergyLedger {
   Stores stored_{}, stored_before_{};
   double start_energy_ = 0.0, last_energy_ = 0.0;
 
-  double *wrench(int i, int part) { return &wrenches_[8 * (static_cast<std::size_t>(i) * slots_ + slot_[part])]; }
+  double *wrenches_of(int i) { return &wrenches_[8 * static_cast<std::size_t>(i) * slots_]; }
   static double half_work(const Contacts &contacts, int part, double dt);
-  template <class Lanes> void add_part(const Contact &c, int part, Lanes on_i, Lanes on_j, Lanes sums);
-  void add_tangential(const Contact &c, int part, const Eigen::Vector3d &force, const Eigen::Vector3d &arm_j);
+  struct Unit;
+  void add_part(int part, double size, const Unit &unit, double *of_i, double *of_j);
   void add_past(const Contact &c, const ContactPast &past, double elastic_force);
   void add_spring(const Contact &c, const ContactPast &past);
 };

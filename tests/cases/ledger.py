@@ -200,12 +200,16 @@ def reopening(surface, factor):
     """Two grains driven together bounce many times within the life of one neighbour list, rubbing: springs end loaded, or are kept by the
     host and come back (spheres at contact distance factor 1.0)."""
     def case(ranks):
-        packing = meeting(SHAPES["spheres"] if surface == "default" else SHAPES["long-1.5"], 0.05, 0.1, "sphere" if surface == "default" else "superquadric")
-        deck = with_ledger(Deck(packing, material=Material(restitution=(0.9,), friction=(3.0,)), timestep=0.05 * rayleigh_time(), surface=surface,
+        # Pole to pole, so that they stay in line; spinning alike, so that they rub.
+        style = "sphere" if surface == "default" else "superquadric"
+        pole = SHAPES["spheres"] if surface == "default" else (1.2, 1.0, 1.0)
+        packing = Packing((30.0, 30.0, 30.0), [Grain((side * (pole[0] + 1e-3), 0.0, 0.0), pole, velocity=(-0.2 * side, 0.0, 0.0), omega=(0.0, 0.0, 0.02))
+                                               for side in (-1, 1)], atom_style=style, origin=(-15.0, -15.0, -15.0))
+        deck = with_ledger(Deck(packing, material=Material(restitution=(0.98,), friction=(3.0,)), timestep=0.05 * rayleigh_time(), surface=surface,
                                 extra=UNDAMPED, contact_distance_factor=factor))
         turn = [] if surface == "default" else ["unfix integrate", "fix integrate all nve/spheroid"]
-        deck.body = [*turn, "neighbor 3.0 bin", "group left id 1", "group right id 2", "fix push left addforce 4000 0 0",
-                     "fix pull right addforce -4000 0 0", LEDGER, "compute s all stress/contact", *thermo(1, *TOTALS, "c_s[30]"), "run 4000"]
+        deck.body = [*turn, "neighbor 3.0 bin", "group left id 1", "group right id 2", "fix push left addforce 20000 0 0",
+                     "fix pull right addforce -20000 0 0", LEDGER, "compute s all stress/contact", *thermo(1, *TOTALS, "c_s[30]"), "run 400"]
         result = run(deck, ranks)
         table = result.thermo()[0]
         openings = (np.diff(table["c_s[30]"]) < 0).sum()
