@@ -117,3 +117,17 @@ add_cases(ellipsoid-contact cases/ellipsoid_contacts.py LABEL case RANKS 2 CASES
 add_cases(contact-solver cases/contact_solver.py LABEL case RANKS 1 2 4 CASES lists-and-contacts)
 add_cases(contact-solver cases/contact_solver.py LABEL case RANKS 1 2 CASES add-up begins-with-the-pair-style does-not-disturb)
 add_cases(contact-solver cases/contact_solver.py LABEL case RANKS 2 4 CASES same-on-ranks)
+add_cases(ledger-oracle cases/ledger_oracle.py LABEL case RANKS 1 CASES
+  sheared-slippery sheared-frictionless no-history polydisperse drift-kept)
+add_cases(ledger-oracle cases/ledger_oracle.py LABEL case RANKS 1 2 CASES
+  sheared sheared-with-tangential-damping contacts-open-and-close through-a-flip under-pressure-control)
+add_cases(ledger cases/ledger.py LABEL case RANKS 1 CASES
+  two-spheres two-flat two-long-3 two-triaxial two-spheres-default two-long-1.5-superquadric order-spheres order-flat order-long-1.5 order-long-3
+  known-collision hooke no-history tangential-damping tangential-off limit-force curvature rolling-cdt rolling-epsd rolling-epsd2
+  rolling-superquadric sheared-0.33-mu-0 sheared-0.33-mu-0.4 sheared-0.33-mu-10 sheared-1.5-mu-0 sheared-1.5-mu-0.4 sheared-1.5-mu-10
+  sheared-3-mu-0 sheared-3-mu-0.4 sheared-3-mu-10 pressed-0.33 pressed-1 pressed-3 pressed-spheres pressed-dilute pressed-along-the-flow
+  lists reopening-spheres reopening-stale-springs reopening-spheroids step-mode-is-the-trapezium superquadric)
+add_cases(ledger cases/ledger.py LABEL case RANKS 1 2 CASES
+  two-long-1.5 polydisperse-two-types wraps flip runs groups falling undisturbed rates-add-up restart-continues)
+add_cases(ledger cases/ledger.py LABEL case RANKS 1 2 4 CASES pressed-1.5)
+add_cases(ledger cases/ledger.py LABEL case RANKS 2 4 CASES same-spheres same-spheroids)

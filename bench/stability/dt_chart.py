@@ -85,8 +85,8 @@ def draw_flows(axis):
 
 def draw():
     figure, axes = plt.subplots(2, 2, figsize=(9.6, 7.2), constrained_layout=True)
-    draw_limits(axes[0, 0], "1e-5", r"a  packings under $10^{-5} E$ (overlap 0.1 %)")
-    draw_limits(axes[0, 1], "1e-3", r"b  packings under $10^{-3} E$ (overlap 1 to 2 %)")
+    draw_limits(axes[0, 0], "1e-5", r"a  packings under $10^{-5} E$ (overlaps 0.03 to 0.08 %)")
+    draw_limits(axes[0, 1], "1e-3", r"b  packings under $10^{-3} E$ (0.7 to 1.8 %)")
     draw_pairs(axes[1, 0])
     draw_flows(axes[1, 1])
     handles = [Line2D([], [], color=colour, label=f"$e = {e}$") for e, colour in zip(SHOWN, RUN_COLOURS)]

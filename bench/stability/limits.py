@@ -30,11 +30,11 @@ class Lattice:
     """Face-centred, two sizes, overlapping by 2 %, displaced, turned and moving at random; always the same but for alpha."""
 
     CELLS = 4
-    SIZES = (1.0, 1.05)
 
-    def __init__(self):
+    def __init__(self, sizes=(1.0, 1.05)):
+        self.sizes = sizes
         random = np.random.default_rng(11)
-        cell = 2 * math.sqrt(2) * 0.98 * np.mean(self.SIZES)
+        cell = 2 * math.sqrt(2) * 0.98 * np.mean(sizes)
         basis = np.array([[0, 0, 0], [0, 0.5, 0.5], [0.5, 0, 0.5], [0.5, 0.5, 0]])
         corners = np.stack(np.meshgrid(*[np.arange(self.CELLS)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
         places = (corners[:, None] + basis + 0.25).reshape(-1, 3) * cell
@@ -47,7 +47,7 @@ class Lattice:
         """Commands that make the grains; alpha None makes spheres of atom_style sphere."""
         with open(path, "w") as file:
             for k, place in enumerate(self.places):
-                a = self.SIZES[k % 2]
+                a = self.sizes[k % 2]
                 shape = (f"diameter {2 * a!r} density 1000" if alpha is None else
                          f"shape {a!r} {a!r} {alpha * a!r} blockiness 2 2 density 1000 quat_direct " + words(self.quaternions[k]))
                 motion = " ".join(f"{n} {v!r}" for n, v in zip(("vx", "vy", "vz", "omegax", "omegay", "omegaz"),
@@ -82,30 +82,34 @@ def state(runner, lattice, alpha, law, mover):
     shots = snapshots(runner.work / "alpha.dump")
     first, last = shots[min(shots)], shots[max(shots)]
     return {"force": first[:, :3], "torque": first[:, 3:6], "force_40": last[:, :3], "torque_40": last[:, 3:6], "place_40": last[:, 6:9],
-            "spin_40": last[:, 12:15], **dict(zip(ENERGIES, rows[-1, 1:12])), "U_n_start": rows[0, 1]}, rows[-1]
+            "spin_40": last[:, 12:15], **dict(zip(ENERGIES, rows[-1, 1:12]))}, rows[-1]
+
+
+VECTORS = ("force", "torque", "force_40", "torque_40", "place_40", "spin_40")
+
+
+def distances(found, reference):
+    """From one state to another: vectors in rms, relative (torques at the start to the forces, places to 1 m), energies over all that was
+    dissipated."""
+    scale = {"torque": rms(reference["force"]), "place_40": 1.0}
+    vectors = [rms(found[n] - reference[n]) / scale.get(n, rms(reference[n])) for n in VECTORS]
+    return vectors + [abs(found[n] - reference[n]) / (reference["D_n"] + reference["D_t"]) for n in ENERGIES]
 
 
 def alpha(runner):
-    """Distances from the state of alpha = 1 (exactly), relative: vectors in rms, energies over all that was dissipated."""
-    names = ("force", "torque", "force_40", "torque_40", "place_40", "spin_40")
-    table = Table("limits_alpha", 4, ("law", "mover", "side", "deviation", *names, "U_n_start", *ENERGIES, "relative_residual", "contacts"))
-    lattice = Lattice()
-    sphere = state(runner, lattice, None, "default", "nve/sphere") if not table.has("gaussian", "nve/spheroid", "sphere", "0") else None
+    """Distances from the state of alpha = 1 exactly; two rows for atom_style sphere, with the two sizes and with one."""
+    table = Table("limits_alpha", 4, ("law", "mover", "side", "deviation", *VECTORS, *ENERGIES, "relative_residual", "contacts"))
     for law, mover in ((law, mover) for law in LAWS for mover in MOVERS):
-        reference = None
-        for side, deviation in [("sphere", "0")] + [(s, d) for d in DEVIATIONS for s in ("below", "above")]:
-            if table.has(law, mover, side, deviation):
-                continue
-            reference = reference or state(runner, lattice, 1.0, LAWS[law], mover)[0]
-            if side == "sphere":
-                found, row = sphere or state(runner, lattice, None, "default", "nve/sphere")
-            else:
+        for side, lattice in (("sphere", Lattice()), ("sphere of one size", Lattice((1.0, 1.0)))):
+            if not table.has(law, mover, side, "0"):
+                found, row = state(runner, lattice, None, "default", "nve/sphere")
+                table.add(law, mover, side, "0", *distances(found, state(runner, lattice, 1.0, LAWS[law], mover)[0]), row[13], row[15])
+        lattice, reference = Lattice(), None
+        for side, deviation in ((s, d) for d in DEVIATIONS for s in ("below", "above")):
+            if not table.has(law, mover, side, deviation):
+                reference = reference or state(runner, lattice, 1.0, LAWS[law], mover)[0]
                 found, row = state(runner, lattice, 1 + float(deviation) * (1 if side == "above" else -1), LAWS[law], mover)
-            scale = {"torque": rms(reference["force"]), "place_40": 1.0}
-            vectors = [rms(found[n] - reference[n]) / scale.get(n, rms(reference[n])) for n in names]
-            lost = reference["D_n"] + reference["D_t"]
-            energies = [abs(found[n] - reference[n]) / lost for n in ("U_n_start", *ENERGIES)]
-            table.add(law, mover, side, deviation, *vectors, *energies, row[13], row[15])
+                table.add(law, mover, side, deviation, *distances(found, reference), row[13], row[15])
 
 
 def rms(vectors):
