@@ -109,7 +109,7 @@ def step_axis(axis, ticks):
 
 def floor_label(axis, value, text):
     axis.axhline(value, color="0.6", linestyle=":", linewidth=1)
-    axis.annotate(text, (0.98, value), xycoords=("axes fraction", "data"), ha="right", va="bottom", fontsize=8, color="0.4")
+    axis.annotate(text, (1.0, value), xycoords=("axes fraction", "data"), ha="left", va="center", fontsize=8, color="0.4")
 
 
 def draw_step(results, path):
@@ -137,7 +137,7 @@ def draw_step(results, path):
         found = [(fraction, *long_errors(results, quantity.replace("ledger", "step"), name)) for fraction, name in results.steps("long")
                  if name != FINEST_LONG]
         points(long, [one[0] for one in found], [(abs(one[1]), one[2]) for one in found], color=COLOURS[quantity], marker="o", label=label)
-    long.set_title("long runs against those of step 0.1, all $\\mu_p$", fontsize=9)
+    long.set_title("long runs against those of step 0.1, all $\\mu_p$; powers by mode step", fontsize=9)
     long.legend(fontsize=8, loc="lower left")
     for axis in axes.flat:
         step_axis(axis, (0.01, 0.02, 0.05, 0.1, 0.2, 0.5))
@@ -172,13 +172,16 @@ def draw_cost(results, path):
             pairs = [pooled(results, quantity, name, frictions, window) for name in names]
             points(axes[1], times, [(abs(value), error) for value, error in pairs], color=COLOURS[quantity], marker="o", linestyle=line,
                    label=label if line == "-" else None)
-    axes[1].set_ylim(1e-7, 0.1)
+    axes[1].set_ylim(1e-8, 0.1)
     axes[1].set_title(r"runs from the same states ($\mu_p$ = 0 and 0.4; dashed: 10)", fontsize=9)
     for level in (0.01, 0.001):
         floor_label(axes[1], level, f"{100 * level:g} %")
-    axes[1].legend(fontsize=8)
+    axes[1].legend(fontsize=8, ncols=4, loc="lower center")
+    ticks = (0.2, 0.5, 1, 2, 5, 10)
     for axis in axes:
         axis.set_xscale("log")
+        axis.set_xticks(ticks, labels=[f"{tick:g}" for tick in ticks])
+        axis.set_xticks([], minor=True)
         axis.set_yscale("log")
         axis.set_xlabel("time per unit of strain / default")
     axes[0].set_ylabel("relative error")
@@ -286,12 +289,15 @@ def print_steps(results):
         for frictions, window in PAIRS:
             for quantity in MEASURES:
                 cells.append("0" if name == "fraction 0.01" else percent(*pooled(results, quantity, name, frictions, window)))
-        for quantity in MEASURES:
-            known = any(name == other for _, other in results.steps("long") if other != FINEST_LONG)
-            cells.append(percent(*long_errors(results, quantity.replace("ledger", "step"), name)) if known else "")
         rows.append(cells)
-    table("Time step, errors in %", ["dt / T_R", "time", *(f"G_dt, alpha {a:g}" for a in ALPHAS), *(f"{mu}: {q}" for mu in ("mu_p 0, 0.4", "mu_p 10") for q in MEASURES),
-                                     *(f"long: {q}" for q in MEASURES)], rows)
+    table("Time step, errors in %", ["dt / T_R", "time", *(f"G_dt, alpha = {a:g}" for a in ALPHAS),
+                                     *(f"mu_p {mu}: {q}" for mu in ("0, 0.4", "10") for q in MEASURES)], rows)
+
+
+def print_long(results):
+    rows = [[f"{fraction:g}", *(percent(*long_errors(results, quantity.replace("ledger", "step"), name)) for quantity in MEASURES)]
+            for fraction, name in results.steps("long") if name != FINEST_LONG]
+    table("Long runs, differences from those of step 0.1 in %", ["dt / T_R", *MEASURES], rows)
 
 
 def print_worst(results):
@@ -360,7 +366,7 @@ def main():
     for draw, name in ((draw_step, "accuracy_step"), (draw_cost, "accuracy_cost"), (draw_divergence, "accuracy_divergence"),
                        (draw_sampling, "accuracy_sampling"), (draw_modes, "dissipation_modes")):
         draw(results, images / f"{name}.png")
-    for show in (print_times, print_costs, print_steps, print_worst, print_variants, print_modes, print_modes_by_step, print_sampling):
+    for show in (print_times, print_costs, print_steps, print_worst, print_long, print_variants, print_modes, print_modes_by_step, print_sampling):
         show(results)
 
 

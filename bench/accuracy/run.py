@@ -4,7 +4,7 @@
 
     run.py build/release/bin/grainscope --scratch folder
 
-Runs the grid below on one core, one run after the other (about 45 minutes of processor time), and writes results.csv beside this script.
+Runs the grid below on one core, one run after the other (about 45 minutes), and writes results.csv beside this script.
 What the folder holds already is not run again. chart.py draws the results.
 """
 import argparse
@@ -182,12 +182,18 @@ def all_runs():
 
 
 HEADER = """\
-# Written by run.py. Columns: study, flow (alpha, mu_p, I, e), setting, at, quantity, value, standard error (empty: none). Lengths of time are told as strains.
-# modes, long: means of single runs. mu_eff, phi, Z [-], P [target]; powers <mode>_n, <mode>_t [rate P volume]; differences of modes, G_*, residual [D_n + D_t].
-# paired: error over the strain `at` against the run of the finest step (steps) or the default (all else) from the same start:
-#   mu_eff, phi, P relative; ledger_n, ledger_t [D_n + D_t]; mean over the starts. account: G_*, residual [D_n + D_t], of the same runs.
-# divergence: rms difference of the shear stress of rows from that of step 0.05, or of the default [its mean], at the strain `at` since the start. sampling: relative errors of means.
-# cost: relative time [default], error half the range of the quartiles; seconds, steps, neighbour lists per unit of strain. times: T_R, T_H [1/rate].
+# Written by run.py. Columns: study, flow (alpha, mu_p, I, e), setting, at, quantity, value, standard error (empty: none).
+# times: T_R, T_H [1/rate].
+# modes, long: means of single runs. mu_eff, phi, Z [-], P [target]; powers <mode>_n, <mode>_t [rate P volume];
+#   differences of modes, G_*, residual [D_n + D_t].
+# paired: error of means over the strain `at`, against the run of the finest step (steps) or the default (all else) from the same
+#   start: mu_eff, phi, P relative; ledger_n, ledger_t [D_n + D_t]; mean over the starts.
+# account: G_*, residual [D_n + D_t] of the same runs.
+# divergence: rms difference of the shear stress from that of step 0.05 (steps) or of the default (all else) [its mean], at the
+#   strain `at` since the start.
+# sampling: relative errors of means over the strain `at`.
+# cost: relative time [default] of the quickest of the rounds, error: how much slower the second quickest was; processor seconds,
+#   steps, neighbour lists per unit of strain.
 study,alpha,mu,I,e,setting,at,quantity,value,error
 """
 

@@ -20,7 +20,7 @@ def draw_alpha(axis):
             deviation, value = column(found, "deviation"), column(found, name)
             axis.plot(deviation[value > 0], value[value > 0], color=colour, marker="o", markersize=4, markerfacecolor=face, linewidth=0.8)
     axis.axvline(1e-9, color="0.6", linewidth=4, alpha=0.4, zorder=0)
-    axis.text(1.3e-9, 3e-13, "equal below", color="0.4", fontsize=9, rotation=90, va="bottom")
+    axis.text(1.6e-9, 2e-13, "equal semi-axes below", color="0.4", fontsize=9, va="bottom")
     axis.set(xscale="log", yscale="log", xlabel=r"$|\alpha - 1|$", ylabel=r"distance from $\alpha = 1$", title=r"a  towards the sphere")
     axis.legend(handles=[Line2D([], [], color=colour, marker="o", markersize=4, label=label)
                          for label, colour in zip(QUANTITIES.values(), RUN_COLOURS)], fontsize=8, loc="upper left")

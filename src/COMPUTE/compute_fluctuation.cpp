@@ -3,6 +3,7 @@
 #include "arguments.h"
 #include "fluctuations.h"
 #include "grain_shape.h"
+#include "range_warning.h"
 #include "rows.h"
 #include "atom.h"
 #include "update.h"
@@ -20,11 +21,15 @@ namespace {
 
 const int width = 5;
 
+// A third of what a flow has that is sheared in one thin layer only, 1/(2 sqrt 3).
+const double straight_enough = 0.1;
+
 bool is_positive(double x) { return x > 0.0; }
 
 }
 
 struct ComputeFluctuation::Impl {
+  grainscope::RangeWarning bent;
   MeanFlow flow;
   int layers = 10;
   double diameter = 0.0;  // 0: the mean of the group
@@ -128,6 +133,10 @@ void ComputeFluctuation::compute_vector() {
   const double unit = rate * box.edges(across, across);
   vector[12] = std::sqrt(squares / layers) / unit;
   vector[13] = vector[along] * std::sqrt(impl_->layers / n) / unit;
+  impl_->bent.watch(lmp, vector[12] > std::max(straight_enough, 5.0 * vector[13]), 
+                    "compute fluctuation: the velocity profile is off the box's flow by %.3g of rate x L (rms over layers; limit %g; a flow in one thin "
+                    "layer has 0.29): what is measured against that flow is not fluctuation alone. Look for a shear band, or use 'flow layers'",
+                    vector[12], straight_enough);
 }
 
 double ComputeFluctuation::compute_scalar() {

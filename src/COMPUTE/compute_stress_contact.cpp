@@ -18,6 +18,13 @@
 
 using namespace LAMMPS_NS;
 
+namespace {
+
+// Bilotto et al. 2025, Sec. II: above it results do not depend on the stiffness.
+const double hard_grains = 1.1e3;
+
+}
+
 ComputeStressContact::ComputeStressContact(LAMMPS *lmp, int &iarg, int narg, char **arg)
     : ContactCompute(lmp, iarg, narg, arg), sums_(new grainscope::StressSums) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
@@ -115,7 +122,10 @@ void ComputeStressContact::compute_vector() {
     stiffness_ = flattest_shape() * std::pow(softest_modulus(), 2.0 / 3.0);
     stiffness_of_build_ = neighbor->lastcall;
   }
-  *out++ = stiffness_ * std::pow(per_pressure, 2.0 / 3.0);
+  const double kappa = stiffness_ * std::pow(per_pressure, 2.0 / 3.0);
+  *out++ = kappa;
+  soft_.watch(lmp, pressure > 0.0 && kappa < hard_grains, "compute stress/contact: the stiffness number kappa is %.4g, below the hard-grain limit of %g: results depend on how stiff the "
+              "grains are. Stiffer grains, or a lower pressure", kappa, hard_grains);
   for (int k = 0; k < size_vector; k++) vector[k] += 0.0;  // no negative zeros
   scalar = pressure + 0.0;
 }

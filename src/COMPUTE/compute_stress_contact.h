@@ -9,6 +9,7 @@ ComputeStyle(stress/contact,ComputeStressContact)
 #define LMP_COMPUTE_STRESS_CONTACT_H
 
 #include "contact_compute.h"
+#include "range_warning.h"
 #include <memory>
 
 namespace grainscope { struct StressSums; }
@@ -36,6 +37,7 @@ class ComputeStressContact : public grainscope::ContactCompute {
   bool needs_details() const { return false; }
 
  private:
+  grainscope::RangeWarning soft_;
   std::unique_ptr<grainscope::StressSums> sums_;
   double stiffness_ = 0.0;             // kappa P^(2/3), as of the neighbour list built at the step below
   bigint stiffness_of_build_ = -1;

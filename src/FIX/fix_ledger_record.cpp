@@ -2,6 +2,7 @@
 #include "fix_ledger_record.h"
 #include "box_state.h"
 #include "contact_observer.h"
+#include "grain_shape.h"
 #include "ledger_account.h"
 #include "pair_gran_insitu.h"
 #include "spheroid_rotation.h"
@@ -38,16 +39,6 @@ EnergyLedger::Grain grain(const Atom *atom, int i) { return {i, atom->rmass[i], 
 grainscope::LedgerFrame frame_of(LAMMPS *lmp) {
   const BoxState box(lmp);
   return {box.velocity_gradient, box.centre, box.edges.diagonal(), box.edge_velocities.diagonal()};
-}
-
-/** Rotation from the frame of a grain's principal axes into the laboratory's. */
-Matrix3d rotation(const double q[4]) {
-  const double w = q[0], x = q[1], y = q[2], z = q[3];
-  Matrix3d r;
-  r << w * w + x * x - y * y - z * z, 2.0 * (x * y - w * z), 2.0 * (x * z + w * y),
-       2.0 * (x * y + w * z), w * w - x * x + y * y - z * z, 2.0 * (y * z - w * x),
-       2.0 * (x * z - w * y), 2.0 * (y * z + w * x), w * w - x * x - y * y + z * z;
-  return r;
 }
 
 }
@@ -158,9 +149,9 @@ void FixLedgerRecord::coming_spin(int i, double momentum[3], double omega_after[
     momentum[k] = atom->angmom[i][k];
     kicked[k] = momentum[k] + half * torque[k];
   }
-  const double *inertia = atom->inertia[i], *q = atom->quaternion[i];
-  if (grainscope::is_symmetric_top(inertia)) return grainscope::angular_velocity(inertia, kicked, q, omega_after);
-  const Matrix3d r = rotation(q);
+  const double *inertia = atom->inertia[i];
+  if (grainscope::is_symmetric_top(inertia)) return grainscope::angular_velocity(inertia, kicked, atom->quaternion[i], omega_after);
+  const Matrix3d r = grainscope::orientation(*atom, i).toRotationMatrix();
   Map<Vector3d>(omega_after + 0) = r * (r.transpose() * Map<const Vector3d>(kicked)).cwiseQuotient(Map<const Vector3d>(inertia));
 }
 

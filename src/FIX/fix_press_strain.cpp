@@ -4,6 +4,7 @@
 #include "pair_gran_insitu.h"
 #include "peculiar_motion.h"
 #include "press_strain_settings.h"
+#include "range_warning.h"
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
@@ -25,6 +26,8 @@ using grainscope::Tilt;
 using Every = grainscope::PressStrainSettings::Every;
 
 namespace {
+
+const double often_clipped = 0.2;  // of the inputs, in steady state: by gain auto none are
 
 /** Value of the variable that `keyword` names. */
 double value_of(LAMMPS *lmp, const char *keyword, const Quantity &quantity) {
@@ -61,6 +64,9 @@ struct FixPressStrain::Impl {
   NetworkResponse window;          // the same since the last input
   double window_steps = 0.0;
   double strain = 0.0, velocity = 0.0, averaged_pressure = 0.0, inputs = 0.0, clipped = 0.0;
+  double recently_clipped = 1.0;   // of about a hundred inputs: a start is clipped
+  bool settled = false;            // clipping has ceased once
+  grainscope::RangeWarning clipping;
   bigint pressure_step = -1;
   double pressure = 0.0;
 };
@@ -234,8 +240,10 @@ void FixPressStrain::end_of_step() {
 
   evaluate_variables();
   if (my.settings.shear) my.strain += std::fabs(my.settings.rate.value) * update->dt;
-  my.box.advance();
   if (my.intervals.advance(progress_of_a_step())) take_input();
+  // The box moves as its images will be told to move in the coming step: the springs of contacts across faces follow velocities, overlaps the box.
+  my.box.set_rates(my.velocity, my.settings.rate.value);
+  my.box.advance();
   my.box.set_rates(my.velocity, my.settings.rate.value);
   plan_flip();
 }
@@ -260,6 +268,11 @@ void FixPressStrain::take_input() {
   my.velocity = input.velocity;
   my.inputs += 1.0;
   if (input.clipped) my.clipped += 1.0;
+  my.recently_clipped += 0.01 * ((input.clipped ? 1.0 : 0.0) - my.recently_clipped);
+  my.settled = my.settled || (my.inputs >= 100.0 && my.recently_clipped < often_clipped / 4.0);
+  my.clipping.watch(lmp, my.settled && my.recently_clipped > often_clipped,
+                    "fix press/strain: %.2g of the last hundred inputs were clipped (limit %g), long after the start: the pressure is not under control. "
+                    "Use gain auto, a smaller gain or a shorter interval, or raise 'limit' and 'maxrate'", my.recently_clipped, often_clipped);
 }
 
 /** Collective, once per evaluation; the last value when the pair style has been replaced since. */

@@ -17,11 +17,23 @@ inline Eigen::Vector3d semi_axes(const LAMMPS_NS::Atom &atom, int i) {
 /** Diameter of the sphere of the ellipsoid's volume. */
 inline double equivalent_diameter(const LAMMPS_NS::Atom &atom, int i) { return 2.0 * std::cbrt(semi_axes(atom, i).prod()); }
 
+/** Turns the frame of the principal axes of superquadric i into the laboratory's. */
+inline Eigen::Quaterniond orientation(const LAMMPS_NS::Atom &atom, int i) {
+  const double *q = atom.quaternion[i];
+  return {q[0], q[1], q[2], q[3]};
+}
+
+/** Inertia tensor in the laboratory frame. */
+inline Eigen::Matrix3d inertia_tensor(const LAMMPS_NS::Atom &atom, int i) {
+  if (!atom.superquadric_flag) return 0.4 * atom.rmass[i] * atom.radius[i] * atom.radius[i] * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d r = orientation(atom, i).toRotationMatrix();
+  return r * Eigen::Map<const Eigen::Vector3d>(atom.inertia[i]).asDiagonal() * r.transpose();
+}
+
 /** 1/2 w.J w, J the inertia tensor of grain i and w in the laboratory frame. */
 inline double rotational_energy(const LAMMPS_NS::Atom &atom, int i, const Eigen::Vector3d &w) {
   if (!atom.superquadric_flag) return 0.2 * atom.rmass[i] * atom.radius[i] * atom.radius[i] * w.squaredNorm();
-  const double *q = atom.quaternion[i];
-  const Eigen::Vector3d body = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * w;
+  const Eigen::Vector3d body = orientation(atom, i).conjugate() * w;
   return 0.5 * body.cwiseAbs2().dot(Eigen::Map<const Eigen::Vector3d>(atom.inertia[i]));
 }
 

@@ -3,6 +3,7 @@
 #include "contact_observer.h"
 #include "ellipsoid_surface.h"
 #include "gran_insitu_models.h"
+#include "time_step_watch.h"
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
@@ -22,10 +23,11 @@ using grainscope::BoxState;
 using grainscope::ContactObserver;
 
 struct PairGranInsitu::Impl {
-  explicit Impl(LAMMPS *lmp) : observer(lmp), bodies(lmp) {}
+  explicit Impl(LAMMPS *lmp) : observer(lmp), bodies(lmp), watch(lmp) {}
   ContactObserver observer;
   grainscope::EllipsoidBodies bodies;
   grainscope::EllipsoidSurface surface;
+  grainscope::TimeStepWatch watch;
   std::unique_ptr<LIGGGHTS::PairStyles::IGranularPairStyle> loop;
   double **friction = nullptr;
   std::string models;              // the words of the command, for messages
@@ -149,6 +151,7 @@ void PairGranInsitu::init_style() {
   require_same_columns_in_restart();
   PairGranProxy::init_style();
   warn_of_stale_springs();
+  watch_time_step();
 }
 
 void PairGranInsitu::init_granular() {
@@ -191,6 +194,14 @@ void PairGranInsitu::warn_of_stale_springs() {
                           "next neighbour list: add the line 'neigh_modify contact_distance_factor 1.05'");
 }
 
+void PairGranInsitu::watch_time_step() {
+  if (!impl_->observer.elastic() || !atom->rmass) return;
+  using Law = ContactObserver::TangentialLaw;
+  const Law law = impl_->observer.law();
+  impl_->watch.begin_run(stressStrainExponent(), law == Law::history || law == Law::other);
+  impl_->observer.add(&impl_->watch);
+}
+
 /** Contact history is keyed by grain ID: with two images of one grain within reach of another it is ambiguous. */
 void PairGranInsitu::require_box_large_enough() {
   const BoxState box(lmp);
@@ -210,6 +221,7 @@ void PairGranInsitu::compute(int eflag, int vflag) {
   if (impl_->observer.begin(!update->setupflag)) update_image_shifts();
   PairGran::compute(eflag, vflag);
   impl_->observer.end();
+  impl_->watch.judge();
 }
 
 /** The host re-evaluates all contacts for compute pair/gran/local, and its surface model writes to the contact history while at it:

@@ -58,6 +58,7 @@ class PairGranInsitu : public PairGranProxy, public grainscope::EllipsoidOwner {
   void require_same_columns_in_restart();
   void require_box_large_enough();
   void warn_of_stale_springs();
+  void watch_time_step();
   void update_image_shifts();
 };
 

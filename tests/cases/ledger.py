@@ -61,7 +61,7 @@ def collide(shape, offset, spin, e, mu, fraction, ranks=1, body=(), steps=None, 
     surface = choices.pop("surface", "ellipsoid")
     packing = meeting(shape, offset, spin, "sphere" if surface == "default" else "superquadric")
     dt = fraction * rayleigh_time(min(shape))
-    steps = steps or math.ceil((2.0 if min(shape) > 0.5 else 3.0) * max(shape) / dt)
+    steps = steps or math.ceil((6.0 if min(shape) < 0.5 else 12.0 if max(shape) > 2.0 else 2.0 * max(shape)) / dt)
     deck = with_ledger(Deck(packing, material=Material(restitution=(e,), friction=(mu,)), timestep=dt, surface=surface,
                             extra=choices.pop("extra", UNDAMPED), **choices))
     # The triaxial grains turn by the host's integrator, which keeps the energy of a free grain to second order in dt only.

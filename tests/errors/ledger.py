@@ -30,9 +30,9 @@ def restarts(written, read, *words):
 INSERT = ["region top block 0.5 11 0.5 11 5 11 units box",
           "fix small all particletemplate/sphere 15485863 atom_type 1 density constant 1000 radius constant 0.05",
           "fix kinds all particledistribution/discrete 15485867 1 small 1.0",
-          "fix insert all insert/pack seed 32452843 distributiontemplate kinds insert_every 20 vel constant 0 0 0 "
-          "overlapcheck yes all_in yes particles_in_region 3 region top", "thermo_style custom step c_c", "thermo 10", "run 60"]
-ROLLING = ("coefficientRollingStiffness", "coefficientRollingViscousDamping")
+          "fix insert all insert/rate/region seed 32452843 distributiontemplate kinds nparticles 30 particlerate 1000 insert_every 20 "
+          "vel constant 0 0 0 overlapcheck yes all_in yes region top", "thermo_style custom step c_c", "thermo 10", "run 60"]
+ROLLING = ("coeffRollingStiffness", "coefficientRollingViscousDamping")
 CASES = {
     "word": refused("pair_style gran/insitu: 'ledger' must be on or off, got 'yes'", extra="ledger yes"),
     "word-missing": refused("pair_style gran/insitu: 'ledger' must be on or off, got the end of the command", extra="ledger"),

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_TIME_STEP_BOUND_H
+#define GRAINSCOPE_TIME_STEP_BOUND_H
+
+#include "contact.h"
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace grainscope {
+
+/** Springs K and dashpots C between grains, moved by kick, drift, kick with forces that see the velocity half a step ago, keep their energy bounded
+ *  where the largest eigenvalue of M^-1 (dt^2 K + 2 dt C) is below 4. Two estimates of it; see doc/stability.md. */
+namespace time_step {
+
+constexpr double limit = 4.0;
+/** Below this share the contact network cannot reach `limit` (smallest over all packings of doc/stability.md: 0.48). */
+constexpr double harmless = 0.4;
+
+/** (dt^2 k + 2 dt gamma_n)/m_eff of one contact [-], k the tangent stiffness; `exponent` as in NetworkResponse. */
+inline double of_contact(const Contact &c, double exponent, double effective_mass, double dt) {
+  return dt * (dt * exponent * c.normal_stiffness + 2.0 * c.damping_coefficient) / effective_mass;
+}
+
+/** One grain against its contacts, held still beyond them: twice its largest eigenvalue, over all grains, is never below the network's. */
+class GrainModes {
+ public:
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+  void add(const Contact &c, const Eigen::Vector3d &arm, double exponent, bool sticks) {
+    const Eigen::Matrix3d n = c.normal * c.normal.transpose(), t = Eigen::Matrix3d::Identity() - n;
+    const double k_t = sticks ? c.tangential_stiffness : 0.0, damping_t = c.sliding ? 0.0 : c.tangential_damping;
+    stiffness_ += seen_from(arm, exponent * c.normal_stiffness * n + k_t * t);
+    damping_ += seen_from(arm, c.damping_coefficient * n + damping_t * t);
+  }
+
+  struct Mode {
+    double value = 0.0;               // 2 x eigenvalue of M^-1 (dt^2 K + 2 dt C) [-]
+    double stiffness = 0.0, damping = 0.0;  // value = dt^2 stiffness + dt damping
+
+    /** The time step at which it is at the limit. */
+    double largest_step() const {
+      return stiffness > 0.0 ? (std::sqrt(damping * damping + 4.0 * limit * stiffness) - damping) / (2.0 * stiffness) : limit / damping;
+    }
+  };
+
+  /** `inertia`: tensor in the laboratory frame. */
+  Mode fastest(double mass, const Eigen::Matrix3d &inertia, double dt) const {
+    Matrix6 m = Matrix6::Zero();
+    m.topLeftCorner<3, 3>() = mass * Eigen::Matrix3d::Identity();
+    m.bottomRightCorner<3, 3>() = inertia;
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> modes(dt * dt * stiffness_ + 2.0 * dt * damping_, m);
+    const Eigen::Matrix<double, 6, 1> v = modes.eigenvectors().col(5);  // v.M v = 1
+    return {2.0 * modes.eigenvalues()[5], 2.0 * v.dot(stiffness_ * v), 4.0 * v.dot(damping_ * v)};
+  }
+
+ private:
+  Matrix6 stiffness_ = Matrix6::Zero(), damping_ = Matrix6::Zero();
+
+  /** B^T K B with B = (1, -[arm]x), which takes velocity and spin to the contact point. */
+  static Matrix6 seen_from(const Eigen::Vector3d &arm, const Eigen::Matrix3d &k) {
+    Eigen::Matrix<double, 3, 6> b;
+    b << 1.0, 0.0, 0.0, 0.0, arm[2], -arm[1],
+         0.0, 1.0, 0.0, -arm[2], 0.0, arm[0],
+         0.0, 0.0, 1.0, arm[1], -arm[0], 0.0;
+    return b.transpose() * k * b;
+  }
+};
+
+}
+
+}
+
+#endif

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "time_step_watch.h"
+#include "grain_shape.h"
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "update.h"
+#include <cstdio>
+
+namespace grainscope {
+
+namespace {
+
+const LAMMPS_NS::bigint steps_between_looks = 1000;
+
+}
+
+void TimeStepWatch::begin_run(double exponent, bool sticks) {
+  exponent_ = exponent;
+  sticks_ = sticks;
+  closer_ = false;
+  next_ = update->ntimestep + steps_between_looks;
+}
+
+bool TimeStepWatch::wants_contacts() {
+  look_ = Look::none;
+  if (told_ || update->ntimestep < next_) return false;
+  look_ = closer_ ? Look::grains : Look::contacts;
+  closer_ = false;
+  next_ = update->ntimestep + steps_between_looks;
+  return true;
+}
+
+void TimeStepWatch::begin_contacts() {
+  largest_ = 0.0;
+  grains_.assign(look_ == Look::grains ? atom->nlocal : 0, time_step::GrainModes());
+}
+
+void TimeStepWatch::add_contact(const Contact &c) {
+  if (look_ == Look::contacts) {
+    const double mi = atom->rmass[c.i], mj = atom->rmass[c.j];
+    largest_ = std::max(largest_, time_step::of_contact(c, exponent_, mi * mj / (mi + mj), update->dt));
+    return;
+  }
+  grains_[c.i].add(c, c.arm, exponent_, sticks_);
+  if (!c.ghost) grains_[c.j].add(c, c.arm + c.branch, exponent_, sticks_);
+}
+
+void TimeStepWatch::judge() {
+  if (look_ == Look::contacts) judge_contacts();
+  if (look_ == Look::grains) judge_grains();
+  look_ = Look::none;
+}
+
+void TimeStepWatch::judge_contacts() {
+  MPI_Allreduce(MPI_IN_PLACE, &largest_, 1, MPI_DOUBLE, MPI_MAX, world);
+  if (largest_ < time_step::harmless) return;
+  closer_ = true;
+  next_ = update->ntimestep + 1;
+}
+
+void TimeStepWatch::judge_grains() {
+  time_step::GrainModes::Mode worst;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const time_step::GrainModes::Mode mode = grains_[i].fastest(atom->rmass[i], inertia_tensor(*atom, i), update->dt);
+    if (mode.value > worst.value) worst = mode;
+  }
+  grains_.clear();
+  struct { double value; int rank; } largest = {worst.value, comm->me};
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
+  if (largest.value <= time_step::limit) return;
+  told_ = true;
+  double step = worst.value > 0.0 ? worst.largest_step() : 0.0;
+  MPI_Bcast(&step, 1, MPI_DOUBLE, largest.rank, world);
+  if (comm->me != 0) return;
+  char message[512];
+  snprintf(message, sizeof message, "pair_style gran/insitu: at time step %g the stiffest contacts make dt^2 K + 2 dt C over the mass %.3g (limit %g): energy may "
+           "grow, with tangential damping unseen. A time step below %.3g is safe; so are stiffer grains, or 'tangential_damping off'",
+           update->dt, largest.value, time_step::limit, step);
+  error->warning(FLERR, message);
+}
+
+}

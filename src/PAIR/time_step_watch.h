@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_TIME_STEP_WATCH_H
+#define GRAINSCOPE_TIME_STEP_WATCH_H
+
+#include "contact_sink.h"
+#include "time_step_bound.h"
+#include "lmptype.h"
+#include "pointers.h"
+#include <vector>
+
+namespace grainscope {
+
+/** Looks once in a thousand steps whether the time step is short enough for the contacts that there are, and warns once when it is not: first at single
+ *  contacts, and only where those come near, in the next step, at whole grains. */
+class TimeStepWatch : public ContactSink, private LAMMPS_NS::Pointers {
+ public:
+  explicit TimeStepWatch(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
+
+  /** A run begins. `exponent`, `sticks`: as in NetworkResponse. */
+  void begin_run(double exponent, bool sticks);
+  bool wants_contacts();
+  void begin_contacts();
+  void add_contact(const Contact &contact);
+  /** After the evaluation; collective on the steps that it wanted. */
+  void judge();
+
+ private:
+  enum class Look { none, contacts, grains } look_ = Look::none;
+  double exponent_ = 1.5;
+  bool sticks_ = true;
+  bool told_ = false;
+  LAMMPS_NS::bigint next_ = 0;
+  bool closer_ = false;                       // the next look is at grains
+  double largest_ = 0.0;                      // of this rank's contacts
+  std::vector<time_step::GrainModes> grains_;
+
+  void judge_contacts();
+  void judge_grains();
+};
+
+}
+
+#endif
