@@ -11,7 +11,7 @@ from deck import POISSON, YOUNG, Deck, thermo
 from packing import Grain, Packing
 from run import run
 
-WIDTH, LENGTH, DISTANCE, STEPS = 6.0, 8.0, 6.02, 300
+WIDTH, LENGTH, DISTANCE, STEPS = 6.0, 8.0, 6.02, 600
 EVERY, RESTITUTION, BETA = 5, 0.5, 0.5
 MODULUS = YOUNG / (2 * (1 - POISSON ** 2))
 
@@ -56,13 +56,13 @@ def by_hand(law, target, gain, mass, dt):
     history = [(length, rate, 0.0)]
     for step in range(1, STEPS + 1):
         window.append(Contact(law, length, rate, mass))
-        length += rate * dt
         pressure = history[-1][2]
         if step == 1 or step % EVERY == 0:
             pressure, stiffness, resistance = (np.mean([getattr(c, name) for c in window])
                                                for name in ("pressure", "stiffness", "resistance"))
             kp = BETA * length / (resistance + stiffness * EVERY * dt) if gain == "auto" else gain
             rate, window = kp * (pressure - target), []
+        length += rate * dt
         history.append((length, rate, pressure))
     return np.array(history).T
 

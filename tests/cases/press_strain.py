@@ -82,7 +82,7 @@ def follows_the_recursion(every, interval, gain, rest="", rate=0.05, target=3e5)
             require_close(table[VELOCITY][first:last], np.full(last - first, held), 0.0, "dL/dt between inputs", 1.0)
             mean = table[NOW][first + 1:last + 1].mean()
             require_close(table["f_press"][last], mean, 1e-12, f"averaged pressure at step {last}", target)
-            bound = table[LENGTH][last] * min(limit / lasts, maxrate)
+            bound = table[LENGTH][last - 1] * min(limit / lasts, maxrate)
             wanted = gain * (mean - target)
             held = table[VELOCITY][last]
             require_close(held, np.clip(wanted, -bound, bound), 1e-10, f"dL/dt at step {last}", bound)
@@ -123,7 +123,7 @@ def automatic_gain(ranks):
     sticking = rows["gamma_t"] * (rows["sliding"] == 0)
     damping = np.sum((rows["gamma_n"] * ny2 + sticking * (1 - ny2)) * ry2) / box.volume
     lasts = math.ceil(every / rate / deck.dt()) * deck.dt()
-    kp = 0.5 * table[LENGTH][1] / (damping + stiffness * lasts)
+    kp = 0.5 * table[LENGTH][0] / (damping + stiffness * lasts)
     require(table[CLIPPED][1] == 0.0, "the input was clipped: nothing is proved")
     require_close(table[VELOCITY][1], kp * (table["f_press"][1] - target), 1e-9, "dL/dt of the first input")
 
