@@ -126,8 +126,10 @@ add_cases(ledger cases/ledger.py LABEL case RANKS 1 CASES
   known-collision hooke no-history tangential-damping tangential-off limit-force curvature rolling-cdt rolling-epsd rolling-epsd2
   rolling-superquadric sheared-0.33-mu-0 sheared-0.33-mu-0.4 sheared-0.33-mu-10 sheared-1.5-mu-0 sheared-1.5-mu-0.4 sheared-1.5-mu-10
   sheared-3-mu-0 sheared-3-mu-0.4 sheared-3-mu-10 pressed-0.33 pressed-1 pressed-3 pressed-spheres pressed-dilute pressed-along-the-flow
-  lists reopening-spheres reopening-stale-springs reopening-spheroids step-mode-is-the-trapezium superquadric)
+  sheared-1-mu-0 sheared-1-mu-0.4 sheared-1-mu-10 pressed-1.5-mu-0 pressed-1.5-mu-10 energy-of-hertz energy-of-hooke energy-with-curvature
+  restart-before-the-first-step asked-within-a-step overlap-of-nothing lists reopening-spheres reopening-stale-springs reopening-spheroids step-mode-is-the-trapezium superquadric)
 add_cases(ledger cases/ledger.py LABEL case RANKS 1 2 CASES
   two-long-1.5 polydisperse-two-types wraps flip runs groups falling undisturbed rates-add-up restart-continues)
 add_cases(ledger cases/ledger.py LABEL case RANKS 1 2 4 CASES pressed-1.5)
 add_cases(ledger cases/ledger.py LABEL case RANKS 2 4 CASES same-spheres same-spheroids)
+add_cases(ranges cases/ranges.py LABEL case RANKS 1 2 CASES time-step time-step-in-short-runs time-step-unseen quiet kappa clipping unstable-from-the-start profile)

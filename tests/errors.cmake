@@ -44,5 +44,5 @@ add_cases(error-ellipsoid errors/ellipsoid.py LABEL error RANKS 1 2 4 CASES boxy
 add_cases(error-ledger errors/ledger.py LABEL error RANKS 1 CASES
   word word-missing word-twice takes-no-keywords ledger-off dissipation-ledger-off needs-gran-insitu cohesion rolling loose-grains
   other-integrator box-without-flow box-of-some-grains record-taken record-gone record-by-hand grains-inserted restart-without restart-with
-  pre-no-at-first)
+  pre-no-at-first time-step-changed)
 add_cases(error-ledger errors/ledger.py LABEL error RANKS 2 CASES ledger-off loose-grains grains-inserted restart-without restart-with)

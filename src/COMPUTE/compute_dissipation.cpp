@@ -35,7 +35,7 @@ ComputeDissipation::ComputeDissipation(LAMMPS *lmp, int &iarg, int narg, char **
   extvector = 1;
   size_vector = 5;
   vector = new double[size_vector]();
-  if (impl_->mode == Impl::Mode::ledger) FixLedgerRecord::make(lmp, id, igroup);
+  if (impl_->mode == Impl::Mode::ledger) FixLedgerRecord::make(lmp, id, igroup, "dissipation mode ledger");
 }
 
 ComputeDissipation::~ComputeDissipation() {

@@ -26,7 +26,7 @@ ComputeEnergyLedger::ComputeEnergyLedger(LAMMPS *lmp, int &iarg, int narg, char 
   std::fill(extlist, extlist + size, 1);
   extlist[relative] = 0;
   vector = new double[size]();
-  FixLedgerRecord::make(lmp, id, igroup);
+  FixLedgerRecord::make(lmp, id, igroup, "energy/ledger");
 }
 
 ComputeEnergyLedger::~ComputeEnergyLedger() {
@@ -35,7 +35,10 @@ ComputeEnergyLedger::~ComputeEnergyLedger() {
   delete[] extlist;
 }
 
-void ComputeEnergyLedger::init() { FixLedgerRecord::find(lmp, id); }
+void ComputeEnergyLedger::init() {
+  FixLedgerRecord::find(lmp, id);
+  invoked_vector = -1;  // what was asked at this step before belongs to another run
+}
 
 void ComputeEnergyLedger::compute_vector() {
   invoked_vector = update->ntimestep;
@@ -49,10 +52,10 @@ void ComputeEnergyLedger::compute_vector() {
     vector[rates + E::entries + k] = account.change[k] / update->dt;
   }
   double lost = 0.0;
-  for (int k = E::D_n; k <= E::D_rolling; k++) lost += account.totals[k];
+  for (int k = E::D_n; k <= E::D_rolling; k++) lost += std::fabs(account.totals[k]);
   vector[residual] = account.residual;
   vector[rates + residual] = account.last_residual / update->dt;
-  vector[relative] = lost > 0.0 ? account.residual / lost : 0.0;
+  vector[relative] = lost == 0.0 ? 0.0 : account.residual / lost;
 }
 
 double ComputeEnergyLedger::compute_scalar() {

@@ -13,10 +13,10 @@ ComputeStyle(energy/ledger,ComputeEnergyLedger)
 namespace LAMMPS_NS {
 
 /** Where the energy of a group goes: what came in, what is stored and what was lost since the compute was defined, and whether it adds up.
- *  scalar: |residual| over everything dissipated so far [-], intensive; 0 while nothing was.
- *  vector (35, extensive but for 18): 1-4 work W_shear, W_box, W_frame, W_other [energy]; 5-8 losses D_n, D_t, D_damp, D_rolling; 9-12 losses
- *  of the contact law itself G_k, G_p, G_n, G_open; 13-16 stored now U_n, U_t, K_tr, K_rot; 17 residual, 18 the same over D_n + D_t + D_damp + D_rolling;
- *  19-35 the rates of 1-17 in the last step [power]. Zero for an empty group. */
+ *  scalar: |residual| over |D_n| + |D_t| + |D_damp| + |D_rolling| [-], intensive; 0 while nothing was lost.
+ *  vector (37, extensive but for 19): 1-4 work W_shear, W_box, W_frame, W_other [energy]; 5-8 losses D_n, D_t, D_damp, D_rolling; 9-13 what the
+ *  contact law and the time step take G_k, G_p, G_n, G_open, G_dt; 14-17 stored now U_n, U_t, K_tr, K_rot; 18 residual, 19 the same over the
+ *  losses as above; 20-37 the rates of 1-18 in the last step [power], 0 before the first. Zero for an empty group. */
 class ComputeEnergyLedger : public Compute {
  public:
   ComputeEnergyLedger(class LAMMPS *lmp, int &iarg, int narg, char **arg);

@@ -104,7 +104,7 @@ GRAINSCOPE_INLINE void EnergyLedger::add_past(const Contact &c, const ContactPas
   contacts_.kept_elastic += w * past.elastic_work;
   double path = 0.5 * (past.elastic_force + elastic_force) * (c.overlap - past.overlap);
   const double base0 = of_overlap(past.overlap, law_.exponent), base1 = of_overlap(c.overlap, law_.exponent);
-  if (base0 > 0.0 && base1 > 0.0) {
+  if (past.overlap > 0.0 && c.overlap > 0.0) {
     // energy = factor d^2 base k, with k = k_n/base: what is left of the stiffness once the overlap is told
     const double change = c.normal_stiffness / base1 - past.elastic_force / (past.overlap * base0);
     path += 0.5 * energy_factor_ * (past.overlap * past.overlap * base0 + c.overlap * c.overlap * base1) * change;
@@ -138,7 +138,8 @@ void EnergyLedger::add(const Contact &c, double dt, bool springs_move) {
   add_part(elastic, elastic_force, normal, of_i, of_j);
   add_part(damping, c.normal_damping, normal, of_i, of_j);
   if (slot_[spring] >= 0) {
-    Vector3d force = c.tangential_force;
+    // In the first evaluation of a run the host does not turn springs into the contact plane: they may push along the normal too.
+    Vector3d force = c.force - (elastic_force + c.normal_damping) * c.normal;
     if (law_.viscous && !c.sliding && c.tangential_damping != 0.0) {
       const Vector3d viscous_force = -c.tangential_damping * c.tangential_velocity;
       force -= viscous_force;
@@ -212,9 +213,8 @@ void EnergyLedger::book_step(double dt) {
     totals_[k] += last_[k];
   }
   between_.fill(0.0);
-  stored_before_ = stored_;
-  stored_ = {contacts_.normal_energy, contacts_.spring_energy, ends_.k_tr, ends_.k_rot};
-  last_energy_ = sum(stored_);
+  stored_before_ = ended_;
+  ended_ = stored_ = {contacts_.normal_energy, contacts_.spring_energy, ends_.k_tr, ends_.k_rot};
   stepped_ = true;
 }
 
@@ -234,7 +234,7 @@ void EnergyLedger::start_of_step(const Grain &g, const double omega_after[3], co
   starts_.k_new += kinetic(now);
   if (driven_) starts_.k_carried += kinetic(v - carried_.flow(x));
   if (moved_) starts_.k_old += kinetic(v - frame_.flow(x));
-  if (!stepped_) starts_.k_rot += 0.5 * spin.dot(Map<const Vector3d>(momentum) - 0.5 * dt * torque);
+  starts_.k_rot += 0.5 * spin.dot(Map<const Vector3d>(momentum) - 0.5 * dt * torque);
 
   const Four velocity = four_of(p), turning = four_of(spin);
   Four other = four_of(force) * velocity + four_of(torque) * turning;
@@ -261,15 +261,19 @@ void EnergyLedger::book_start(double dt) {
   cleared_ = true;
   if (stepped_) {
     const double carried = driven_ ? starts_.k_carried : starts_.k_new, old = moved_ ? starts_.k_old : carried;
-    between_[W_other] += old - stored_[K_tr];
+    between_[W_other] += old - stored_[K_tr] + starts_.k_rot - stored_[K_rot];
     between_[W_box] += carried - old;
     between_[W_frame] += starts_.k_new - carried;
     stored_[K_tr] = starts_.k_new;
+    stored_[K_rot] = starts_.k_rot;
   } else {  // forces were evaluated anew: a run begins
     stored_ = {contacts_.normal_energy, contacts_.spring_energy, starts_.k_new, starts_.k_rot};
-    const double energy = sum(stored_);
-    if (started_) between_[W_other] += energy - last_energy_;
-    else start_energy_ = energy;
+    if (started_) {
+      between_[W_other] += sum(stored_) - sum(ended_);
+    } else {
+      start_energy_ = sum(stored_);
+      ended_ = stored_;
+    }
     started_ = true;
   }
   before_ = contacts_;
@@ -294,14 +298,14 @@ std::array<double, EnergyLedger::state_size> EnergyLedger::state() const {
   const Entries booked = totals();
   std::copy(booked.begin(), booked.end(), state.begin());
   state[entries] = start_energy_;
-  state[entries + 1] = last_energy_;
+  std::copy(ended_.begin(), ended_.end(), state.begin() + entries + 1);
   return state;
 }
 
 void EnergyLedger::restore(const std::array<double, state_size> &state) {
   std::copy(state.begin(), state.begin() + entries, totals_.begin());
   start_energy_ = state[entries];
-  last_energy_ = state[entries + 1];
+  std::copy(state.begin() + entries + 1, state.end(), ended_.begin());
   started_ = true;
 }
 

@@ -86,7 +86,7 @@ class EnergyLedger {
   /** Books what was changed between the steps, and takes the frame. */
   void book_start(double dt);
 
-  /** A run has begun and its first step has not: what is stored now is known after begin_start_of_step() to book_start(). */
+  /** The forces were evaluated and no step was booked since: at the beginning of a run, or in the middle of a step. */
   bool pending() const { return !stepped_; }
   /** This rank's part of everything booked, of the last step alone, and of what is stored now. */
   Entries totals() const;
@@ -98,7 +98,9 @@ class EnergyLedger {
   static double residual(const Entries &totals, double stored_change);
 
   /** State for restart files; sums over ranks may be given to one rank. */
-  static constexpr int state_size = entries + 2;
+  static constexpr int state_size = entries + 1 + stores;
+  /** False before the first step: there is no state yet. */
+  bool started() const { return started_; }
   std::array<double, state_size> state() const;
   void restore(const std::array<double, state_size> &state);
 
@@ -133,7 +135,8 @@ class EnergyLedger {
   bool started_ = false;               // there was a step before
   Entries totals_{}, last_{}, between_{};
   Stores stored_{}, stored_before_{};
-  double start_energy_ = 0.0, last_energy_ = 0.0;
+  Stores ended_{};                     // at the end of the last step
+  double start_energy_ = 0.0;
 
   double *wrenches_of(int i) { return &wrenches_[8 * static_cast<std::size_t>(i) * slots_]; }
   static double half_work(const Contacts &contacts, int part, double dt);

@@ -49,6 +49,7 @@ struct FixLedgerRecord::Impl {
   std::string name;             // of the compute, for messages
   double arrived = 0.0;         // grains on this rank at the ends of steps less those at their beginnings: over all ranks 0
   bool stepping = false;        // between the two
+  double dt = 0.0;
 };
 
 FixLedgerRecord::FixLedgerRecord(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), impl_(new Impl) {
@@ -75,9 +76,18 @@ void FixLedgerRecord::require_known_models() const {
   };
   if (!impl_->pair->observer().elastic()) fail("knows the energy of the normal models hertz, hooke, hertz/stiffness and hooke/stiffness only" + got);
   if (impl_->pair->observer().law() == ContactObserver::TangentialLaw::other) fail("knows the energy of 'tangential' off, no_history and history only" + got);
-  if (!matches("cohesion", {"off"})) fail("does not know the energy of cohesion" + got);
+  if (!matches("cohesion", {"off"})) fail("does not know the energy of cohesion: only 'cohesion off'" + got);
   if (!matches("rolling_friction", {"off", "cdt", "epsd", "epsd2"})) fail("knows the work of 'rolling_friction' off, cdt, epsd and epsd2 only" + got);
   if (!matches("surface", {"default", "superquadric", "ellipsoid"})) fail("knows 'surface' default, superquadric and ellipsoid only" + got);
+}
+
+/** Whether some grain belongs to the ledger's group and to another. Collective. */
+bool FixLedgerRecord::shares_grains(int other_groupbit) const {
+  int any = 0;
+  for (int i = 0; i < atom->nlocal; i++)
+    if ((atom->mask[i] & groupbit) && (atom->mask[i] & other_groupbit)) any = 1;
+  MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, world);
+  return any;
 }
 
 /** Kinetic energy is booked as velocity Verlet moves it: every grain of the group by one such fix, or not at all (frozen). */
@@ -87,22 +97,29 @@ void FixLedgerRecord::require_moved_by_verlet() const {
     const Fix *fix = modify->fix[k];
     if (one_of(fix->style, {"nve/sphere", "nve/superquadric", "nve/spheroid", "freeze"})) {
       moved |= fix->groupbit;
-    } else if (fix->time_integrate || fix->rigid_flag || strstr(fix->style, "multisphere") || !strncmp(fix->style, "move", 4)) {
-      if (group->count(fix->igroup) > 0)
+    } else if (fix->time_integrate || fix->rigid_flag || strstr(fix->style, "multisphere") || !strcmp(fix->style, "move")) {
+      if (shares_grains(fix->groupbit))
         fail(std::string("knows grains that are moved by fix nve/sphere, nve/superquadric or nve/spheroid, or frozen, got fix ") + fix->id + " of style " +
              fix->style);
     }
   }
   int loose = 0;
   for (int i = 0; i < atom->nlocal; i++)
-    if ((atom->mask[i] & groupbit) && !(atom->mask[i] & moved)) loose = 1;
-  MPI_Allreduce(MPI_IN_PLACE, &loose, 1, MPI_INT, MPI_MAX, world);
-  if (loose) fail("every grain of the group must be moved by fix nve/sphere, nve/superquadric or nve/spheroid, or be frozen; some are not");
+    if ((atom->mask[i] & groupbit) && !(atom->mask[i] & moved)) loose++;
+  MPI_Allreduce(MPI_IN_PLACE, &loose, 1, MPI_INT, MPI_SUM, world);
+  if (loose)
+    fail("every grain of the group must be moved by fix nve/sphere, nve/superquadric or nve/spheroid, or be frozen, got " + std::to_string(loose) +
+         " that are not");
 }
 
 void FixLedgerRecord::require_flowing_box() const {
-  if (domain->box_change && !domain->deform_vremap) fail("needs a box that carries velocities along where it deforms: 'remap v' in fix deform");
-  if (domain->deform_vremap && domain->deform_groupbit != 1) fail("needs fix deform to be of the group all");
+  for (int k = 0; k < modify->nfix; k++) {
+    const Fix *fix = modify->fix[k];
+    if (!fix->box_change_size && !fix->box_change_shape) continue;
+    const std::string which = std::string("fix ") + fix->id + " (" + fix->style + ")";
+    if (!domain->deform_vremap) fail("needs a box that carries velocities along where it deforms, 'remap v', got " + which + " without");
+    if (domain->deform_groupbit != 1) fail("needs a box that deforms for the group all, got " + which + " for the group " + group->names[fix->igroup]);
+  }
 }
 
 void FixLedgerRecord::init() {
@@ -171,6 +188,10 @@ double FixLedgerRecord::start_step(EnergyLedger &ledger) const {
 }
 
 void FixLedgerRecord::pre_initial_integrate() {
+  if (!impl_->ledger.pending() && impl_->dt != update->dt)
+    fail("the time step changed from " + std::to_string(impl_->dt) + " to " + std::to_string(update->dt) +
+         " without a new set-up of the run: the forces of one belong to the half steps of the other");
+  impl_->dt = update->dt;
   impl_->arrived -= start_step(impl_->ledger);
   impl_->stepping = true;
 }
@@ -195,7 +216,8 @@ grainscope::LedgerAccount FixLedgerRecord::account() const {
   grainscope::LedgerAccount sum;
   if (!impl_->pair) fail("was not set up: do not use 'pre no' in the first run with it");
   std::unique_ptr<E> ahead;  // as the first step of the run will begin
-  if (impl_->ledger.pending()) {
+  const bool begins = impl_->ledger.pending() && !impl_->stepping;
+  if (begins) {
     ahead.reset(new E(impl_->ledger));
     start_step(*ahead);
   }
@@ -216,12 +238,18 @@ grainscope::LedgerAccount FixLedgerRecord::account() const {
   take(sum.stored);
   take(sum.change);
   if (at[1] != 0.0)
-    fail("the group changed by " + std::to_string(static_cast<long>(at[1])) + " grains in the middle of a run: the ledger follows grains that stay");
+    fail("the group changed by " + std::to_string(static_cast<long>(at[1])) + " grains in the middle of a run: the ledger follows grains that stay. Define it after insertion; if none "
+         "was inserted or deleted, grains were lost: look at the time step");
   double change = 0.0, last_change = 0.0;
   for (int k = 0; k < E::stores; k++) {
     change += sum.stored[k];
     sum.change[k] = sum.stored[k] - sum.change[k];
     last_change += sum.change[k];
+  }
+  if (begins) {  // there is no last step
+    sum.last.fill(0.0);
+    sum.change.fill(0.0);
+    last_change = 0.0;
   }
   sum.residual = E::residual(sum.totals, change - *at);
   sum.last_residual = E::residual(sum.last, last_change);
@@ -230,11 +258,12 @@ grainscope::LedgerAccount FixLedgerRecord::account() const {
 
 std::string FixLedgerRecord::id_for(const char *compute) { return std::string(compute) + "_ledger"; }
 
-FixLedgerRecord *FixLedgerRecord::make(LAMMPS *lmp, const char *id, int igroup) {
+FixLedgerRecord *FixLedgerRecord::make(LAMMPS *lmp, const char *id, int igroup, const std::string &style) {
   const std::string record = id_for(id);
   if (lmp->modify->find_fix(record.c_str()) >= 0)
     lmp->error->all(FLERR, ("compute " + std::string(id) + " needs the fix ID '" + record + "' for its ledger, but it is taken").c_str());
-  const std::string words[4] = {record, lmp->group->names[igroup], "ledger/record", std::string("compute ") + id};
+  const std::string words[4] = {record, lmp->group->names[igroup], "ledger/record",
+                                std::string("compute ") + id + " (" + style + ")"};
   char *arg[4];
   for (int k = 0; k < 4; k++) arg[k] = const_cast<char *>(words[k].c_str());
   lmp->modify->add_fix(4, arg);
@@ -256,18 +285,23 @@ void FixLedgerRecord::forget(LAMMPS *lmp, const char *compute) {
   if (found >= 0 && dynamic_cast<FixLedgerRecord *>(lmp->modify->fix[found])) lmp->modify->delete_fix(id.c_str());
 }
 
-/** Summed over ranks, so that any number of them may continue. */
+/** Summed over ranks, so that any number of them may continue; the first number says whether there was a step yet. */
 void FixLedgerRecord::write_restart(FILE *file) {
   auto state = impl_->ledger.state();
   MPI_Allreduce(MPI_IN_PLACE, state.data(), state.size(), MPI_DOUBLE, MPI_SUM, world);
   if (comm->me != 0) return;
-  const int size = state.size() * sizeof(double);
+  const double started = impl_->ledger.started();
+  const int size = (1 + state.size()) * sizeof(double);
   fwrite(&size, sizeof size, 1, file);
-  fwrite(state.data(), 1, size, file);
+  fwrite(&started, sizeof started, 1, file);
+  fwrite(state.data(), sizeof(double), state.size(), file);
 }
 
 void FixLedgerRecord::restart(char *buffer) {
+  double started;
+  memcpy(&started, buffer, sizeof started);
+  if (started == 0.0) return;
   std::array<double, EnergyLedger::state_size> state{};
-  if (comm->me == 0) memcpy(state.data(), buffer, sizeof state);
+  if (comm->me == 0) memcpy(state.data(), buffer + sizeof started, sizeof state);
   impl_->ledger.restore(state);
 }

@@ -38,8 +38,8 @@ class FixLedgerRecord : public Fix, public grainscope::ContactSink {
   void begin_contacts();
   void add_contact(const grainscope::Contact &contact);
 
-  /** Makes the record of compute `id`, in its constructor. Collective. */
-  static FixLedgerRecord *make(class LAMMPS *lmp, const char *id, int igroup);
+  /** Makes the record of compute `id`, in its constructor; `style` is for messages. Collective. */
+  static FixLedgerRecord *make(class LAMMPS *lmp, const char *id, int igroup, const std::string &style);
   /** The record that was made, or an error when it is gone. */
   static FixLedgerRecord *find(class LAMMPS *lmp, const char *id);
   /** To be called by the compute's destructor. */
@@ -54,6 +54,7 @@ class FixLedgerRecord : public Fix, public grainscope::ContactSink {
 
   [[noreturn]] void fail(const std::string &message) const;
   void require_known_models() const;
+  bool shares_grains(int other_groupbit) const;
   void require_moved_by_verlet() const;
   void require_flowing_box() const;
   double start_step(grainscope::EnergyLedger &ledger) const;

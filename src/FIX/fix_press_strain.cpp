@@ -65,6 +65,7 @@ struct FixPressStrain::Impl {
   double window_steps = 0.0;
   double strain = 0.0, velocity = 0.0, averaged_pressure = 0.0, inputs = 0.0, clipped = 0.0;
   double recently_clipped = 1.0;   // of about a hundred inputs: a start is clipped
+  double recently_turned = 0.0, velocity_before = 0.0;  // clipped, and against the input before
   bool settled = false;            // clipping has ceased once
   grainscope::RangeWarning clipping;
   bigint pressure_step = -1;
@@ -270,8 +271,12 @@ void FixPressStrain::take_input() {
   if (input.clipped) my.clipped += 1.0;
   my.recently_clipped += 0.01 * ((input.clipped ? 1.0 : 0.0) - my.recently_clipped);
   my.settled = my.settled || (my.inputs >= 100.0 && my.recently_clipped < often_clipped / 4.0);
-  my.clipping.watch(lmp, my.settled && my.recently_clipped > often_clipped,
-                    "fix press/strain: %.2g of the last hundred inputs were clipped (limit %g), long after the start: the pressure is not under control. "
+  // A start is clipped one way; a loop that is not stable, one way and the other.
+  const bool turned = input.clipped && input.velocity * my.velocity_before < 0.0;
+  my.recently_turned += 0.01 * ((turned ? 1.0 : 0.0) - my.recently_turned);
+  my.velocity_before = input.velocity;
+  my.clipping.watch(lmp, (my.settled && my.recently_clipped > often_clipped) || my.recently_turned > often_clipped,
+                    "fix press/strain: %.2g of the last hundred inputs were clipped (limit %g), long after the start or one way and the other: the pressure is not under control. "
                     "Use gain auto, a smaller gain or a shorter interval, or raise 'limit' and 'maxrate'", my.recently_clipped, often_clipped);
 }
 

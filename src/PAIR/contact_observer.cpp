@@ -38,7 +38,7 @@ bool ContactObserver::begin(bool springs_move) {
     if (sink->wants_contacts()) listening_.push_back(sink);
   active_ = !listening_.empty() || knows_past();
   stamp_before_ = stamp_;
-  stamp_ = lmp->update->ntimestep + (runs_ % 1024) / 1024.0;
+  stamp_ = lmp->update->ntimestep + (runs_ % 1023 + 1) / 1024.0;  // never 0, which is what a new neighbour has
   if (active_) {
     box_ = BoxState(lmp);
     x_ = lmp->atom->x;
@@ -153,9 +153,9 @@ void ContactObserver::observe(const Sides &s, const LIGGGHTS::ContactModels::For
     c.arm = c.point - xi;
   }
   ContactPast past;
+  c.past = knows_past() ? &past : nullptr;
   if (knows_past()) {
     past = read_past(s);
-    c.past = &past;
     add_springs(s, sliding, force_on_i, c);
     write_past(s, c);
   }

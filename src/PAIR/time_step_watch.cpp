@@ -11,7 +11,7 @@ namespace grainscope {
 
 namespace {
 
-const LAMMPS_NS::bigint steps_between_looks = 1000;
+const int steps_between_looks = 1000;
 
 }
 
@@ -19,20 +19,20 @@ void TimeStepWatch::begin_run(double exponent, bool sticks) {
   exponent_ = exponent;
   sticks_ = sticks;
   closer_ = false;
-  next_ = update->ntimestep + steps_between_looks;
 }
 
 bool TimeStepWatch::wants_contacts() {
   look_ = Look::none;
-  if (told_ || update->ntimestep < next_) return false;
+  if (++steps_ < steps_between_looks && !closer_) return false;
   look_ = closer_ ? Look::grains : Look::contacts;
   closer_ = false;
-  next_ = update->ntimestep + steps_between_looks;
+  steps_ = 0;
   return true;
 }
 
 void TimeStepWatch::begin_contacts() {
   largest_ = 0.0;
+  damped_ = 0;
   grains_.assign(look_ == Look::grains ? atom->nlocal : 0, time_step::GrainModes());
 }
 
@@ -42,6 +42,7 @@ void TimeStepWatch::add_contact(const Contact &c) {
     largest_ = std::max(largest_, time_step::of_contact(c, exponent_, mi * mj / (mi + mj), update->dt));
     return;
   }
+  if (c.tangential_damping > 0.0) damped_ = 1;
   grains_[c.i].add(c, c.arm, exponent_, sticks_);
   if (!c.ghost) grains_[c.j].add(c, c.arm + c.branch, exponent_, sticks_);
 }
@@ -54,9 +55,7 @@ void TimeStepWatch::judge() {
 
 void TimeStepWatch::judge_contacts() {
   MPI_Allreduce(MPI_IN_PLACE, &largest_, 1, MPI_DOUBLE, MPI_MAX, world);
-  if (largest_ < time_step::harmless) return;
-  closer_ = true;
-  next_ = update->ntimestep + 1;
+  closer_ = largest_ >= time_step::harmless;
 }
 
 void TimeStepWatch::judge_grains() {
@@ -68,15 +67,18 @@ void TimeStepWatch::judge_grains() {
   grains_.clear();
   struct { double value; int rank; } largest = {worst.value, comm->me};
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
-  if (largest.value <= time_step::limit) return;
-  told_ = true;
+  if (largest.value <= std::max(time_step::limit, 2.0 * told_)) return;
+  told_ = largest.value;
+  MPI_Allreduce(MPI_IN_PLACE, &damped_, 1, MPI_INT, MPI_MAX, world);
   double step = worst.value > 0.0 ? worst.largest_step() : 0.0;
   MPI_Bcast(&step, 1, MPI_DOUBLE, largest.rank, world);
   if (comm->me != 0) return;
   char message[512];
-  snprintf(message, sizeof message, "pair_style gran/insitu: at time step %g the stiffest contacts make dt^2 K + 2 dt C over the mass %.3g (limit %g): energy may "
-           "grow, with tangential damping unseen. A time step below %.3g is safe; so are stiffer grains, or 'tangential_damping off'",
-           update->dt, largest.value, time_step::limit, step);
+  snprintf(message, sizeof message,
+           "pair_style gran/insitu: the time step %g is too long for the stiffest contacts: b = dt^2 K + 2 dt C over the mass is %.3g, limit %g: energy may be "
+           "made%s. Take a time step below %.3g, or stiffer grains%s (doc/stability.md)",
+           update->dt, largest.value, time_step::limit, damped_ ? ", and with tangential damping the motion does not show it" : "", step,
+           damped_ ? ", or 'tangential_damping off'" : "");
   error->warning(FLERR, message);
 }
 

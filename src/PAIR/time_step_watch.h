@@ -10,8 +10,8 @@
 
 namespace grainscope {
 
-/** Looks once in a thousand steps whether the time step is short enough for the contacts that there are, and warns once when it is not: first at single
- *  contacts, and only where those come near, in the next step, at whole grains. */
+/** Looks once in a thousand steps, whatever runs they are of, whether the time step is short enough for the contacts that there are, and warns when it
+ *  is not; again only when it is twice as bad. First at single contacts, and only where those come near, in the next step, at whole grains. */
 class TimeStepWatch : public ContactSink, private LAMMPS_NS::Pointers {
  public:
   explicit TimeStepWatch(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
@@ -28,10 +28,11 @@ class TimeStepWatch : public ContactSink, private LAMMPS_NS::Pointers {
   enum class Look { none, contacts, grains } look_ = Look::none;
   double exponent_ = 1.5;
   bool sticks_ = true;
-  bool told_ = false;
-  LAMMPS_NS::bigint next_ = 0;
+  double told_ = 0.0;                         // the value that was warned of
+  int steps_ = 0;                             // since the last look
   bool closer_ = false;                       // the next look is at grains
   double largest_ = 0.0;                      // of this rank's contacts
+  int damped_ = 0;                            // one of them has tangential damping
   std::vector<time_step::GrainModes> grains_;
 
   void judge_contacts();

@@ -10,7 +10,7 @@ from run import run
 
 SPHERES = dense_packing(atom_style="sphere")
 LEDGER = "compute c all energy/ledger"
-NAME = "compute c: "
+NAME = "compute c (energy/ledger): "
 
 
 def refused(*words, extra="ledger on", before=(), compute=LEDGER, after=("run 1",), **choices):
@@ -39,19 +39,21 @@ CASES = {
     "word-twice": refused("pair_style gran/insitu: 'ledger' is given twice", extra="ledger on ledger off"),
     "takes-no-keywords": refused("compute energy/ledger: takes no keywords, got 'rates'", compute=LEDGER + " rates"),
     "ledger-off": refused(NAME + "needs 'ledger on' in pair_style gran/insitu", "got 'model hertz tangential history", extra=""),
-    "dissipation-ledger-off": refused(NAME + "needs 'ledger on'", extra="", compute="compute c all dissipation mode ledger"),
-    "needs-gran-insitu": refused("compute c requires pair_style gran/insitu, got 'gran'", extra="", pair="gran"),
-    "cohesion": refused(NAME + "does not know the energy of cohesion, got 'model hertz tangential history cohesion sjkr'", cohesion="sjkr"),
+    "dissipation-ledger-off": refused("compute c (dissipation mode ledger): needs 'ledger on'", extra="", compute="compute c all dissipation mode ledger"),
+    "needs-gran-insitu": refused("compute c (energy/ledger) requires pair_style gran/insitu, got 'gran'", extra="", pair="gran"),
+    "cohesion": refused(NAME + "does not know the energy of cohesion: only 'cohesion off', got 'model hertz tangential history cohesion sjkr'", cohesion="sjkr"),
     "rolling": refused(NAME + "knows the work of 'rolling_friction' off, cdt, epsd and epsd2 only", "rolling_friction luding", rolling="luding",
                        before=[f"fix c{k} all property/global {name} peratomtypepair 1 1e5" for k, name in enumerate(ROLLING)]),
-    "loose-grains": refused(NAME + "every grain of the group must be moved by fix nve/sphere", before=["unfix integrate", "group few id 1:50",
+    "loose-grains": refused(NAME + "every grain of the group must be moved by fix nve/sphere", "got ", "that are not", before=["unfix integrate", "group few id 1:50",
                                                                                                "fix integrate few nve/sphere"]),
     "other-integrator": refused(NAME + "knows grains that are moved by fix nve/sphere", "got fix integrate of style nve/limit",
                                 before=["unfix integrate", "fix integrate all nve/limit radius_ratio 0.1"]),
-    "box-without-flow": refused(NAME + "needs a box that carries velocities along where it deforms: 'remap v' in fix deform",
+    "box-without-flow": refused(NAME + "needs a box that carries velocities along where it deforms, 'remap v', got fix shear (deform) without",
                                 before=["fix shear all deform 1 xy erate 0.01 remap x"]),
-    "box-of-some-grains": refused(NAME + "needs fix deform to be of the group all",
+    "box-of-some-grains": refused(NAME + "needs a box that deforms for the group all, got fix shear (deform) for the group few",
                                   before=["group few id 1:50", "fix shear few deform 1 xy erate 0.01 remap v"]),
+    "time-step-changed": refused(NAME + "the time step changed from", "without a new set-up of the run",
+                                 after=["run 5", "timestep 1e-4", "run 5 pre no"]),
     "record-taken": refused("compute c needs the fix ID 'c_ledger' for its ledger, but it is taken", before=["fix c_ledger all nve/noforce"]),
     "record-gone": refused("fix c_ledger, which keeps the ledger of compute c, is gone", after=["unfix c_ledger", "run 1"]),
     "record-by-hand": refused("fix ledger/record: is made by the computes that need it", compute="fix r all ledger/record"),
