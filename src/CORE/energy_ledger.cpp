@@ -256,8 +256,10 @@ void EnergyLedger::start_of_step(const Grain &g, const double omega_after[3], co
 }
 
 void EnergyLedger::book_start(double dt) {
-  for (int k = 0; k < parts; k++)
-    starts_.work[k] = -0.5 * dt * (sum_of_three(starts_.rate[k]) + on_diagonal(next_.gradient, contacts_.sums[k]) + off_diagonal(next_.gradient, contacts_.sums[k]));
+  for (int k = 0; k < parts; k++) {
+    const double flow = on_diagonal(next_.gradient, contacts_.sums[k]) + off_diagonal(next_.gradient, contacts_.sums[k]);
+    starts_.work[k] = -0.5 * dt * (sum_of_three(starts_.rate[k]) + flow);
+  }
   cleared_ = true;
   if (stepped_) {
     const double carried = driven_ ? starts_.k_carried : starts_.k_new, old = moved_ ? starts_.k_old : carried;

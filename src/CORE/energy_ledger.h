@@ -118,7 +118,10 @@ class EnergyLedger {
     double friction = 0.0, stiffening = 0.0, travel = 0.0, revived = 0.0;
   };
   struct Ends { double k_tr = 0.0, k_rot = 0.0, other[4] = {}; };  // arrays: three terms of a sum, dt/2 times
-  struct Starts { double rate[parts][4] = {}, work[parts] = {}, other[4] = {}, shear = 0.0, box = 0.0, k_old = 0.0, k_carried = 0.0, k_new = 0.0, k_rot = 0.0; };
+  struct Starts {
+    double rate[parts][4] = {}, work[parts] = {}, other[4] = {}, shear = 0.0, box = 0.0;
+    double k_old = 0.0, k_carried = 0.0, k_new = 0.0, k_rot = 0.0;  // in the frame of the last step, in that carried on, in the next
+  };
 
   LedgerLaw law_;
   double energy_factor_ = 0.4;         // U_n = energy_factor k_n overlap^2

@@ -75,7 +75,8 @@ void FixLedgerRecord::require_known_models() const {
     return false;
   };
   if (!impl_->pair->observer().elastic()) fail("knows the energy of the normal models hertz, hooke, hertz/stiffness and hooke/stiffness only" + got);
-  if (impl_->pair->observer().law() == ContactObserver::TangentialLaw::other) fail("knows the energy of 'tangential' off, no_history and history only" + got);
+  if (impl_->pair->observer().law() == ContactObserver::TangentialLaw::other)
+    fail("knows the energy of 'tangential' off, no_history and history only" + got);
   if (!matches("cohesion", {"off"})) fail("does not know the energy of cohesion: only 'cohesion off'" + got);
   if (!matches("rolling_friction", {"off", "cdt", "epsd", "epsd2"})) fail("knows the work of 'rolling_friction' off, cdt, epsd and epsd2 only" + got);
   if (!matches("surface", {"default", "superquadric", "ellipsoid"})) fail("knows 'surface' default, superquadric and ellipsoid only" + got);
@@ -118,7 +119,8 @@ void FixLedgerRecord::require_flowing_box() const {
     if (!fix->box_change_size && !fix->box_change_shape) continue;
     const std::string which = std::string("fix ") + fix->id + " (" + fix->style + ")";
     if (!domain->deform_vremap) fail("needs a box that carries velocities along where it deforms, 'remap v', got " + which + " without");
-    if (domain->deform_groupbit != 1) fail("needs a box that deforms for the group all, got " + which + " for the group " + group->names[fix->igroup]);
+    if (domain->deform_groupbit != 1)
+      fail("needs a box that deforms for the group all, got " + which + " for the group " + group->names[fix->igroup]);
   }
 }
 
@@ -238,8 +240,8 @@ grainscope::LedgerAccount FixLedgerRecord::account() const {
   take(sum.stored);
   take(sum.change);
   if (at[1] != 0.0)
-    fail("the group changed by " + std::to_string(static_cast<long>(at[1])) + " grains in the middle of a run: the ledger follows grains that stay. Define it after insertion; if none "
-         "was inserted or deleted, grains were lost: look at the time step");
+    fail("the group changed by " + std::to_string(static_cast<long>(at[1])) + " grains in the middle of a run: the ledger "
+         "follows grains that stay. Define it after insertion; if none was inserted or deleted, grains were lost: look at the time step");
   double change = 0.0, last_change = 0.0;
   for (int k = 0; k < E::stores; k++) {
     change += sum.stored[k];

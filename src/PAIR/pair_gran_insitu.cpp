@@ -94,9 +94,12 @@ void PairGranInsitu::settings(int narg, char **arg) {
 bool PairGranInsitu::take_ledger(std::vector<char *> &words) {
   const auto at = std::find_if(words.begin(), words.end(), [](const char *word) { return !strcmp(word, "ledger"); });
   if (at == words.end()) return false;
-  const std::string got = at + 1 == words.end() ? "" : at[1];
-  if (got != "on" && got != "off")
-    error->all(FLERR, ("pair_style gran/insitu: 'ledger' must be on or off, got " + (at + 1 == words.end() ? "the end of the command" : "'" + got + "'")).c_str());
+  const bool ends = at + 1 == words.end();
+  const std::string got = ends ? "" : at[1];
+  if (got != "on" && got != "off") {
+    const std::string told = ends ? "the end of the command" : "'" + got + "'";
+    error->all(FLERR, ("pair_style gran/insitu: 'ledger' must be on or off, got " + told).c_str());
+  }
   const auto next = words.erase(at, at + 2);
   if (std::any_of(next, words.end(), [](const char *word) { return !strcmp(word, "ledger"); }))
     error->all(FLERR, "pair_style gran/insitu: 'ledger' is given twice");

@@ -75,8 +75,8 @@ void TimeStepWatch::judge_grains() {
   if (comm->me != 0) return;
   char message[512];
   snprintf(message, sizeof message,
-           "pair_style gran/insitu: the time step %g is too long for the stiffest contacts: b = dt^2 K + 2 dt C over the mass is %.3g, limit %g: energy may be "
-           "made%s. Take a time step below %.3g, or stiffer grains%s (doc/stability.md)",
+           "pair_style gran/insitu: the time step %g is too long for the stiffest contacts: b = dt^2 K + 2 dt C over the mass is %.3g, limit %g: "
+           "energy may be made%s. Take a time step below %.3g, or stiffer grains%s (doc/stability.md)",
            update->dt, largest.value, time_step::limit, damped_ ? ", and with tangential damping the motion does not show it" : "", step,
            damped_ ? ", or 'tangential_damping off'" : "");
   error->warning(FLERR, message);

@@ -10,8 +10,8 @@
 
 namespace grainscope {
 
-/** Looks once in a thousand steps, whatever runs they are of, whether the time step is short enough for the contacts that there are, and warns when it
- *  is not; again only when it is twice as bad. First at single contacts, and only where those come near, in the next step, at whole grains. */
+/** Looks once in a thousand steps, whatever runs they are of, whether the time step is short enough for the contacts that there are, and
+ *  warns when it is not; again only when it is twice as bad. First at single contacts; where those come near, in the next step, at grains. */
 class TimeStepWatch : public ContactSink, private LAMMPS_NS::Pointers {
  public:
   explicit TimeStepWatch(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}

@@ -54,15 +54,17 @@ def time_step_unseen(ranks):
 
 
 def quiet(ranks):
-    """Hard grains at 0.05 T_R under control: nothing is said."""
-    packing = dense_packing(atom_style="sphere", overlap=-0.05, speed=0.02)
-    half = 0.5 * 0.05 * packing.edges[1]
-    body = [f"velocity all ramp vx {-half} {half} y 0 {packing.edges[1]} sum yes units box",
-            "fix press all press/strain axis y target 50 shear xy rate 0.05 every 1e-3", "compute f all fluctuation", *thermo(10, "c_f[13]"),
-            "run 1005"]
-    output = run(Deck(packing, timestep=0.05 * rayleigh_time(), body=body), ranks).output
-    for words in OTHERS:
-        require(words not in output, f"{words!r} was said")
+    """Hard grains at 0.05 T_R under control, and a gas in the linear flow of its box: nothing is said."""
+    body = ["fix press all press/strain axis y target 50 shear xy rate 0.05 every 1e-3", "run 1005"]
+    dense = Deck(dense_packing(atom_style="sphere", overlap=-0.05, speed=0.02), timestep=0.05 * rayleigh_time(), body=body)
+    gas = dense_packing(atom_style="sphere", overlap=-0.3, speed=0.0)
+    half = 0.5 * 0.05 * gas.edges[1]
+    body = [shear(0.05), f"velocity all ramp vx {-half} {half} y 0 {gas.edges[1]} units box", "compute f all fluctuation", *thermo(1, "c_f[13]"),
+            "run 15"]
+    for deck in (dense, Deck(gas, timestep=0.02 * rayleigh_time(), body=body)):
+        output = run(deck, ranks).output
+        for words in OTHERS:
+            require(words not in output, f"{words!r} was said")
 
 
 def kappa(ranks):
