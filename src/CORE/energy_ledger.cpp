@@ -295,8 +295,8 @@ double EnergyLedger::residual(const Entries &totals, double stored_change) {
   return supplied - gone - stored_change;
 }
 
-std::array<double, EnergyLedger::state_size> EnergyLedger::state() const {
-  std::array<double, state_size> state;
+EnergyLedger::State EnergyLedger::state() const {
+  State state;
   const Entries booked = totals();
   std::copy(booked.begin(), booked.end(), state.begin());
   state[entries] = start_energy_;
@@ -304,7 +304,8 @@ std::array<double, EnergyLedger::state_size> EnergyLedger::state() const {
   return state;
 }
 
-void EnergyLedger::restore(const std::array<double, state_size> &state) {
+void EnergyLedger::restore(const State &state) {
+  between_.fill(0.0);
   std::copy(state.begin(), state.begin() + entries, totals_.begin());
   start_energy_ = state[entries];
   std::copy(state.begin() + entries + 1, state.end(), ended_.begin());

@@ -98,11 +98,11 @@ class EnergyLedger {
   static double residual(const Entries &totals, double stored_change);
 
   /** State for restart files; sums over ranks may be given to one rank. */
-  static constexpr int state_size = entries + 1 + stores;
+  using State = std::array<double, entries + 1 + stores>;
   /** False before the first step: there is no state yet. */
   bool started() const { return started_; }
-  std::array<double, state_size> state() const;
-  void restore(const std::array<double, state_size> &state);
+  State state() const;
+  void restore(const State &state);
 
  private:
   enum Part { elastic, damping, spring, viscous, rolling, parts };

@@ -50,6 +50,9 @@ struct FixLedgerRecord::Impl {
   double arrived = 0.0;         // grains on this rank at the ends of steps less those at their beginnings: over all ranks 0
   bool stepping = false;        // between the two
   double dt = 0.0;
+
+  /** The state of all ranks together: the first one keeps it. */
+  void hold(const EnergyLedger::State &state, bool first) { ledger.restore(first ? state : EnergyLedger::State{}); }
 };
 
 FixLedgerRecord::FixLedgerRecord(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), impl_(new Impl) {
@@ -291,8 +294,9 @@ void FixLedgerRecord::forget(LAMMPS *lmp, const char *compute) {
 void FixLedgerRecord::write_restart(FILE *file) {
   auto state = impl_->ledger.state();
   MPI_Allreduce(MPI_IN_PLACE, state.data(), state.size(), MPI_DOUBLE, MPI_SUM, world);
-  if (comm->me != 0) return;
   const double started = impl_->ledger.started();
+  if (started != 0.0) impl_->hold(state, comm->me == 0);  // as a continued run will: the run that goes on stays equal to it
+  if (comm->me != 0) return;
   const int size = (1 + state.size()) * sizeof(double);
   fwrite(&size, sizeof size, 1, file);
   fwrite(&started, sizeof started, 1, file);
@@ -303,7 +307,7 @@ void FixLedgerRecord::restart(char *buffer) {
   double started;
   memcpy(&started, buffer, sizeof started);
   if (started == 0.0) return;
-  std::array<double, EnergyLedger::state_size> state{};
-  if (comm->me == 0) memcpy(state.data(), buffer + sizeof started, sizeof state);
-  impl_->ledger.restore(state);
+  EnergyLedger::State state;
+  memcpy(state.data(), buffer + sizeof started, sizeof state);
+  impl_->hold(state, comm->me == 0);
 }
