@@ -277,7 +277,8 @@ void FixPressStrain::take_input() {
   my.velocity_before = input.velocity;
   my.clipping.watch(lmp, (my.settled && my.recently_clipped > often_clipped) || my.recently_turned > often_clipped,
                     "fix press/strain: %.2g of the last hundred inputs were clipped (limit %g), long after the start or one way and the other: the "
-                    "pressure is not under control. Use gain auto, a smaller gain or a shorter interval, or raise 'limit' and 'maxrate'", my.recently_clipped, often_clipped);
+                    "pressure is not under control. Use gain auto, a smaller gain or a shorter interval, or raise 'limit' and 'maxrate'",
+                    my.recently_clipped, often_clipped);
 }
 
 /** Collective, once per evaluation; the last value when the pair style has been replaced since. */

@@ -78,7 +78,7 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   bool springs_move_ = true;
   int past_offset_ = -1;
   long runs_ = 0;
-  double stamp_ = 0.0, stamp_before_ = 0.0;   // of this evaluation and the one before: step, and a fraction that tells runs apart
+  double stamp_ = -1.0, stamp_before_ = -1.0;   // of this evaluation and the one before: step, and a fraction that tells runs apart
   double spring_[3] = {0.0, 0.0, 0.0};
   double **friction_ = nullptr;
   BoxState box_;
