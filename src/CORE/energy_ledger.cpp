@@ -47,12 +47,12 @@ void EnergyLedger::set_law(const LedgerLaw &law) {
   for (int k = 0; k < parts; k++) slot_[k] = used[k] ? slots_++ : -1;
 }
 
-void EnergyLedger::begin_evaluation(int n_local) {
+void EnergyLedger::begin_evaluation(int n_local, bool again) {
   if (!cleared_) wrenches_.clear();
   wrenches_.resize(8 * static_cast<std::size_t>(n_local) * slots_, 0.0);
   cleared_ = true;
   contacts_ = Contacts();
-  stepped_ = false;
+  stepped_ = stepped_ && again;
 }
 
 namespace {
@@ -298,18 +298,27 @@ double EnergyLedger::residual(const Entries &totals, double stored_change) {
 EnergyLedger::State EnergyLedger::state() const {
   State state;
   const Entries booked = totals();
-  std::copy(booked.begin(), booked.end(), state.begin());
-  state[entries] = start_energy_;
-  std::copy(ended_.begin(), ended_.end(), state.begin() + entries + 1);
+  auto at = state.begin();
+  at = std::copy(booked.begin(), booked.end(), at);
+  at = std::copy(last_.begin(), last_.end(), at);
+  at = std::copy(ended_.begin(), ended_.end(), at);
+  at = std::copy(stored_before_.begin(), stored_before_.end(), at);
+  *at = start_energy_;
   return state;
 }
 
-void EnergyLedger::restore(const State &state) {
+void EnergyLedger::restore(const State &state, const LedgerFrame &frame) {
+  auto at = state.begin();
+  const auto take = [&at](auto &numbers) { for (double &one : numbers) one = *at++; };
   between_.fill(0.0);
-  std::copy(state.begin(), state.begin() + entries, totals_.begin());
-  start_energy_ = state[entries];
-  std::copy(state.begin() + entries + 1, state.end(), ended_.begin());
-  started_ = true;
+  take(totals_);
+  take(last_);
+  take(ended_);
+  take(stored_before_);
+  start_energy_ = *at;
+  stored_ = ended_;
+  frame_ = frame;
+  started_ = stepped_ = true;
 }
 
 }

@@ -68,8 +68,8 @@ class EnergyLedger {
 
   void set_law(const LedgerLaw &law);
 
-  /** A force evaluation begins: forget the contacts of the last. */
-  void begin_evaluation(int n_local);
+  /** A force evaluation begins: forget the contacts of the last. `again`: it repeats the last, where a run goes on as if it had not ended. */
+  void begin_evaluation(int n_local, bool again = false);
   /** A contact of two grains of the group. `springs_move`: false in the first evaluation of a run. */
   void add(const Contact &contact, double dt, bool springs_move);
 
@@ -98,11 +98,12 @@ class EnergyLedger {
   static double residual(const Entries &totals, double stored_change);
 
   /** State for restart files; sums over ranks may be given to one rank. */
-  using State = std::array<double, entries + 1 + stores>;
+  using State = std::array<double, 2 * entries + 1 + 2 * stores>;
   /** False before the first step: there is no state yet. */
   bool started() const { return started_; }
   State state() const;
-  void restore(const State &state);
+  const LedgerFrame &frame() const { return frame_; }
+  void restore(const State &state, const LedgerFrame &frame);
 
  private:
   enum Part { elastic, damping, spring, viscous, rolling, parts };

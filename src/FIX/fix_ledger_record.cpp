@@ -52,7 +52,16 @@ struct FixLedgerRecord::Impl {
   double dt = 0.0;
 
   /** The state of all ranks together: the first one keeps it. */
-  void hold(const EnergyLedger::State &state, bool first) { ledger.restore(first ? state : EnergyLedger::State{}); }
+  void hold(const EnergyLedger::State &state, const grainscope::LedgerFrame &frame, bool first) {
+    ledger.restore(first ? state : EnergyLedger::State{}, frame);
+  }
+};
+
+/** What a restart file holds: doubles throughout. */
+struct FixLedgerRecord::Saved {
+  double started;              // whether there was a step yet
+  EnergyLedger::State state;
+  grainscope::LedgerFrame frame;
 };
 
 FixLedgerRecord::FixLedgerRecord(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), impl_(new Impl) {
@@ -143,7 +152,7 @@ void FixLedgerRecord::init() {
   impl_->stepping = false;
 }
 
-void FixLedgerRecord::begin_contacts() { impl_->ledger.begin_evaluation(atom->nlocal); }
+void FixLedgerRecord::begin_contacts() { impl_->ledger.begin_evaluation(atom->nlocal, impl_->pair->observer().again()); }
 
 void FixLedgerRecord::add_contact(const Contact &c) {
   if (atom->mask[c.i] & atom->mask[c.j] & groupbit) impl_->ledger.add(c, update->dt, impl_->pair->observer().springs_move());
@@ -292,22 +301,21 @@ void FixLedgerRecord::forget(LAMMPS *lmp, const char *compute) {
 
 /** Summed over ranks, so that any number of them may continue; the first number says whether there was a step yet. */
 void FixLedgerRecord::write_restart(FILE *file) {
-  auto state = impl_->ledger.state();
-  MPI_Allreduce(MPI_IN_PLACE, state.data(), state.size(), MPI_DOUBLE, MPI_SUM, world);
-  const double started = impl_->ledger.started();
-  if (started != 0.0) impl_->hold(state, comm->me == 0);  // as a continued run will: the run that goes on stays equal to it
+  Saved saved;
+  saved.started = impl_->ledger.started();
+  saved.state = impl_->ledger.state();
+  saved.frame = impl_->ledger.frame();
+  MPI_Allreduce(MPI_IN_PLACE, saved.state.data(), saved.state.size(), MPI_DOUBLE, MPI_SUM, world);
+  // As a continued run will: the run that goes on stays equal to it.
+  if (saved.started != 0.0) impl_->hold(saved.state, saved.frame, comm->me == 0);
   if (comm->me != 0) return;
-  const int size = (1 + state.size()) * sizeof(double);
+  const int size = sizeof saved;
   fwrite(&size, sizeof size, 1, file);
-  fwrite(&started, sizeof started, 1, file);
-  fwrite(state.data(), sizeof(double), state.size(), file);
+  fwrite(&saved, size, 1, file);
 }
 
 void FixLedgerRecord::restart(char *buffer) {
-  double started;
-  memcpy(&started, buffer, sizeof started);
-  if (started == 0.0) return;
-  EnergyLedger::State state;
-  memcpy(state.data(), buffer + sizeof started, sizeof state);
-  impl_->hold(state, comm->me == 0);
+  Saved saved;
+  memcpy(static_cast<void *>(&saved), buffer, sizeof saved);
+  if (saved.started != 0.0) impl_->hold(saved.state, saved.frame, comm->me == 0);
 }

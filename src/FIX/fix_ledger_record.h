@@ -50,6 +50,7 @@ class FixLedgerRecord : public Fix, public grainscope::ContactSink {
 
  private:
   struct Impl;
+  struct Saved;
   std::unique_ptr<Impl> impl_;
 
   [[noreturn]] void fail(const std::string &message) const;

@@ -30,15 +30,16 @@ void ContactObserver::remove_all() {
   listening_.clear();
 }
 
-bool ContactObserver::begin(bool springs_move) {
+bool ContactObserver::begin(bool springs_move, bool again) {
   springs_move_ = springs_move;
+  again_ = again;
   listening_.clear();
   bool images = false;
   for (ContactSink *sink : sinks_)
     if (sink->wants_contacts()) listening_.push_back(sink);
   active_ = !listening_.empty() || knows_past();
-  stamp_before_ = stamp_;
-  stamp_ = lmp->update->ntimestep + (runs_ % 1023 + 1) / 1024.0;  // never 0, which is what a new neighbour has
+  stamp_before_ = again ? -1.0 : stamp_;
+  if (!again) stamp_ = lmp->update->ntimestep + (runs_ % 1023 + 1) / 1024.0;  // never 0, which is what a new neighbour has
   if (active_) {
     box_ = BoxState(lmp);
     x_ = lmp->atom->x;
@@ -56,7 +57,7 @@ bool ContactObserver::begin(bool springs_move) {
 
 /** The spring as it was before the friction limit, in the host's own operations and order, so that a spring that was not cut
  *  compares equal to the last bit. In the first evaluation of a run the host moves no spring: sliding then means that the force was
- *  limited, and slip is what would have been cut. */
+ *  limited, and slip is what would have been cut. Where that repeats an evaluation, springs have been cut already: to the limit, but for rounding. */
 inline ContactObserver::Sliding ContactObserver::judge_sliding(const Sides &s, double limit) const {
   if (law_ == TangentialLaw::history) {
     double x = spring_[0], y = spring_[1], z = spring_[2];
@@ -71,6 +72,7 @@ inline ContactObserver::Sliding ContactObserver::judge_sliding(const Sides &s, d
       z -= along * s.en[2];
     }
     const double length = std::sqrt(x * x + y * y + z * z);
+    if (again_ && s.kt * length >= (1.0 - 1e-9) * limit) return {true, 0.0, {x, y, z}};
     if (s.kt * length > limit) return {true, length - limit / s.kt, {x, y, z}};
   } else if (law_ == TangentialLaw::no_history) {
     const double speed = std::sqrt(s.vtr1 * s.vtr1 + s.vtr2 * s.vtr2 + s.vtr3 * s.vtr3);

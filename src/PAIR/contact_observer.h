@@ -41,9 +41,13 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   /** A run begins: what contacts remember is of the evaluation before only when it was of this run. */
   void begin_run() { runs_++; }
 
-  /** Asks the sinks, before a force evaluation. `springs_move`: false in the first of a run. Returns true if one of them needs image
-   *  shifts. */
-  bool begin(bool springs_move);
+  /** Asks the sinks, before a force evaluation. `springs_move`: false in the first of a run. `again`: it repeats the last evaluation of the run
+   *  before. Returns true if one of the sinks needs image shifts. */
+  bool begin(bool springs_move, bool again);
+  bool again() const { return again_; }
+  /** What tells the evaluation from others: contacts remember it. */
+  double stamp() const { return stamp_; }
+  void resume(double stamp) { stamp_ = stamp; }
   /** Whether tangential springs were moved in the last evaluation. */
   bool springs_move() const { return springs_move_; }
   void end() { active_ = false; }
@@ -76,6 +80,7 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   bool elastic_ = false;
   bool rolls_ = false;
   bool springs_move_ = true;
+  bool again_ = false;
   int past_offset_ = -1;
   long runs_ = 0;
   double stamp_ = -1.0, stamp_before_ = -1.0;   // of this evaluation and the one before: step, and a fraction that tells runs apart

@@ -2,6 +2,8 @@
 #include "pair_gran_insitu.h"
 #include "contact_observer.h"
 #include "ellipsoid_surface.h"
+#include "fix_run_guard.h"
+#include "fix_setup_memory.h"
 #include "gran_insitu_models.h"
 #include "time_step_watch.h"
 #include "atom.h"
@@ -32,6 +34,8 @@ struct PairGranInsitu::Impl {
   double **friction = nullptr;
   std::string models;              // the words of the command, for messages
   bool ledger = false;
+  bool neutral = false;
+  FixSetupMemory *memory = nullptr;
   bool warned_of_stale_springs = false;
   bool sending_images = false;
   bigint images_of_build = -1;
@@ -41,7 +45,10 @@ PairGranInsitu::PairGranInsitu(LAMMPS *lmp) : PairGranProxy(lmp), impl_(new Impl
   comm_forward = 3;  // the image shifts of ghosts
 }
 
-PairGranInsitu::~PairGranInsitu() {}
+PairGranInsitu::~PairGranInsitu() {
+  FixRunGuard::forget(lmp);
+  FixSetupMemory::forget(lmp);
+}
 
 const std::string &PairGranInsitu::models() const { return impl_->models; }
 
@@ -67,7 +74,8 @@ void PairGranInsitu::settings(int narg, char **arg) {
     error->all(FLERR, "pair_style gran/insitu cannot be a sub-style of hybrid: contact history works with one granular style only; "
                       "use it alone");
   std::vector<char *> words(arg, arg + narg);
-  impl_->ledger = take_ledger(words);
+  impl_->ledger = take_setting(words, "ledger", "off", "on");
+  impl_->neutral = take_setting(words, "setup", "host", "neutral");
   narg = words.size();
   arg = words.data();
   std::string received;
@@ -90,20 +98,21 @@ void PairGranInsitu::settings(int narg, char **arg) {
   strcpy(force->pair_style, "gran");
 }
 
-/** Takes `ledger on|off` out of the words, which are otherwise the host's. */
-bool PairGranInsitu::take_ledger(std::vector<char *> &words) {
-  const auto at = std::find_if(words.begin(), words.end(), [](const char *word) { return !strcmp(word, "ledger"); });
+/** Takes `keyword no|yes` out of the words, which are otherwise the host's; whether it was yes. */
+bool PairGranInsitu::take_setting(std::vector<char *> &words, const char *keyword, const char *no, const char *yes) {
+  const auto is_keyword = [keyword](const char *word) { return !strcmp(word, keyword); };
+  const auto at = std::find_if(words.begin(), words.end(), is_keyword);
   if (at == words.end()) return false;
   const bool ends = at + 1 == words.end();
   const std::string got = ends ? "" : at[1];
-  if (got != "on" && got != "off") {
+  const std::string about = std::string("pair_style gran/insitu: '") + keyword + "' ";
+  if (got != no && got != yes) {
     const std::string told = ends ? "the end of the command" : "'" + got + "'";
-    error->all(FLERR, ("pair_style gran/insitu: 'ledger' must be on or off, got " + told).c_str());
+    error->all(FLERR, (about + "must be " + yes + " or " + no + ", got " + told).c_str());
   }
   const auto next = words.erase(at, at + 2);
-  if (std::any_of(next, words.end(), [](const char *word) { return !strcmp(word, "ledger"); }))
-    error->all(FLERR, "pair_style gran/insitu: 'ledger' is given twice");
-  return got == "on";
+  if (std::any_of(next, words.end(), is_keyword)) error->all(FLERR, (about + "is given twice").c_str());
+  return got == yes;
 }
 
 void PairGranInsitu::add_past_columns() {
@@ -147,11 +156,53 @@ void PairGranInsitu::require_same_columns_in_restart() {
     error->all(FLERR, ("pair_style gran/insitu: the restart file holds " + numbers + "it was written with 'ledger on'. Say 'ledger on'").c_str());
 }
 
+namespace {
+
+/** Puts the contact history back as it was, so that an evaluation for its output alone leaves the trajectory as it is. */
+class KeptHistory {
+ public:
+  /** `history` may be null: then there is none to keep. */
+  KeptHistory(NeighList *history, const NeighList *list, int width) : history_(history), list_(list), width_(width) {
+    if (!history_) return;
+    for (int ii = 0; ii < list_->inum; ii++) {
+      const int i = list_->ilist[ii], n = list_->numneigh[i];
+      values_.insert(values_.end(), history_->firstdouble[i], history_->firstdouble[i] + n * width_);
+      flags_.insert(flags_.end(), history_->firstneigh[i], history_->firstneigh[i] + n);
+    }
+  }
+  KeptHistory(const KeptHistory &) = delete;
+  KeptHistory &operator=(const KeptHistory &) = delete;
+
+  ~KeptHistory() {
+    if (!history_) return;
+    auto value = values_.begin();
+    auto flag = flags_.begin();
+    for (int ii = 0; ii < list_->inum; ii++) {
+      const int i = list_->ilist[ii], n = list_->numneigh[i];
+      std::copy(value, value + n * width_, history_->firstdouble[i]);
+      std::copy(flag, flag + n, history_->firstneigh[i]);
+      value += n * width_;
+      flag += n;
+    }
+  }
+
+ private:
+  NeighList *history_;
+  const NeighList *list_;
+  int width_;
+  std::vector<double> values_;
+  std::vector<int> flags_;
+};
+
+}
+
 void PairGranInsitu::init_style() {
   impl_->observer.remove_all();
   impl_->observer.begin_run();
   impl_->images_of_build = -1;
   require_same_columns_in_restart();
+  FixRunGuard::make(lmp, impl_->models + (impl_->ledger ? " ledger on" : ""));
+  if (impl_->neutral) impl_->memory = FixSetupMemory::make(lmp);
   PairGranProxy::init_style();
   warn_of_stale_springs();
   watch_time_step();
@@ -221,38 +272,27 @@ void PairGranInsitu::require_box_large_enough() {
 
 void PairGranInsitu::compute(int eflag, int vflag) {
   if (neighbor->ago == 0 && history) require_box_large_enough();
-  if (impl_->observer.begin(!update->setupflag)) update_image_shifts();
-  PairGran::compute(eflag, vflag);
-  impl_->observer.end();
+  FixSetupMemory *memory = impl_->memory;
+  const bool again = memory && update->setupflag && memory->again();
+  if (again) {
+    memory->swap_velocities();
+    impl_->observer.resume(memory->stamp());
+  }
+  {
+    const KeptHistory kept(again ? listgranhistory : nullptr, list, dnum());
+    if (impl_->observer.begin(!update->setupflag, again)) update_image_shifts();
+    PairGran::compute(eflag, vflag);
+    impl_->observer.end();
+  }
+  if (again) memory->swap_velocities();
+  if (memory) memory->set_stamp(impl_->observer.stamp());
   impl_->watch.judge();
 }
 
-/** The host re-evaluates all contacts for compute pair/gran/local, and its surface model writes to the contact history while at it:
- *  the history is put back, so that output never changes the trajectory. */
+/** The host re-evaluates all contacts for compute pair/gran/local, and its surface model writes to the contact history while at it. */
 void PairGranInsitu::compute_pgl(int eflag, int vflag) {
-  if (!listgranhistory) {
-    PairGran::compute_pgl(eflag, vflag);
-    return;
-  }
-  std::vector<double> values;
-  std::vector<int> flags;
-  for (int ii = 0; ii < list->inum; ii++) {
-    const int i = list->ilist[ii];
-    const int n = list->numneigh[i];
-    values.insert(values.end(), listgranhistory->firstdouble[i], listgranhistory->firstdouble[i] + n * dnum());
-    flags.insert(flags.end(), listgranhistory->firstneigh[i], listgranhistory->firstneigh[i] + n);
-  }
+  const KeptHistory kept(listgranhistory, list, dnum());
   PairGran::compute_pgl(eflag, vflag);
-  auto value = values.begin();
-  auto flag = flags.begin();
-  for (int ii = 0; ii < list->inum; ii++) {
-    const int i = list->ilist[ii];
-    const int n = list->numneigh[i];
-    std::copy(value, value + n * dnum(), listgranhistory->firstdouble[i]);
-    std::copy(flag, flag + n, listgranhistory->firstneigh[i]);
-    value += n * dnum();
-    flag += n;
-  }
 }
 
 void PairGranInsitu::compute_force(int eflag, int vflag, int addflag) { impl_->loop->compute_force(this, eflag, vflag, addflag); }

@@ -53,7 +53,7 @@ class PairGranInsitu : public PairGranProxy, public grainscope::EllipsoidOwner {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 
-  bool take_ledger(std::vector<char *> &words);
+  bool take_setting(std::vector<char *> &words, const char *keyword, const char *no, const char *yes);
   void add_past_columns();
   void require_same_columns_in_restart();
   void require_box_large_enough();

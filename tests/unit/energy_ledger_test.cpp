@@ -235,7 +235,7 @@ TEST(energy_ledger, state_goes_through_a_restart) {
   pair.evaluate(false);
   for (int n = 0; n < 100; n++) pair.step();
   EnergyLedger again;
-  again.restore(pair.ledger.state());
+  again.restore(pair.ledger.state(), pair.ledger.frame());
   EXPECT_EQ(again.totals(), pair.ledger.totals());
   EXPECT_EQ(again.start_energy(), pair.ledger.start_energy());
 }

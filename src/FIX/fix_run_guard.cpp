@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fix_run_guard.h"
+#include "finite.h"
+#include "restart_seal.h"
+#include "stop_signal.h"
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "modify.h"
+#include "update.h"
+#include <cerrno>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <sstream>
+
+using namespace LAMMPS_NS;
+
+namespace {
+
+char guard_id[] = "gran_insitu_guard", group_all[] = "all", guard_style[] = "run/guard";
+const int seldom = 1000;   // steps between looks at what a run can do without for a while
+
+struct Quantity {
+  const char *name;
+  double **values;
+  int width;
+};
+
+bool finite(const double *values, int n) { return grainscope::all_finite(values, n); }
+
+std::ostream &operator<<(std::ostream &out, const Quantity &quantity) { return out << quantity.name; }
+
+}
+
+FixRunGuard::FixRunGuard(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg) {
+  if (narg != 3 || strcmp(id, guard_id) != 0) error->all(FLERR, "fix run/guard: is made by pair_style gran/insitu, not by an input script");
+  restart_global = restart_file = 1;
+  nevery = 1;
+}
+
+void FixRunGuard::make(LAMMPS *lmp, const std::string &settings) {
+  int found = lmp->modify->find_fix(guard_id);
+  if (found < 0) {
+    char *words[] = {guard_id, group_all, guard_style};
+    lmp->modify->add_fix(3, words);
+    found = lmp->modify->find_fix(guard_id);
+  }
+  FixRunGuard *guard = dynamic_cast<FixRunGuard *>(lmp->modify->fix[found]);
+  if (!guard) lmp->error->all(FLERR, (std::string("pair_style gran/insitu needs the fix ID '") + guard_id + "', but it is taken").c_str());
+  if (!guard->settings_.empty() && guard->settings_ != settings)
+    if (lmp->comm->me == 0)
+      lmp->error->warning(FLERR, ("pair_style gran/insitu: the restart file was written with '" + guard->settings_ + "', and now it is '" + settings +
+                                  "'").c_str());
+  guard->settings_ = settings;
+}
+
+void FixRunGuard::forget(LAMMPS *lmp) {
+  if (lmp->modify && lmp->modify->nfix && lmp->modify->find_fix(guard_id) >= 0) lmp->modify->delete_fix(guard_id);
+}
+
+int FixRunGuard::setmask() { return FixConst::END_OF_STEP; }
+
+void FixRunGuard::init() {
+  grainscope::stop_signal::watch();
+  require_finite(false);
+}
+
+void FixRunGuard::end_of_step() {
+  require_finite(true);
+  if (update->ntimestep % seldom == 0) {
+    require_all_grains();
+    require_written();
+  }
+  grainscope::stop_signal::pass_on(lmp);
+}
+
+void FixRunGuard::post_run() {
+  require_all_grains();
+  require_written();
+}
+
+/** A force that is not finite is met in its own step, before it moves a grain out of the world. */
+void FixRunGuard::require_finite(bool forces) const {
+  const int n = atom->nlocal;
+  const Quantity state[] = {{"position", atom->x, 3}, {"velocity", atom->v, 3}, {"angular velocity", atom->omega, 3},
+                            {"quaternion", atom->superquadric_flag ? atom->quaternion : nullptr, 4}};
+  const Quantity loads[] = {{"force", atom->f, 3}, {"torque", atom->torque, 3}};
+  const auto wrong = [n](const Quantity &one) { return n > 0 && one.values && !finite(one.values[0], static_cast<std::size_t>(n) * one.width); };
+  const Quantity *first = nullptr;
+  if (forces)
+    for (const Quantity &one : loads)
+      if (!first && wrong(one)) first = &one;
+  for (const Quantity &one : state)
+    if (!first && wrong(one)) first = &one;
+  if (!first) return;
+
+  std::ostringstream message;
+  message << "step " << update->ntimestep << ": the " << *first << " of grains";
+  int told = 0, all = 0;
+  for (int i = 0; i < n; i++) {
+    if (finite(first->values[i], first->width)) continue;
+    all++;
+    if (told++ < 5) message << " " << atom->tag[i];
+  }
+  if (all > 5) message << " and " << all - 5 << " more";
+  message << " is not finite";
+  if (forces) message << ". Look at the time step (doc/stability.md), at overlaps of grains that were just inserted, and at the material's constants";
+  else message << ": look at the commands that set it";
+  error->one(FLERR, message.str().c_str());
+}
+
+void FixRunGuard::require_all_grains() const {
+  if (!domain->xperiodic || !domain->yperiodic || !domain->zperiodic) return;  // grains may leave: thermo_modify lost
+  bigint mine = atom->nlocal, all = 0;
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (all == atom->natoms) return;
+  std::ostringstream message;
+  message << "step " << update->ntimestep << ": " << atom->natoms - all << " of " << atom->natoms << " grains were lost from a periodic box: they "
+          << "moved farther than the box between two neighbour lists. Look at the time step (doc/stability.md) and at overlaps of grains that were "
+          << "just inserted";
+  error->all(FLERR, message.str().c_str());
+}
+
+/** All streams that the host has open: it does not look whether its output arrives. */
+void FixRunGuard::require_written() const {
+  if (fflush(nullptr) == 0) return;
+  const std::string reason = strerror(errno);
+  error->one(FLERR, ("step " + std::to_string(update->ntimestep) + ": output of this run (dumps, tables, log) cannot be written: " + reason).c_str());
+}
+
+/** The style of pair and its words: what contact history is made of. */
+void FixRunGuard::write_restart(FILE *file) {
+  if (comm->me != 0) return;
+  const int size = settings_.size() + 1;
+  fwrite(&size, sizeof size, 1, file);
+  fwrite(settings_.c_str(), 1, size, file);
+}
+
+void FixRunGuard::restart(char *buffer) { settings_ = buffer; }
+
+void FixRunGuard::write_restart_file(char *file) {
+  if (comm->me != 0 || strchr(file, '%')) return;
+  const std::string trouble = grainscope::restart_seal::seal(file);
+  if (!trouble.empty()) error->one(FLERR, trouble.c_str());
+}

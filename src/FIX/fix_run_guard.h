@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifdef FIX_CLASS
+
+FixStyle(run/guard,FixRunGuard)
+
+#else
+
+#ifndef LMP_FIX_RUN_GUARD_H
+#define LMP_FIX_RUN_GUARD_H
+
+#include "fix.h"
+#include <string>
+
+namespace LAMMPS_NS {
+
+/** Watches over every run with pair_style gran/insitu: stops it at numbers that are not finite, at grains lost from a periodic box and at output that
+ *  cannot be written; ends it in order at a signal; seals restart files, with the words of the pair style in them.
+ *  Made by the pair style, not by input scripts. */
+class FixRunGuard : public Fix {
+ public:
+  FixRunGuard(class LAMMPS *lmp, int narg, char **arg);
+  int setmask();
+  void init();
+  void end_of_step();
+  void post_run();
+  void write_restart(FILE *file);
+  void restart(char *buffer);
+  void write_restart_file(char *file);
+
+  /** Makes the one of this run, or finds it; `settings`: the words of the pair style. Collective. */
+  static void make(class LAMMPS *lmp, const std::string &settings);
+  static void forget(class LAMMPS *lmp);
+
+ private:
+  std::string settings_;
+
+  void require_finite(bool forces) const;
+  void require_all_grains() const;
+  void require_written() const;
+};
+
+}
+
+#endif
+#endif

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifdef FIX_CLASS
+
+FixStyle(setup/memory,FixSetupMemory)
+
+#else
+
+#ifndef LMP_FIX_SETUP_MEMORY_H
+#define LMP_FIX_SETUP_MEMORY_H
+
+#include "fix.h"
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/** What `setup neutral` of pair_style gran/insitu remembers: of every grain the velocities that its last forces were formed with, those forces, and
+ *  where it was. The host evaluates all forces anew when a run begins, with other velocities than a run that goes on would have; with this, contacts are
+ *  evaluated with the velocities of their step, and grains get back the forces and places that they had. In restart files.
+ *  Made by the pair style, not by input scripts. */
+class FixSetupMemory : public Fix {
+ public:
+  FixSetupMemory(class LAMMPS *lmp, int narg, char **arg);
+  ~FixSetupMemory();
+  int setmask();
+  void init();
+  void setup_pre_force(int);
+  void setup(int);
+  void pre_force(int);
+  void post_run();
+
+  /** Makes it, or moves it behind all other fixes, so that its `setup` has the last word; collective. */
+  static FixSetupMemory *make(class LAMMPS *lmp);
+  static void forget(class LAMMPS *lmp);
+
+  /** Whether the evaluation under way repeats the last one. */
+  bool again() const { return again_; }
+  /** Velocities of the last evaluation in, or what they were before out again; ghosts follow. */
+  void swap_velocities();
+  /** Of the last evaluation; see ContactObserver. */
+  double stamp() const { return stamp_; }
+  void set_stamp(double stamp) { stamp_ = stamp; }
+
+  double memory_usage() { return values_.capacity() * sizeof(double); }
+  void grow_arrays(int nmax);
+  void copy_arrays(int from, int to, int);
+  void set_arrays(int i);
+  int pack_exchange(int i, double *buffer);
+  int unpack_exchange(int i, double *buffer);
+  int pack_restart(int i, double *buffer);
+  void unpack_restart(int i, int nth);
+  int size_restart(int) { return width + 1; }
+  int maxsize_restart() { return width + 1; }
+  void write_restart(FILE *file);
+  void restart(char *buffer);
+
+ private:
+  // Numbers of a grain: whether there are any; velocities of the evaluation; force and torque; place and image; the rest of its state, hashed.
+  enum { known, half_v, half_omega = half_v + 3, f = half_omega + 3, torque = f + 3, x = torque + 3, image = x + 3, velocity_hash, state_hash, width };
+  enum { edges = 9 };
+
+  std::vector<double> values_;
+  double box_[edges] = {};       // at the end of the last run
+  double grains_ = -1.0;         // there were, or -1
+  double stamp_ = 0.0;
+  bool running_ = false;
+  bool again_ = false;
+
+  double *of(int i) { return &values_[static_cast<std::size_t>(i) * width]; }
+  void take_velocities(int i);
+  void take_rest();
+  void carry_across(int i, const int crossed[3]);
+  void wrap_now();
+  bool unchanged();
+  bool same(int i);
+  void box_now(double box[edges]) const;
+};
+
+}
+
+#endif
+#endif

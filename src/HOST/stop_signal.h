@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_STOP_SIGNAL_H
+#define GRAINSCOPE_STOP_SIGNAL_H
+
+namespace LAMMPS_NS { class LAMMPS; }
+
+namespace grainscope {
+
+/** SIGTERM and SIGINT end a run with complete files and a restart, SIGUSR1 asks for a restart: the host's own custom. But the host lets every rank act
+ *  when the signal reaches it, and ranks that act in different steps wait for each other for ever. Here a signal is only noted, and the ranks agree
+ *  on the step. */
+namespace stop_signal {
+
+/** Takes the signals over from the host. */
+void watch();
+/** At the end of a step, collective: what has reached any rank is passed on to the host, for the coming step. */
+void pass_on(LAMMPS_NS::LAMMPS *lmp);
+
+}
+
+}
+
+#endif
