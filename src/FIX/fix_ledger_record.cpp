@@ -150,6 +150,7 @@ void FixLedgerRecord::init() {
   observer.add(this);
   impl_->arrived = 0.0;
   impl_->stepping = false;
+  impl_->dt = update->dt;
 }
 
 void FixLedgerRecord::begin_contacts() { impl_->ledger.begin_evaluation(atom->nlocal, impl_->pair->observer().again()); }

@@ -55,10 +55,18 @@ double state_hash_of(const Atom *atom, int i) {
   return hash.value();
 }
 
-void image_of(const Atom *atom, int i, int where[3]) {
-  where[0] = (atom->image[i] & IMGMASK) - IMGMAX;
-  where[1] = (atom->image[i] >> IMGBITS & IMGMASK) - IMGMAX;
-  where[2] = (atom->image[i] >> IMG2BITS) - IMGMAX;
+tagint as_image(double slot) {
+  tagint image;
+  std::memcpy(&image, &slot, sizeof image);
+  return image;
+}
+
+/** Whole edges that a grain was moved by, down being positive, when its image changed. */
+void crossed(tagint before, tagint after, int edges[3]) {
+  const auto part = [](tagint image, int k) {
+    return static_cast<int>(k == 0 ? image & IMGMASK : k == 1 ? image >> IMGBITS & IMGMASK : image >> IMG2BITS);
+  };
+  for (int k = 0; k < 3; k++) edges[k] = part(after, k) - part(before, k);
 }
 
 }
@@ -88,17 +96,13 @@ FixSetupMemory *FixSetupMemory::make(LAMMPS *lmp) {
   if (memory && modify->fix[modify->nfix - 1] == memory) return memory;
   if (memory) {  // to the end of the list
     const std::vector<double> values = memory->values_;
-    double box[edges];
-    std::copy(memory->box_, memory->box_ + edges, box);
-    const double grains = memory->grains_, stamp = memory->stamp_;
+    const Shared shared = memory->shared_;
     modify->delete_fix(memory_id);
     modify->add_fix(3, words);
     memory = find();
     memory->just_created = 0;  // the host would give it empty arrays
     memory->values_ = values;
-    std::copy(box, box + edges, memory->box_);
-    memory->grains_ = grains;
-    memory->stamp_ = stamp;
+    memory->shared_ = shared;
     return memory;
   }
   if (modify->find_fix(memory_id) >= 0)
@@ -118,71 +122,82 @@ void FixSetupMemory::init() {
   next_reneighbor = -1;
 }
 
-void FixSetupMemory::box_now(double box[edges]) const {
-  std::copy(domain->h, domain->h + 6, box);
-  std::copy(domain->boxlo, domain->boxlo + 3, box + 6);
+FixSetupMemory::Box FixSetupMemory::box_now() const {
+  Box box;
+  std::copy(domain->boxlo, domain->boxlo + 3, box.low);
+  std::copy(domain->boxhi, domain->boxhi + 3, box.high);
+  const double tilts[3] = {domain->yz, domain->xz, domain->xy};
+  for (int k = 0; k < 3; k++) box.tilts[k] = domain->triclinic ? tilts[k] : 0.0;
+  std::copy(domain->h_rate, domain->h_rate + 6, box.rates);
+  std::copy(domain->h_ratelo, domain->h_ratelo + 3, box.low_rates);
+  return box;
 }
 
-/** Velocities of a grain that was wrapped across faces, as the host changes v. */
-void FixSetupMemory::carry_across(int i, const int crossed[3]) {
-  if (!domain->deform_vremap || !(atom->mask[i] & domain->deform_groupbit)) return;
-  const double *rate = domain->h_rate;
-  double *v = of(i) + half_v;
-  v[0] -= crossed[0] * rate[0];
-  v[0] -= crossed[1] * rate[5];
-  v[1] -= crossed[1] * rate[1];
-  v[0] -= crossed[2] * rate[4];
-  v[1] -= crossed[2] * rate[3];
-  v[2] -= crossed[2] * rate[2];
-}
-
-/** Whether grain i is as it was at the end of the last run; a grain that was wrapped since has its velocities carried along. */
-bool FixSetupMemory::same(int i) {
-  double *mine = of(i);
-  if (mine[known] != 1.0 || mine[state_hash] != state_hash_of(atom, i)) return false;
-  tagint then;
-  std::memcpy(&then, &mine[image], sizeof then);
-  double shift[3] = {atom->x[i][0] - mine[x], atom->x[i][1] - mine[x + 1], atom->x[i][2] - mine[x + 2]};
-  if (then == atom->image[i]) {
-    if (mine[velocity_hash] != velocity_hash_of(atom, i)) return false;
-  } else {
-    const tagint now = atom->image[i];
-    int before[3], after[3], crossed[3];
-    image_of(atom, i, after);
-    atom->image[i] = then;
-    image_of(atom, i, before);
-    atom->image[i] = now;
-    for (int k = 0; k < 3; k++) crossed[k] = after[k] - before[k];
-    shift[0] += crossed[0] * domain->xprd + crossed[1] * domain->xy + crossed[2] * domain->xz;
-    shift[1] += crossed[1] * domain->yprd + crossed[2] * domain->yz;
-    shift[2] += crossed[2] * domain->zprd;
-    carry_across(i, crossed);
-    std::memcpy(&mine[image], &now, sizeof now);
-    for (int k = 0; k < 3; k++) mine[x + k] = atom->x[i][k];
-    mine[velocity_hash] = velocity_hash_of(atom, i);
+/** Of the host's numbers those that tell where ghosts are and how they move. */
+void FixSetupMemory::set_box(const Box &box) {
+  std::copy(box.low, box.low + 3, domain->boxlo);
+  std::copy(box.high, box.high + 3, domain->boxhi);
+  if (domain->triclinic) {
+    domain->yz = box.tilts[0];
+    domain->xz = box.tilts[1];
+    domain->xy = box.tilts[2];
   }
-  const double *size = domain->prd;
+  std::copy(box.rates, box.rates + 6, domain->h_rate);
+  std::copy(box.low_rates, box.low_rates + 3, domain->h_ratelo);
+  domain->set_global_box();
+}
+
+/** A grain was wrapped since its last evaluation: place and velocity that it would have had there. */
+void FixSetupMemory::carry_across(int i, tagint image_before) {
+  int n[3];
+  crossed(image_before, atom->image[i], n);
+  const Box &box = shared_.evaluated;
+  double *place = of(i) + half_x, *v = of(i) + half_v, edges[3];
+  for (int k = 0; k < 3; k++) edges[k] = box.high[k] - box.low[k];
+  place[0] -= n[0] * edges[0] + n[1] * box.tilts[2] + n[2] * box.tilts[1];
+  place[1] -= n[1] * edges[1] + n[2] * box.tilts[0];
+  place[2] -= n[2] * edges[2];
+  if (!domain->deform_vremap || !(atom->mask[i] & domain->deform_groupbit)) return;
+  v[0] -= n[0] * box.rates[0] + n[1] * box.rates[5] + n[2] * box.rates[4];
+  v[1] -= n[1] * box.rates[1] + n[2] * box.rates[3];
+  v[2] -= n[2] * box.rates[2];
+}
+
+/** Whether grain i is as it was at the end of the last run, but for wrapping. */
+bool FixSetupMemory::same(int i) const {
+  const double *mine = of(i);
+  if (mine[known] != 1.0 || mine[state_hash] != state_hash_of(atom, i)) return false;
+  const tagint before = as_image(mine[image]);
+  if (before == atom->image[i] && mine[velocity_hash] != velocity_hash_of(atom, i)) return false;
+  int n[3];
+  crossed(before, atom->image[i], n);
+  const double shift[3] = {n[0] * domain->xprd + n[1] * domain->xy + n[2] * domain->xz, n[1] * domain->yprd + n[2] * domain->yz, n[2] * domain->zprd};
   for (int k = 0; k < 3; k++)
-    if (!(std::fabs(shift[k]) <= same_place * size[k])) return false;
+    if (!(std::fabs(atom->x[i][k] - mine[x + k] + shift[k]) <= same_place * domain->prd[k])) return false;
   return true;
 }
 
 /** Collective. */
-bool FixSetupMemory::unchanged() {
-  double box[edges];
-  box_now(box);
-  int changed = grains_ != static_cast<double>(atom->natoms) || !std::equal(box, box + edges, box_);
+bool FixSetupMemory::unchanged() const {
+  const Box box = box_now(), &then = shared_.ended;
+  const auto differ = [](const double (&a)[3], const double (&b)[3]) { return !std::equal(a, a + 3, b); };
+  int changed = shared_.grains != static_cast<double>(atom->natoms) || shared_.dt != update->dt || differ(box.low, then.low) ||
+      differ(box.high, then.high) || differ(box.tilts, then.tilts);
   for (int i = 0; i < atom->nlocal && !changed; i++) changed = !same(i);
-  const bool nothing = grains_ < 0.0;
+  const bool nothing = shared_.grains < 0.0;
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, world);
   if (changed && !nothing && comm->me == 0)
     for (FILE *out : {screen, logfile})
-      if (out) fprintf(out, "pair_style gran/insitu: grains or box were changed since the last run: forces are formed anew, as with 'setup host'\n");
+      if (out) fprintf(out, "pair_style gran/insitu: grains, box or time step were changed since the last run: forces are formed anew, as with 'setup host'\n");
   return !changed;
 }
 
-void FixSetupMemory::swap_velocities() {
+void FixSetupMemory::swap_evaluation() {
+  const Box now = box_now();
+  set_box(shared_.evaluated);
+  shared_.evaluated = now;
   for (int i = 0; i < atom->nlocal; i++) {
+    std::swap_ranges(atom->x[i], atom->x[i] + 3, of(i) + half_x);
     std::swap_ranges(atom->v[i], atom->v[i] + 3, of(i) + half_v);
     std::swap_ranges(atom->omega[i], atom->omega[i] + 3, of(i) + half_omega);
   }
@@ -192,11 +207,15 @@ void FixSetupMemory::swap_velocities() {
 void FixSetupMemory::setup_pre_force(int) {
   again_ = unchanged();
   if (again_) {
-    for (int i = 0; i < atom->nlocal; i++) std::copy(of(i) + x, of(i) + x + 3, atom->x[i]);  // wrapping cost a few bits
+    for (int i = 0; i < atom->nlocal; i++) {
+      const tagint before = as_image(of(i)[image]);
+      if (before == atom->image[i]) std::copy(of(i) + x, of(i) + x + 3, atom->x[i]);  // looking whether to wrap cost a few bits
+      else carry_across(i, before);
+    }
     next_reneighbor = update->ntimestep + 1;
     return;
   }
-  for (int i = 0; i < atom->nlocal; i++) take_velocities(i);
+  pre_force(0);
 }
 
 void FixSetupMemory::setup(int) {
@@ -209,19 +228,20 @@ void FixSetupMemory::setup(int) {
   }
 }
 
-void FixSetupMemory::take_velocities(int i) {
-  std::copy(atom->v[i], atom->v[i] + 3, of(i) + half_v);
-  std::copy(atom->omega[i], atom->omega[i] + 3, of(i) + half_omega);
-}
-
 void FixSetupMemory::pre_force(int) {
-  for (int i = 0; i < atom->nlocal; i++) take_velocities(i);
+  shared_.evaluated = box_now();
+  for (int i = 0; i < atom->nlocal; i++) {
+    std::copy(atom->x[i], atom->x[i] + 3, of(i) + half_x);
+    std::copy(atom->v[i], atom->v[i] + 3, of(i) + half_v);
+    std::copy(atom->omega[i], atom->omega[i] + 3, of(i) + half_omega);
+  }
 }
 
-/** Everything but the velocities of the evaluation, which must be told at its time. */
+/** Everything but what must be taken at the time of the evaluation. */
 void FixSetupMemory::take_rest() {
-  grains_ = atom->natoms;
-  box_now(box_);
+  shared_.grains = atom->natoms;
+  shared_.dt = update->dt;
+  shared_.ended = box_now();
   for (int i = 0; i < atom->nlocal; i++) {
     double *mine = of(i);
     mine[known] = 1.0;
@@ -249,17 +269,8 @@ void FixSetupMemory::wrap_now() {
   domain->pbc();
   if (domain->triclinic) domain->lamda2x(n);
   for (int i = 0; i < n; i++) {
-    if (atom->image[i] == images[i]) {
-      std::copy(&places[3 * i], &places[3 * i] + 3, atom->x[i]);
-      continue;
-    }
-    int after[3], before[3];
-    image_of(atom, i, after);
-    std::swap(atom->image[i], images[i]);
-    image_of(atom, i, before);
-    std::swap(atom->image[i], images[i]);
-    const int crossed[3] = {after[0] - before[0], after[1] - before[1], after[2] - before[2]};
-    carry_across(i, crossed);
+    if (atom->image[i] == images[i]) std::copy(&places[3 * i], &places[3 * i] + 3, atom->x[i]);
+    else carry_across(i, images[i]);
   }
 }
 
@@ -297,19 +308,9 @@ void FixSetupMemory::write_restart(FILE *file) {
     next_reneighbor = update->ntimestep + 1;  // the run that begins from the file has new lists then, too
   }
   if (comm->me != 0) return;
-  double state[edges + 2];
-  std::copy(box_, box_ + edges, state);
-  state[edges] = grains_;
-  state[edges + 1] = stamp_;
-  const int size = sizeof state;
+  const int size = sizeof shared_;
   fwrite(&size, sizeof size, 1, file);
-  fwrite(state, 1, size, file);
+  fwrite(&shared_, 1, size, file);
 }
 
-void FixSetupMemory::restart(char *buffer) {
-  double state[edges + 2];
-  memcpy(state, buffer, sizeof state);
-  std::copy(state, state + edges, box_);
-  grains_ = state[edges];
-  stamp_ = state[edges + 1];
-}
+void FixSetupMemory::restart(char *buffer) { memcpy(&shared_, buffer, sizeof shared_); }

@@ -34,11 +34,11 @@ class FixSetupMemory : public Fix {
 
   /** Whether the evaluation under way repeats the last one. */
   bool again() const { return again_; }
-  /** Velocities of the last evaluation in, or what they were before out again; ghosts follow. */
-  void swap_velocities();
+  /** Box, places and velocities of the last evaluation in, or what they were before out again; ghosts follow. */
+  void swap_evaluation();
   /** Of the last evaluation; see ContactObserver. */
-  double stamp() const { return stamp_; }
-  void set_stamp(double stamp) { stamp_ = stamp; }
+  double stamp() const { return shared_.stamp; }
+  void set_stamp(double stamp) { shared_.stamp = stamp; }
 
   double memory_usage() { return values_.capacity() * sizeof(double); }
   void grow_arrays(int nmax);
@@ -54,25 +54,37 @@ class FixSetupMemory : public Fix {
   void restart(char *buffer);
 
  private:
-  // Numbers of a grain: whether there are any; velocities of the evaluation; force and torque; place and image; the rest of its state, hashed.
-  enum { known, half_v, half_omega = half_v + 3, f = half_omega + 3, torque = f + 3, x = torque + 3, image = x + 3, velocity_hash, state_hash, width };
-  enum { edges = 9 };
+  // Numbers of a grain: whether there are any; place and velocities at the evaluation; force and torque; place and image at the end of its step; the
+  // rest of its state, hashed.
+  enum {
+    known, half_x, half_v = half_x + 3, half_omega = half_v + 3, f = half_omega + 3, torque = f + 3, x = torque + 3, image = x + 3, velocity_hash,
+    state_hash, width
+  };
+  /** The box and its rates. */
+  struct Box {
+    double low[3], high[3], tilts[3], rates[6], low_rates[3];
+  };
+  struct Shared {
+    Box evaluated, ended;        // at the last evaluation, and at the end of its step
+    double grains = -1.0;        // there were, or -1 before the first run
+    double dt = 0.0;
+    double stamp = 0.0;
+  };
 
   std::vector<double> values_;
-  double box_[edges] = {};       // at the end of the last run
-  double grains_ = -1.0;         // there were, or -1
-  double stamp_ = 0.0;
+  Shared shared_;
   bool running_ = false;
   bool again_ = false;
 
   double *of(int i) { return &values_[static_cast<std::size_t>(i) * width]; }
-  void take_velocities(int i);
+  const double *of(int i) const { return &values_[static_cast<std::size_t>(i) * width]; }
   void take_rest();
-  void carry_across(int i, const int crossed[3]);
+  void carry_across(int i, tagint image_before);
   void wrap_now();
-  bool unchanged();
-  bool same(int i);
-  void box_now(double box[edges]) const;
+  bool unchanged() const;
+  bool same(int i) const;
+  Box box_now() const;
+  void set_box(const Box &box);
 };
 
 }

@@ -57,7 +57,7 @@ bool ContactObserver::begin(bool springs_move, bool again) {
 
 /** The spring as it was before the friction limit, in the host's own operations and order, so that a spring that was not cut
  *  compares equal to the last bit. In the first evaluation of a run the host moves no spring: sliding then means that the force was
- *  limited, and slip is what would have been cut. Where that repeats an evaluation, springs have been cut already: to the limit, but for rounding. */
+ *  limited, and slip is what would have been cut; where it repeats an evaluation, they have been cut already. */
 inline ContactObserver::Sliding ContactObserver::judge_sliding(const Sides &s, double limit) const {
   if (law_ == TangentialLaw::history) {
     double x = spring_[0], y = spring_[1], z = spring_[2];
@@ -72,8 +72,7 @@ inline ContactObserver::Sliding ContactObserver::judge_sliding(const Sides &s, d
       z -= along * s.en[2];
     }
     const double length = std::sqrt(x * x + y * y + z * z);
-    if (again_ && s.kt * length >= (1.0 - 1e-9) * limit) return {true, 0.0, {x, y, z}};
-    if (s.kt * length > limit) return {true, length - limit / s.kt, {x, y, z}};
+    if (s.kt * length > limit) return {true, again_ ? 0.0 : length - limit / s.kt, {x, y, z}};
   } else if (law_ == TangentialLaw::no_history) {
     const double speed = std::sqrt(s.vtr1 * s.vtr1 + s.vtr2 * s.vtr2 + s.vtr3 * s.vtr3);
     if (limit < s.gammat * speed) return {true, speed * dt_, {}};

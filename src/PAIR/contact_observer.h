@@ -66,8 +66,12 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   using Sides = LIGGGHTS::ContactModels::SurfacesIntersectData;
   void remember_spring(const Sides &s) {
     if (law_ != TangentialLaw::history) return;
-    const double *spring = s.contact_history + spring_offset_;
-    for (int k = 0; k < 3; k++) spring_[k] = spring[k];
+    double *spring = s.contact_history + spring_offset_;
+    for (int k = 0; k < 3; k++) {
+      // Springs that were cut to the limit are at it, but for rounding: in a repetition a touch more keeps them sliding. It is not kept.
+      if (again_) spring[k] *= 1.0 + 1e-12;
+      spring_[k] = spring[k];
+    }
   }
   void observe(const Sides &s, const LIGGGHTS::ContactModels::ForceData &force_on_i);
 

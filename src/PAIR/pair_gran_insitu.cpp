@@ -275,7 +275,7 @@ void PairGranInsitu::compute(int eflag, int vflag) {
   FixSetupMemory *memory = impl_->memory;
   const bool again = memory && update->setupflag && memory->again();
   if (again) {
-    memory->swap_velocities();
+    memory->swap_evaluation();
     impl_->observer.resume(memory->stamp());
   }
   {
@@ -284,7 +284,7 @@ void PairGranInsitu::compute(int eflag, int vflag) {
     PairGran::compute(eflag, vflag);
     impl_->observer.end();
   }
-  if (again) memory->swap_velocities();
+  if (again) memory->swap_evaluation();
   if (memory) memory->set_stamp(impl_->observer.stamp());
   impl_->watch.judge();
 }

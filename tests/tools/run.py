@@ -2,6 +2,7 @@
 """Runs a deck in a folder of its own and reads what it wrote."""
 import os
 from pathlib import Path
+import signal
 import subprocess
 import tempfile
 
@@ -105,6 +106,42 @@ def columns_of(names, rows):
 
 def _deck_text(deck):
     return deck if isinstance(deck, str) else deck.text()
+
+
+class Started:
+    """A run under way, in a folder of its own, for tests that do not let it end in peace."""
+
+    def __init__(self, deck, ranks=1, folder=None):
+        self.folder = Path(folder or tempfile.mkdtemp(prefix="case-", dir=os.environ.get("GRAINSCOPE_SCRATCH")))
+        self.folder.mkdir(parents=True, exist_ok=True)
+        (self.folder / "in.deck").write_text(_deck_text(deck))
+        command = [*_command(ranks), "-in", "in.deck", "-log", "log.liggghts"]
+        self._output = open(self.folder / "output", "w")
+        self._process = subprocess.Popen(command, cwd=self.folder, env=_environment(), stdout=self._output, stderr=subprocess.STDOUT,
+                                         stdin=subprocess.DEVNULL, start_new_session=True)
+
+    def send(self, number):
+        """A signal to mpirun, or to the run itself where there is none."""
+        self._process.send_signal(number)
+
+    def kill(self):
+        """SIGKILL to mpirun and all ranks at once."""
+        os.killpg(self._process.pid, signal.SIGKILL)
+
+    def pids_of_ranks(self):
+        """The processes of the ranks, of which each may be sent a signal of its own."""
+        children = subprocess.run(["pgrep", "-g", str(self._process.pid), "-x", "grainscope"], stdout=subprocess.PIPE, text=True)
+        return [int(pid) for pid in children.stdout.split()]
+
+    def end(self, time_limit=TIME_LIMIT):
+        """Waits for it; its Result."""
+        try:
+            code = self._process.wait(time_limit)
+        except subprocess.TimeoutExpired:
+            self.kill()
+            raise Failure(f"the run in {self.folder} did not end within {time_limit} s")
+        self._output.close()
+        return Result(self.folder, code, (self.folder / "output").read_text(errors="replace"))
 
 
 def attempt(deck, ranks=1, folder=None, arguments=(), time_limit=TIME_LIMIT):
