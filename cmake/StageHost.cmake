@@ -68,7 +68,7 @@ function(write_if_changed file text)
   file(WRITE "${file}" "${text}")
 endfunction()
 
-# style_<list>.h: every header named <prefix>*.h, ours or the host's, that carries <marker>. The host takes the first command of a name: ours.
+# style_<list>.h: every header named <prefix>*.h, the host's or ours, that carries <marker>. Of two commands of one name the host takes the last: ours.
 file(GLOB our_headers "${CMAKE_SOURCE_DIR}/src/PAIR/*.h" "${CMAKE_SOURCE_DIR}/src/FIX/*.h" "${CMAKE_SOURCE_DIR}/src/COMPUTE/*.h" "${CMAKE_SOURCE_DIR}/src/COMMAND/*.h")
 set(marked "")
 foreach(name IN LISTS staged)
@@ -96,11 +96,7 @@ foreach(entry
   list(GET entry 2 list)
   string(REPLACE "-" "" prefix "${prefix}")
   set(text "")
-  set(candidates ${marked} ${our_headers})
-  if(list STREQUAL "command")
-    set(candidates ${our_headers} ${marked})
-  endif()
-  foreach(header IN LISTS candidates)
+  foreach(header IN LISTS marked our_headers)
     get_filename_component(name "${header}" NAME)
     if(name MATCHES "^${prefix}" AND "${markers_of_${name}}" MATCHES "${marker}")
       string(APPEND text "#include \"${name}\"\n")

@@ -63,6 +63,7 @@ void FixRunGuard::forget(LAMMPS *lmp) {
 int FixRunGuard::setmask() { return FixConst::END_OF_STEP; }
 
 void FixRunGuard::init() {
+  running_ = false;
   grainscope::stop_signal::watch();
   require_finite(false);
 }
@@ -77,6 +78,7 @@ void FixRunGuard::end_of_step() {
 }
 
 void FixRunGuard::post_run() {
+  running_ = false;
   require_all_grains();
   require_written();
 }
@@ -130,8 +132,11 @@ void FixRunGuard::require_written() const {
   error->one(FLERR, ("step " + std::to_string(update->ntimestep) + ": output of this run (dumps, tables, log) cannot be written: " + reason).c_str());
 }
 
-/** The style of pair and its words: what contact history is made of. */
+/** The words of the pair style: what contact history is made of. In a run the host would write springs as they were before the step: it puts them
+ *  where restart files are written from when lists are built, which is before forces are formed. */
 void FixRunGuard::write_restart(FILE *file) {
+  Fix *springs = running_ ? modify->find_fix_style_strict("contacthistory", 0) : nullptr;
+  if (springs) springs->pre_exchange();
   if (comm->me != 0) return;
   const int size = settings_.size() + 1;
   fwrite(&size, sizeof size, 1, file);

@@ -21,6 +21,7 @@ class FixRunGuard : public Fix {
   FixRunGuard(class LAMMPS *lmp, int narg, char **arg);
   int setmask();
   void init();
+  void setup(int) { running_ = true; }
   void end_of_step();
   void post_run();
   void write_restart(FILE *file);
@@ -33,6 +34,7 @@ class FixRunGuard : public Fix {
 
  private:
   std::string settings_;
+  bool running_ = false;
 
   void require_finite(bool forces) const;
   void require_all_grains() const;

@@ -81,6 +81,7 @@ FixSetupMemory::FixSetupMemory(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, nar
 }
 
 FixSetupMemory::~FixSetupMemory() {
+  allow_sorting();
   atom->delete_callback(id, 0);
   atom->delete_callback(id, 1);
 }
@@ -115,11 +116,24 @@ void FixSetupMemory::forget(LAMMPS *lmp) {
   if (lmp->modify && lmp->modify->nfix && lmp->modify->find_fix(memory_id) >= 0) lmp->modify->delete_fix(memory_id);
 }
 
-int FixSetupMemory::setmask() { return FixConst::PRE_FORCE; }
+int FixSetupMemory::setmask() { return FixConst::PRE_EXCHANGE | FixConst::PRE_FORCE; }
 
 void FixSetupMemory::init() {
   running_ = again_ = false;
   next_reneighbor = -1;
+  allow_sorting();
+}
+
+/** The host sorts grains when a run begins, and sums forces in that order; a run that goes on does not sort then. */
+void FixSetupMemory::setup_pre_exchange() {
+  if (shared_.grains < 0.0 || sort_every_ > 0) return;
+  sort_every_ = atom->sortfreq;
+  atom->sortfreq = 0;
+}
+
+void FixSetupMemory::allow_sorting() {
+  if (sort_every_ > 0) atom->sortfreq = sort_every_;
+  sort_every_ = 0;
 }
 
 FixSetupMemory::Box FixSetupMemory::box_now() const {
@@ -205,8 +219,10 @@ void FixSetupMemory::swap_evaluation() {
 }
 
 void FixSetupMemory::setup_pre_force(int) {
+  allow_sorting();
   again_ = unchanged();
   if (again_) {
+    atom->nextsort = static_cast<bigint>(shared_.next_sort);
     for (int i = 0; i < atom->nlocal; i++) {
       const tagint before = as_image(of(i)[image]);
       if (before == atom->image[i]) std::copy(of(i) + x, of(i) + x + 3, atom->x[i]);  // looking whether to wrap cost a few bits
@@ -241,6 +257,7 @@ void FixSetupMemory::pre_force(int) {
 void FixSetupMemory::take_rest() {
   shared_.grains = atom->natoms;
   shared_.dt = update->dt;
+  shared_.next_sort = atom->nextsort;
   shared_.ended = box_now();
   for (int i = 0; i < atom->nlocal; i++) {
     double *mine = of(i);

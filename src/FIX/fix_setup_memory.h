@@ -23,6 +23,7 @@ class FixSetupMemory : public Fix {
   ~FixSetupMemory();
   int setmask();
   void init();
+  void setup_pre_exchange();
   void setup_pre_force(int);
   void setup(int);
   void pre_force(int);
@@ -69,15 +70,18 @@ class FixSetupMemory : public Fix {
     double grains = -1.0;        // there were, or -1 before the first run
     double dt = 0.0;
     double stamp = 0.0;
+    double next_sort = 0.0;      // the step from which on the host sorts grains by place
   };
 
   std::vector<double> values_;
   Shared shared_;
   bool running_ = false;
   bool again_ = false;
+  int sort_every_ = 0;           // what the host was told, while it is not to sort
 
   double *of(int i) { return &values_[static_cast<std::size_t>(i) * width]; }
   const double *of(int i) const { return &values_[static_cast<std::size_t>(i) * width]; }
+  void allow_sorting();
   void take_rest();
   void carry_across(int i, tagint image_before);
   void wrap_now();

@@ -166,9 +166,9 @@ def stopped_by(number, to_one_rank=False):
             time.sleep(0.05)
         time.sleep(0.3)
         if to_one_rank:
-            os.kill(under_way.pids_of_ranks()[-1], number)
+            os.kill(under_way.ranks()[-1], number)
         else:
-            for pid in under_way.pids_of_ranks():  # as a cluster does; mpirun alone would wait a second and kill
+            for pid in under_way.ranks():  # as a cluster does; mpirun alone would wait a second and kill
                 os.kill(pid, number)
         result = under_way.end(20.0)
         require("ERROR" not in result.output, result.output[-2000:])

@@ -120,18 +120,18 @@ class Started:
         self._process = subprocess.Popen(command, cwd=self.folder, env=_environment(), stdout=self._output, stderr=subprocess.STDOUT,
                                          stdin=subprocess.DEVNULL, start_new_session=True)
 
-    def send(self, number):
-        """A signal to mpirun, or to the run itself where there is none."""
-        self._process.send_signal(number)
-
     def kill(self):
-        """SIGKILL to mpirun and all ranks at once."""
-        os.killpg(self._process.pid, signal.SIGKILL)
+        """SIGKILL to all ranks, and to mpirun."""
+        for pid in (*self.ranks(), self._process.pid):
+            try:
+                os.kill(pid, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
 
-    def pids_of_ranks(self):
+    def ranks(self):
         """The processes of the ranks, of which each may be sent a signal of its own."""
-        children = subprocess.run(["pgrep", "-g", str(self._process.pid), "-x", "grainscope"], stdout=subprocess.PIPE, text=True)
-        return [int(pid) for pid in children.stdout.split()]
+        name = subprocess.run(["pgrep", "-P", str(self._process.pid)], stdout=subprocess.PIPE, text=True).stdout.split()
+        return [int(pid) for pid in name] or [self._process.pid]
 
     def end(self, time_limit=TIME_LIMIT):
         """Waits for it; its Result."""
