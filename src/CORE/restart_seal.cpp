@@ -29,6 +29,7 @@ struct Close {
 using File = std::unique_ptr<std::FILE, Close>;
 
 const std::size_t piece = std::size_t(1) << 20;
+const std::uint64_t least_per_grain = 12 * sizeof(double);  // of every atom style that grains can have
 
 /** Hands all bytes of the file, up to `length`, to `take`, a piece at a time; false when there are fewer. */
 template <class Take>
@@ -55,14 +56,22 @@ class Header {
  public:
   explicit Header(std::FILE *file) : file_(file) {}
 
-  bool read(std::int64_t &step) {
-    std::string version, units;
+  std::int64_t step = -1, grains = 0;
+
+  bool read() {
+    std::string version, units, style;
     if (!text(0, version) || version.find("LIGGGHTS") == std::string::npos) return false;
     for (int size = 1; size <= 3; size++) {
       std::int32_t bytes;
       if (!flag(size) || !value(bytes) || (bytes != 4 && bytes != 8)) return false;
     }
-    return text(4, units) && flag(5) && value(step) && step >= 0;
+    if (!text(4, units) || !flag(5) || !value(step) || step < 0) return false;
+    for (int number = 6; number <= 21; number++) {  // dimension, ranks, newton, boundaries
+      std::int32_t any;
+      if (!flag(number) || !value(any)) return false;
+    }
+    if (!text(22, style)) return false;
+    return style.compare(0, 6, "hybrid") == 0 || (flag(23) && value(grains) && grains >= 0);  // hybrid: more words follow
   }
 
  private:
@@ -131,14 +140,16 @@ Verdict examine(const std::string &name) {
   }
   const std::uint64_t length = length_of(file.get());
   Header header(file.get());
-  if (!header.read(verdict.step)) {
+  const bool read = header.read();
+  verdict.step = header.step;
+  if (!read) {
     verdict.reason = length == 0 ? "is empty" : "is not a restart file, or its beginning is damaged";
     return verdict;
   }
   Seal seal;
   verdict.sealed = find_seal(file.get(), length, seal);
   if (!verdict.sealed) {
-    verdict.whole = !names_sealer(file.get(), length);
+    verdict.whole = !names_sealer(file.get(), length) && length > least_per_grain * header.grains;
     if (!verdict.whole) verdict.reason = "was cut short or damaged: its seal is missing";
     return verdict;
   }

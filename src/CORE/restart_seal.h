@@ -21,7 +21,7 @@ std::string seal(const std::string &file);
 
 struct Verdict {
   bool whole = false;
-  bool sealed = false;         // false for a whole file of LIGGGHTS alone, which nobody can check
+  bool sealed = false;         // false for a file of LIGGGHTS alone, of which only the beginning and the length can be checked
   std::int64_t step = -1;      // the step in its header
   std::string reason;          // why it is not whole
 };

@@ -41,18 +41,17 @@ FixRunGuard::FixRunGuard(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg
 }
 
 void FixRunGuard::make(LAMMPS *lmp, const std::string &settings) {
-  int found = lmp->modify->find_fix(guard_id);
-  if (found < 0) {
-    char *words[] = {guard_id, group_all, guard_style};
-    lmp->modify->add_fix(3, words);
-    found = lmp->modify->find_fix(guard_id);
-  }
-  FixRunGuard *guard = dynamic_cast<FixRunGuard *>(lmp->modify->fix[found]);
-  if (!guard) lmp->error->all(FLERR, (std::string("pair_style gran/insitu needs the fix ID '") + guard_id + "', but it is taken").c_str());
-  if (!guard->settings_.empty() && guard->settings_ != settings)
-    if (lmp->comm->me == 0)
-      lmp->error->warning(FLERR, ("pair_style gran/insitu: the restart file was written with '" + guard->settings_ + "', and now it is '" + settings +
-                                  "'").c_str());
+  Modify *modify = lmp->modify;
+  const int found = modify->find_fix(guard_id);
+  FixRunGuard *guard = found < 0 ? nullptr : dynamic_cast<FixRunGuard *>(modify->fix[found]);
+  if (found >= 0 && !guard) lmp->error->all(FLERR, (std::string("pair_style gran/insitu needs the fix ID '") + guard_id + "', but it is taken").c_str());
+  if (guard) modify->delete_fix(guard_id);
+  char *words[] = {guard_id, group_all, guard_style};
+  modify->add_fix(3, words);
+  guard = static_cast<FixRunGuard *>(modify->fix[modify->nfix - 1]);
+  if (found < 0 && !guard->settings_.empty() && guard->settings_ != settings && lmp->comm->me == 0)
+    lmp->error->warning(FLERR, ("pair_style gran/insitu: the restart file was written with '" + guard->settings_ + "', and now it is '" + settings +
+                                "'").c_str());
   guard->settings_ = settings;
 }
 
@@ -60,7 +59,7 @@ void FixRunGuard::forget(LAMMPS *lmp) {
   if (lmp->modify && lmp->modify->nfix && lmp->modify->find_fix(guard_id) >= 0) lmp->modify->delete_fix(guard_id);
 }
 
-int FixRunGuard::setmask() { return FixConst::END_OF_STEP; }
+int FixRunGuard::setmask() { return FixConst::PRE_EXCHANGE | FixConst::PRE_NEIGHBOR | FixConst::END_OF_STEP; }
 
 void FixRunGuard::init() {
   running_ = false;
@@ -70,16 +69,12 @@ void FixRunGuard::init() {
 
 void FixRunGuard::end_of_step() {
   require_finite(true);
-  if (update->ntimestep % seldom == 0) {
-    require_all_grains();
-    require_written();
-  }
+  if (update->ntimestep % seldom == 0) require_written();
   grainscope::stop_signal::pass_on(lmp);
 }
 
 void FixRunGuard::post_run() {
   running_ = false;
-  require_all_grains();
   require_written();
 }
 
@@ -113,15 +108,17 @@ void FixRunGuard::require_finite(bool forces) const {
   error->one(FLERR, message.str().c_str());
 }
 
-void FixRunGuard::require_all_grains() const {
+void FixRunGuard::pre_exchange() { grains_ = atom->nlocal; }
+
+/** The host deals grains out to the ranks again and forgets those that no rank wants. */
+void FixRunGuard::pre_neighbor() {
   if (!domain->xperiodic || !domain->yperiodic || !domain->zperiodic) return;  // grains may leave: thermo_modify lost
-  bigint mine = atom->nlocal, all = 0;
-  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (all == atom->natoms) return;
+  bigint lost = grains_ - atom->nlocal;
+  MPI_Allreduce(MPI_IN_PLACE, &lost, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (lost == 0) return;
   std::ostringstream message;
-  message << "step " << update->ntimestep << ": " << atom->natoms - all << " of " << atom->natoms << " grains were lost from a periodic box: they "
-          << "moved farther than the box between two neighbour lists. Look at the time step (doc/stability.md) and at overlaps of grains that were "
-          << "just inserted";
+  message << "step " << update->ntimestep << ": " << lost << " grains were lost from a periodic box: they moved farther than its length between two "
+          << "neighbour lists. Look at the time step (doc/stability.md) and at overlaps of grains that were just inserted";
   error->all(FLERR, message.str().c_str());
 }
 

@@ -21,23 +21,27 @@ class FixRunGuard : public Fix {
   FixRunGuard(class LAMMPS *lmp, int narg, char **arg);
   int setmask();
   void init();
+  void setup_pre_exchange() { pre_exchange(); }
+  void setup_pre_neighbor() { pre_neighbor(); }
   void setup(int) { running_ = true; }
+  void pre_exchange();
+  void pre_neighbor();
   void end_of_step();
   void post_run();
   void write_restart(FILE *file);
   void restart(char *buffer);
   void write_restart_file(char *file);
 
-  /** Makes the one of this run, or finds it; `settings`: the words of the pair style. Collective. */
+  /** Makes the one of this run, behind all other fixes; `settings`: the words of the pair style. Collective. */
   static void make(class LAMMPS *lmp, const std::string &settings);
   static void forget(class LAMMPS *lmp);
 
  private:
   std::string settings_;
   bool running_ = false;
+  bigint grains_ = 0;            // on this rank, before they are dealt out to the ranks
 
   void require_finite(bool forces) const;
-  void require_all_grains() const;
   void require_written() const;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_setup_memory.h"
 #include "atom.h"
+#include "atom_vec.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -11,7 +12,9 @@
 #include <cstdint>
 #include <cstring>
 #include <initializer_list>
+#include <numeric>
 #include <string>
+#include <utility>
 
 using namespace LAMMPS_NS;
 
@@ -117,6 +120,38 @@ void FixSetupMemory::forget(LAMMPS *lmp) {
 }
 
 int FixSetupMemory::setmask() { return FixConst::PRE_EXCHANGE | FixConst::PRE_FORCE; }
+
+/** Grains in the order of their IDs, as none of the orders that the ranks may have them in is the same for a run that was taken up again. */
+void FixSetupMemory::sort_by_tag() {
+  const int n = atom->nlocal;
+  if (n == atom->nmax) atom->avec->grow(0);
+  std::vector<int> wanted(n);  // the k-th is to be the one that is now at wanted[k]
+  std::iota(wanted.begin(), wanted.end(), 0);
+  std::sort(wanted.begin(), wanted.end(), [this](int a, int b) { return atom->tag[a] < atom->tag[b]; });
+  for (int first = 0; first < n; first++) {
+    if (wanted[first] == first) continue;
+    atom->avec->copy(first, n, 0);
+    int hole = first;
+    while (wanted[hole] != first) {
+      atom->avec->copy(wanted[hole], hole, 0);
+      hole = std::exchange(wanted[hole], hole);
+    }
+    atom->avec->copy(n, hole, 0);
+    wanted[hole] = hole;
+  }
+}
+
+/** In the step after a restart file: what the host does next too, but in an order that does not depend on the ranks' past. */
+void FixSetupMemory::pre_exchange() {
+  if (update->ntimestep != next_reneighbor) return;
+  if (domain->triclinic) domain->x2lamda(atom->nlocal);
+  domain->pbc();
+  domain->reset_box();
+  comm->setup();
+  comm->exchange();
+  sort_by_tag();
+  if (domain->triclinic) domain->lamda2x(atom->nlocal);
+}
 
 void FixSetupMemory::init() {
   running_ = again_ = false;

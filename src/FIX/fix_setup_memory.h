@@ -26,6 +26,7 @@ class FixSetupMemory : public Fix {
   void setup_pre_exchange();
   void setup_pre_force(int);
   void setup(int);
+  void pre_exchange();
   void pre_force(int);
   void post_run();
 
@@ -82,6 +83,7 @@ class FixSetupMemory : public Fix {
   double *of(int i) { return &values_[static_cast<std::size_t>(i) * width]; }
   const double *of(int i) const { return &values_[static_cast<std::size_t>(i) * width]; }
   void allow_sorting();
+  void sort_by_tag();
   void take_rest();
   void carry_across(int i, tagint image_before);
   void wrap_now();

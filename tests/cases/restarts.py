@@ -12,7 +12,7 @@ from case import main, require, require_close, require_same_snapshots
 from catalogue import DISPLACEMENT, MEMORY, strain_lines
 from deck import Deck, dump_grains, shear, thermo
 from packing import dense_packing, tilted
-from run import Started, run
+from run import Started, run, wait_for_steps
 
 RATE = 0.05
 PRESS = f"fix press all press/strain axis y target 2e5 shear xy rate {RATE} every 7e-4"
@@ -161,10 +161,7 @@ def stopped_by(number, to_one_rank=False):
         body = [*lines, *thermo(100, *told), "fix means all ave/time 1 1 1 f_press[1] c_stress[1] file means.txt", f"run {steps} upto", "print 'went on'"]
         body.insert(len(lines), "compute stress all stress/contact")
         under_way = Started(replace(deck, body=body), ranks)
-        log = under_way.folder / "log.liggghts"
-        while not log.exists() or "Step" not in log.read_text():
-            time.sleep(0.05)
-        time.sleep(0.3)
+        wait_for_steps(under_way)
         if to_one_rank:
             os.kill(under_way.ranks()[-1], number)
         else:

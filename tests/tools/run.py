@@ -5,6 +5,7 @@ from pathlib import Path
 import signal
 import subprocess
 import tempfile
+import time
 
 import numpy as np
 
@@ -130,8 +131,8 @@ class Started:
 
     def ranks(self):
         """The processes of the ranks, of which each may be sent a signal of its own."""
-        name = subprocess.run(["pgrep", "-P", str(self._process.pid)], stdout=subprocess.PIPE, text=True).stdout.split()
-        return [int(pid) for pid in name] or [self._process.pid]
+        command = ["pgrep", "-P", str(self._process.pid), "-x", Path(binary()).name]
+        return [int(pid) for pid in subprocess.run(command, stdout=subprocess.PIPE, text=True).stdout.split()] or [self._process.pid]
 
     def end(self, time_limit=TIME_LIMIT):
         """Waits for it; its Result."""
@@ -142,6 +143,14 @@ class Started:
             raise Failure(f"the run in {self.folder} did not end within {time_limit} s")
         self._output.close()
         return Result(self.folder, code, (self.folder / "output").read_text(errors="replace"))
+
+
+def wait_for_steps(started):
+    """Until it has begun its steps."""
+    log = started.folder / "log.liggghts"
+    while not log.exists() or "Step" not in log.read_text(errors="replace"):
+        time.sleep(0.05)
+    time.sleep(0.3)
 
 
 def attempt(deck, ranks=1, folder=None, arguments=(), time_limit=TIME_LIMIT):
