@@ -10,6 +10,7 @@
 #include "domain.h"
 #include "fix_wall_gran.h"
 #include "force.h"
+#include "group.h"
 #include "input.h"
 #include "modify.h"
 #include "primitive_wall.h"
@@ -55,6 +56,7 @@ struct FixPressStrain::Impl {
   grainscope::ShearedBox box;
   grainscope::Intervals intervals;
   int momentum_groupbit = 1;
+  std::string momentum_group;
   grainscope::ContactObserver *observer = nullptr;
   double exponent = 1.5;
   bool sticks = true;
@@ -102,6 +104,7 @@ FixPressStrain::FixPressStrain(LAMMPS *lmp, int narg, char **arg, const HostArgu
     : FixDeform(lmp, host.pointers.size(), const_cast<char **>(host.pointers.data())), impl_(new Impl(lmp, narg, arg)) {
   // The box and its velocity remapping concern every grain; the group only says whose drift is removed.
   impl_->momentum_groupbit = groupbit;
+  impl_->momentum_group = arg[1];
   igroup = 0;
   groupbit = 1;
   restart_global = 1;
@@ -149,10 +152,18 @@ void FixPressStrain::require_no_wall_on_axis(Fix *fix) const {
     press_strain_error(lmp, std::string("cannot move box edges along '") + axis + "': fix " + fix->id + " is a wall on that axis");
 }
 
+/** The host lets a group be deleted that no fix is registered for, and this one is for `all`. */
+void FixPressStrain::require_momentum_group() const {
+  const int found = group->find(impl_->momentum_group.c_str());
+  if (found < 0 || group->bitmask[found] != impl_->momentum_groupbit)
+    press_strain_error(lmp, "its group '" + impl_->momentum_group + "' was deleted: define the group and the fix again");
+}
+
 void FixPressStrain::init() {
   using Law = grainscope::ContactObserver::TangentialLaw;
   Impl &my = *impl_;
   require_controllable_box();
+  require_momentum_group();
   PairGranInsitu *pair = PairGranInsitu::required_by(lmp, "fix press/strain");
   my.observer = &pair->observer();
   my.observer->add(this);

@@ -14,6 +14,16 @@ std::string Arguments::word(const std::string &wanted) {
   return words_[at_++];
 }
 
+std::string Arguments::keyword(const std::vector<std::string> &keywords, const std::string &kind) {
+  const std::string got = choice(kind, keywords);
+  if (!keywords_.insert(got).second) fail("'" + got + "' is given twice");
+  return got;
+}
+
+void Arguments::require_none() {
+  if (!done()) fail("takes no keywords, got '" + words_[at_] + "'");
+}
+
 std::string Arguments::choice(const std::string &keyword, const std::vector<std::string> &choices) {
   std::string list;
   for (std::size_t k = 0; k < choices.size(); k++)
@@ -27,7 +37,7 @@ std::string Arguments::choice(const std::string &keyword, const std::vector<std:
 bool Arguments::is_number(const std::string &text, double &value) {
   char *end = nullptr;
   value = std::strtod(text.c_str(), &end);
-  return !text.empty() && !std::isspace(static_cast<unsigned char>(text[0])) && *end == '\0' && std::isfinite(value);
+  return !text.empty() && text.find_first_not_of("0123456789+-.eE") == std::string::npos && *end == '\0' && std::isfinite(value);
 }
 
 double Arguments::number(const std::string &keyword, const std::string &requirement, bool (*accept)(double)) {

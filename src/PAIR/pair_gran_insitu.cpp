@@ -63,11 +63,11 @@ PairGranInsitu *PairGranInsitu::required_by(LAMMPS *lmp, const char *who) {
 }
 
 void PairGranInsitu::settings(int narg, char **arg) {
+  std::vector<char *> words(arg, arg + narg);
+  impl_->ledger = take_ledger(words);
   if (force->pair != this)
     error->all(FLERR, "pair_style gran/insitu cannot be a sub-style of hybrid: contact history works with one granular style only; "
                       "use it alone");
-  std::vector<char *> words(arg, arg + narg);
-  impl_->ledger = take_ledger(words);
   narg = words.size();
   arg = words.data();
   std::string received;

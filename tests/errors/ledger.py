@@ -34,10 +34,6 @@ INSERT = ["region top block 0.5 11 0.5 11 5 11 units box",
           "vel constant 0 0 0 overlapcheck yes all_in yes region top", "thermo_style custom step c_c", "thermo 10", "run 60"]
 ROLLING = ("coeffRollingStiffness", "coefficientRollingViscousDamping")
 CASES = {
-    "word": refused("pair_style gran/insitu: 'ledger' must be on or off, got 'yes'", extra="ledger yes"),
-    "word-missing": refused("pair_style gran/insitu: 'ledger' must be on or off, got the end of the command", extra="ledger"),
-    "word-twice": refused("pair_style gran/insitu: 'ledger' is given twice", extra="ledger on ledger off"),
-    "takes-no-keywords": refused("compute energy/ledger: takes no keywords, got 'rates'", compute=LEDGER + " rates"),
     "ledger-off": refused(NAME + "needs 'ledger on' in pair_style gran/insitu", "got 'model hertz tangential history", extra=""),
     "dissipation-ledger-off": refused("compute c (dissipation mode ledger): needs 'ledger on'", extra="", compute="compute c all dissipation mode ledger"),
     "needs-gran-insitu": refused("compute c (energy/ledger) requires pair_style gran/insitu, got 'gran'", extra="", pair="gran"),
