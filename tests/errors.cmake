@@ -11,6 +11,14 @@ add_cases(keywords errors/keywords.py LABEL error RANKS 2 CASES
   velocity-memory-refused displacement-shear-refused press-strain-refused nve-spheroid-refused gran-insitu-refused)
 add_cases(keywords errors/keywords.py LABEL error RANKS 4 CASES
   stress-contact-refused velocity-memory-refused press-strain-refused nve-spheroid-refused gran-insitu-refused)
+add_cases(surroundings errors/surroundings.py LABEL error CASES
+  no-pair-style pair-style-gran words-before-hybrid memory-before-box atom-style atom-style-changed-later group-deleted compute-deleted
+  strain-fix-deleted named-strain-fix-deleted strain-variable-deleted target-variable-deleted variable-becomes-nan variable-becomes-infinite
+  variable-becomes-negative box-changed grains-renumbered grains-renumbered-warned memory-replaced-by-hand asked-between-runs
+  strain-not-set-up)
+add_cases(surroundings errors/surroundings.py LABEL error RANKS 2 CASES
+  words-before-hybrid variable-becomes-nan variable-becomes-negative grains-renumbered grains-renumbered-warned strain-not-set-up)
+add_cases(surroundings errors/surroundings.py LABEL error RANKS 4 CASES words-before-hybrid grains-renumbered variable-becomes-negative)
 add_cases(error-pair errors/pair.py LABEL error RANKS 1 2 CASES hybrid newton-on misspelt-model misspelt-setting small-periodic-box)
 add_cases(error-press-strain errors/press_strain.py LABEL error RANKS 1 CASES
   target-no-such-variable target-variable-negative rate-variable-zero orthogonal-box not-periodic-along-axis wall-on-the-axis

@@ -71,7 +71,7 @@ ComputeDisplacementShear::ComputeDisplacementShear(LAMMPS *lmp, int &iarg, int n
   extscalar = extvector = 0;
   size_vector = 8;
   vector = new double[size_vector]();
-  impl_->record = FixGrainRecord::make(lmp, id, igroup, WIDTH, SHARED, std::string(name) + " " + group->names[igroup]);
+  impl_->record = FixGrainRecord::make(lmp, id, igroup, WIDTH, SHARED, std::string(name) + " " + group->names[igroup], STEP);
 }
 
 ComputeDisplacementShear::~ComputeDisplacementShear() {
@@ -82,8 +82,6 @@ ComputeDisplacementShear::~ComputeDisplacementShear() {
 void ComputeDisplacementShear::init() {
   impl_->strain.init();
   impl_->record = FixGrainRecord::find(lmp, id);
-  double &last = impl_->shared()[STEP];
-  if (last != update->ntimestep) last = -1.0;  // steps may be numbered anew
 }
 
 void ComputeDisplacementShear::begin(double strain) {

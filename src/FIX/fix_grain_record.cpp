@@ -50,6 +50,12 @@ FixGrainRecord::~FixGrainRecord() {
 
 int FixGrainRecord::setmask() { return FixConst::PRE_FORCE; }
 
+void FixGrainRecord::reset_timestep(bigint now, bigint before) {
+  if (step_at_ < 0) return;
+  double &step = shared_[step_at_];
+  step = step == before ? now : -1.0;
+}
+
 /** A tilt that changes by more than half an edge between two force evaluations was turned back. */
 void FixGrainRecord::note_box() {
   const double *h = domain->h;
@@ -67,7 +73,7 @@ void FixGrainRecord::take_turns(double turns[3]) {
 
 std::string FixGrainRecord::id_for(const char *compute) { return std::string(compute) + "_record"; }
 
-FixGrainRecord *FixGrainRecord::make(LAMMPS *lmp, const char *id, int igroup, int width, int shared, const std::string &meaning) {
+FixGrainRecord *FixGrainRecord::make(LAMMPS *lmp, const char *id, int igroup, int width, int shared, const std::string &meaning, int step_at) {
   const std::string record = id_for(id);
   if (lmp->modify->find_fix(record.c_str()) >= 0)
     lmp->error->all(FLERR, ("compute " + std::string(id) + " needs the fix ID '" + record + "' for its memory, but it is taken").c_str());
@@ -79,6 +85,7 @@ FixGrainRecord *FixGrainRecord::make(LAMMPS *lmp, const char *id, int igroup, in
   lmp->modify->add_fix(6, arg);
   making = false;
   FixGrainRecord *made = find(lmp, id);
+  made->step_at_ = step_at;
   made->require_room();
   return made;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_ledger_record.h"
+#include "arguments.h"
 #include "box_state.h"
 #include "contact_observer.h"
 #include "grain_shape.h"
@@ -133,6 +134,8 @@ void FixLedgerRecord::init() {
   if (!observer.knows_past())
     fail("needs 'ledger on' in pair_style gran/insitu, which remembers what each contact stored, got '" + impl_->pair->models() + "'");
   require_known_models();
+  if (impl_->pair->renumbered())
+    fail("grains were given other IDs, and what is known of contacts goes by ID: say 'compress no' to delete_atoms");
   require_moved_by_verlet();
   require_flowing_box();
   using Law = ContactObserver::TangentialLaw;
@@ -194,7 +197,7 @@ double FixLedgerRecord::start_step(EnergyLedger &ledger) const {
 
 void FixLedgerRecord::pre_initial_integrate() {
   if (!impl_->ledger.pending() && impl_->dt != update->dt)
-    fail("the time step changed from " + std::to_string(impl_->dt) + " to " + std::to_string(update->dt) +
+    fail("the time step changed from " + grainscope::Arguments::text(impl_->dt) + " to " + grainscope::Arguments::text(update->dt) +
          " without a new set-up of the run: the forces of one belong to the half steps of the other");
   impl_->dt = update->dt;
   impl_->arrived -= start_step(impl_->ledger);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_press_strain.h"
+#include "arguments.h"
 #include "contact_observer.h"
 #include "pair_gran_insitu.h"
 #include "peculiar_motion.h"
@@ -129,7 +130,7 @@ void FixPressStrain::require_controllable_box() const {
       press_strain_error(lmp, shear + " needs a box periodic along both axes");
     for (const Tilt &tilt : grainscope::tilts)
       if (&tilt != settings.shear && impl_->box.tilt(tilt) != 0.0)
-        press_strain_error(lmp, "with " + shear + " the tilt " + tilt.name + " must be 0, got " + std::to_string(impl_->box.tilt(tilt)));
+        press_strain_error(lmp, "with " + shear + " the tilt " + tilt.name + " must be 0, got " + grainscope::Arguments::text(impl_->box.tilt(tilt)));
   }
   for (int k = 0; k < modify->nfix; k++) {
     Fix *fix = modify->fix[k];
@@ -184,7 +185,7 @@ void FixPressStrain::evaluate_rate() {
   if (!settings.rate.variable.empty()) settings.rate.value = value_of(lmp, "rate", settings.rate);
   if (settings.rate.value == 0.0 || !std::isfinite(settings.rate.value))
     press_strain_error(lmp, "'rate' must be a shear rate other than 0, got v_" + settings.rate.variable + " = " +
-                                std::to_string(settings.rate.value));
+                                grainscope::Arguments::text(settings.rate.value));
   if (!settings.max_rate_given) settings.control.max_rate = std::fabs(settings.rate.value);
 }
 
@@ -198,7 +199,7 @@ void FixPressStrain::evaluate_variables() {
   modify->addstep_compute(update->ntimestep + 1);
   if (!(settings.target.value >= 0.0) || !std::isfinite(settings.target.value))
     press_strain_error(lmp, "'target' must be a pressure >= 0, got v_" + settings.target.variable + " = " +
-                                std::to_string(settings.target.value));
+                                grainscope::Arguments::text(settings.target.value));
 }
 
 void FixPressStrain::begin_contacts() {

@@ -2,6 +2,7 @@
 #include "arguments.h"
 #include "error.h"
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 
 namespace grainscope {
@@ -38,6 +39,13 @@ bool Arguments::is_number(const std::string &text, double &value) {
   char *end = nullptr;
   value = std::strtod(text.c_str(), &end);
   return !text.empty() && text.find_first_not_of("0123456789+-.eE") == std::string::npos && *end == '\0' && std::isfinite(value);
+}
+
+std::string Arguments::text(double value) {
+  if (std::isnan(value)) return "nan";  // whatever its sign
+  char written[32];
+  snprintf(written, sizeof written, "%g", value);
+  return written;
 }
 
 double Arguments::number(const std::string &keyword, const std::string &requirement, bool (*accept)(double)) {

@@ -33,6 +33,8 @@ class Arguments : private LAMMPS_NS::Pointers {
   int even_number(const std::string &keyword, int low, int high);
   /** `text` as a finite decimal number; false when it is not one to the last character. */
   static bool is_number(const std::string &text, double &value);
+  /** `value` for messages, small or large, to six digits. */
+  static std::string text(double value);
 
   [[noreturn]] void fail(const std::string &keyword, const std::string &requirement, const std::string &got) const;
   [[noreturn]] void fail(const std::string &message) const;

@@ -65,7 +65,7 @@ double StrainSource::now() {
   if (!ready_) complaints.fail("was not set up: do not use 'pre no' in the first run with it");
   find(complaints);  // again: `run every` may have changed what there is
   const double strain = fix_ ? fix_->compute_vector(element_) : input->variable->compute_equal(variable_);
-  if (!std::isfinite(strain)) complaints.fail("strain", "finite", text_ + " = " + std::to_string(strain));
+  if (!std::isfinite(strain)) complaints.fail("strain", "finite", text_ + " = " + Arguments::text(strain));
   return strain;
 }
 

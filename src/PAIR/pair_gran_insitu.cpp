@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pair_gran_insitu.h"
+#include "contact_ids.h"
 #include "contact_observer.h"
 #include "ellipsoid_surface.h"
 #include "gran_insitu_models.h"
@@ -34,6 +35,8 @@ struct PairGranInsitu::Impl {
   bool ledger = false;
   bool warned_of_stale_springs = false;
   bool sending_images = false;
+  bigint grains = 0;               // in the last evaluation
+  bool renumbered = false;         // since then
   bigint images_of_build = -1;
 };
 
@@ -46,6 +49,8 @@ PairGranInsitu::~PairGranInsitu() {}
 const std::string &PairGranInsitu::models() const { return impl_->models; }
 
 ContactObserver &PairGranInsitu::observer() { return impl_->observer; }
+
+bool PairGranInsitu::renumbered() const { return impl_->renumbered; }
 
 grainscope::EllipsoidBodies &PairGranInsitu::ellipsoid_bodies() { return impl_->bodies; }
 
@@ -152,6 +157,10 @@ void PairGranInsitu::init_style() {
   impl_->observer.begin_run();
   impl_->images_of_build = -1;
   require_same_columns_in_restart();
+  impl_->renumbered = atom->natoms < impl_->grains && !grainscope::contacts_know_their_grains(lmp);
+  if (impl_->renumbered && comm->me == 0)
+    error->warning(FLERR, "grains were given other IDs, and the host keeps tangential springs by ID: some are now those of other contacts. Say "
+                          "'compress no' to delete_atoms");
   PairGranProxy::init_style();
   warn_of_stale_springs();
   watch_time_step();
@@ -224,6 +233,7 @@ void PairGranInsitu::compute(int eflag, int vflag) {
   if (impl_->observer.begin(!update->setupflag)) update_image_shifts();
   PairGran::compute(eflag, vflag);
   impl_->observer.end();
+  impl_->grains = atom->natoms;
   impl_->watch.judge();
 }
 
