@@ -29,6 +29,9 @@ using grainscope::EnergyLedger;
 
 namespace {
 
+// A line of an input script would replace the books of a compute behind its back.
+bool making = false;
+
 bool one_of(const char *style, std::initializer_list<const char *> styles) {
   for (const char *one : styles)
     if (!strcmp(style, one)) return true;
@@ -57,7 +60,7 @@ struct FixLedgerRecord::Impl {
 };
 
 FixLedgerRecord::FixLedgerRecord(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), impl_(new Impl) {
-  if (narg != 4) error->all(FLERR, "fix ledger/record: is made by the computes that need it, not by an input script");
+  if (!making) error->all(FLERR, "fix ledger/record: is made by the computes that need it, not by an input script");
   impl_->name = arg[3];
   restart_global = 1;
 }
@@ -274,7 +277,9 @@ FixLedgerRecord *FixLedgerRecord::make(LAMMPS *lmp, const char *id, int igroup, 
                                 std::string("compute ") + id + " (" + style + ")"};
   char *arg[4];
   for (int k = 0; k < 4; k++) arg[k] = const_cast<char *>(words[k].c_str());
+  making = true;
   lmp->modify->add_fix(4, arg);
+  making = false;
   return find(lmp, id);
 }
 

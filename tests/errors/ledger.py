@@ -52,7 +52,7 @@ CASES = {
                                  after=["run 5", "timestep 1e-4", "run 5 pre no"]),
     "record-taken": refused("compute c needs the fix ID 'c_ledger' for its ledger, but it is taken", before=["fix c_ledger all nve/noforce"]),
     "record-gone": refused("fix c_ledger, which keeps the ledger of compute c, is gone", after=["unfix c_ledger", "run 1"]),
-    "record-by-hand": refused("fix ledger/record: is made by the computes that need it", compute="fix r all ledger/record"),
+    "record-by-hand": refused("fix ledger/record: is made by the computes that need it", compute="fix r all ledger/record x"),
     "grains-inserted": refused(NAME + "the group changed by", "grains in the middle of a run", after=INSERT,
                                packing=replace(dense_packing(atom_style="sphere", overlap=-0.3), triclinic=False)),
     "restart-without": restarts("", "ledger on", "pair_style gran/insitu: the restart file holds 3 numbers per contact, and this pair_style has 9",
