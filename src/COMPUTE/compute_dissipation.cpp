@@ -91,7 +91,7 @@ void ComputeDissipation::compute_vector() {
   double normal = sums.normal, friction = sums.friction, tangential_damping = sums.tangential_damping;
   if (sums.mode == Impl::Mode::step) {
     normal = -sums.normal_damping_forces.power(atom->v, atom->omega);
-    friction /= update->dt;
+    friction /= observer_->time_step();
     tangential_damping = -sums.tangential_damping_forces.power(atom->v, atom->omega);
   }
   if (sums.mode == Impl::Mode::ledger) return tell_ledger();

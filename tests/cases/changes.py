@@ -10,7 +10,7 @@ from contact_measures import DIRECTION, EXACT, FABRIC, GRAIN, comparisons, requi
 from deck import Deck, dump_grains, dump_local, thermo
 from motion_measures import fluctuations
 from oracle import comparison_motion, measures
-from oracle.state import ROW_WIDTH
+from oracle.state import ROW_WIDTH, rows_of
 from packing import dense_packing
 from run import run
 from watch import Watched, grain_columns, moments_of, watched_deck
@@ -178,6 +178,18 @@ def time_step_changes(lines):
     return case
 
 
+def loss_of_a_changing_step(ranks):
+    """What slipped in a step is divided by the time that step took, not by that of the next."""
+    body = ["compute rows all contact/local", *dump_local("rows", ROW_WIDTH, 1, "rows"), "compute loss all dissipation",
+            *thermo(1, "dt", "c_loss[2]"), "fix adapt all dt/reset 1 1e-9 1 1e-5 units box", "run 20"]
+    result = run(Deck(SPHERES, body=body), ranks)
+    table, rows = told(result), [rows_of(columns, "rows") for _, columns in result.dump("rows.dump")]
+    require(len(set(table["dt"])) > 10, "the time step did not change")
+    for step in range(1, 21):
+        expected = measures.friction_of_step(rows[step], table["dt"][step - 1])
+        require_close(table["c_loss[2]"][step], expected, EXACT, f"friction in step {step}", np.abs(table["c_loss[2]"]).max())
+
+
 def box_scaled(ranks):
     """fix press/strain goes on with the box that it finds; what was displaced is displaced no further by a scaling of everything."""
     body = [*asking(SPHERES), "thermo_style custom step ly c_moved[1] c_moved[2] c_moved[3] c_moved[4] f_press[1] f_press[4] c_books c_stress[30]",
@@ -213,6 +225,7 @@ CASES = {
     "time-step-changed-between-runs": time_step_changes(["timestep 1e-5", "run 20"]),
     "time-step-changed-every-ten-steps": time_step_changes(['run 20 every 10 "timestep 2e-5"']),
     "time-step-changed-in-mid-run": time_step_changes(["fix adapt all dt/reset 3 1e-9 1 1e-5 units box", "run 20"]),
+    "loss-while-the-time-step-changes": loss_of_a_changing_step,
     "box-scaled": box_scaled,
 }
 
