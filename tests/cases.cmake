@@ -133,3 +133,9 @@ add_cases(ledger cases/ledger.py LABEL case RANKS 1 2 CASES
 add_cases(ledger cases/ledger.py LABEL case RANKS 1 2 4 CASES pressed-1.5)
 add_cases(ledger cases/ledger.py LABEL case RANKS 2 4 CASES same-spheres same-spheroids)
 add_cases(ranges cases/ranges.py LABEL case RANKS 1 2 CASES time-step time-step-in-short-runs time-step-unseen quiet kappa clipping unstable-from-the-start profile)
+add_cases(changes cases/changes.py LABEL case RANKS 1 CASES
+  box-turned-triclinic grains-deleted-and-renumbered pair-style-twice-at-first compute-before-pair-style time-step-changed-between-runs
+  time-step-changed-every-ten-steps loss-while-the-time-step-changes)
+add_cases(changes cases/changes.py LABEL case RANKS 1 2 CASES
+  box-turned-orthogonal grains-deleted grains-lost clear-starts-afresh-with-ellipsoids pair-style-twice time-step-changed-in-mid-run box-scaled)
+add_cases(changes cases/changes.py LABEL case RANKS 1 2 4 CASES grains-inserted clear-starts-afresh steps-numbered-anew)

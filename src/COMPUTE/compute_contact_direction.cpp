@@ -30,7 +30,7 @@ ComputeContactDirection::ComputeContactDirection(LAMMPS *lmp, int &iarg, int nar
     : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   while (!arguments.done()) {
-    const std::string keyword = arguments.choice("keyword", {"plane", "bins"});
+    const std::string keyword = arguments.keyword({"plane", "bins"});
     if (keyword == "plane") impl_->plane.read(arguments);
     else impl_->half = arguments.even_number(keyword, 2, 10000) / 2;
   }

@@ -25,7 +25,7 @@ struct ComputeContactGrain::Impl {
 ComputeContactGrain::ComputeContactGrain(LAMMPS *lmp, int &iarg, int narg, char **arg)
     : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
-  if (!arguments.done()) arguments.fail("takes no keywords, got '" + arguments.word("nothing") + "'");
+  arguments.require_none();
   peratom_flag = 1;
   size_peratom_cols = WIDTH;
 }

@@ -64,7 +64,7 @@ ComputeContactLocal::ComputeContactLocal(LAMMPS *lmp, int &iarg, int narg, char 
     if (all) impl_->chosen.push_back(&column);
   }
   while (!arguments.done()) {
-    const std::string name = arguments.choice("column", names);
+    const std::string name = arguments.keyword(names, "column");
     impl_->chosen.push_back(std::find_if(std::begin(columns), std::end(columns), [&](const Column &c) { return name == c.name; }));
   }
   for (const Column *column : impl_->chosen) impl_->width += column->width;

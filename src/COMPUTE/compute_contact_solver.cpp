@@ -10,7 +10,7 @@ using namespace LAMMPS_NS;
 
 ComputeContactSolver::ComputeContactSolver(LAMMPS *lmp, int &iarg, int narg, char **arg) : Compute(lmp, iarg, narg, arg) {
   grainscope::Arguments arguments(lmp, "compute contact/solver", iarg, narg, arg);
-  if (!arguments.done()) arguments.fail("takes no keywords, got '" + arguments.word("nothing") + "'");
+  arguments.require_none();
   if (igroup != 0)
     arguments.fail(std::string("the group must be 'all', as the pairs of all grains are counted, got '") + arg[1] + "'");
   scalar_flag = vector_flag = 1;

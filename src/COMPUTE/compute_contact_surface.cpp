@@ -33,6 +33,10 @@ enum { CONTACTS, NORMAL, TANGENTIAL, MOBILISATION, SLIDING, NORMAL_POWER, FRICTI
 /** v seen along body axis `axis`: that component last, the others before it. */
 Vector3d along(int axis, const Vector3d &v) { return {v[(axis + 1) % 3], v[(axis + 2) % 3], v[axis]}; }
 
+void require_axes(const Atom *atom, const grainscope::Arguments &complaints) {
+  if (!atom->superquadric_flag) complaints.fail("needs atom_style superquadric: grains of other styles have no axes to measure angles from");
+}
+
 }
 
 struct ComputeContactSurface::Impl {
@@ -66,7 +70,7 @@ ComputeContactSurface::ComputeContactSurface(LAMMPS *lmp, int &iarg, int narg, c
     : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   while (!arguments.done()) {
-    const std::string keyword = arguments.choice("keyword", {"bins", "angle", "axis"});
+    const std::string keyword = arguments.keyword({"bins", "angle", "axis"});
     if (keyword == "bins") impl_->bins = arguments.whole_number(keyword, 1, 1000);
     if (keyword == "angle") impl_->angle = arguments.choice(keyword, {"polar", "parametric"}) == "polar" ? SurfaceAngle::polar : SurfaceAngle::parametric;
     if (keyword == "axis") {
@@ -74,7 +78,7 @@ ComputeContactSurface::ComputeContactSurface(LAMMPS *lmp, int &iarg, int narg, c
       impl_->axis = axis == "auto" ? -1 : axis[0] - 'x';
     }
   }
-  if (!atom->superquadric_flag) arguments.fail("needs atom_style superquadric: grains of other styles have no axes to measure angles from");
+  require_axes(atom, arguments);
   array_flag = vector_flag = 1;
   extarray = 0;
   extvector = 0;
@@ -88,6 +92,7 @@ ComputeContactSurface::ComputeContactSurface(LAMMPS *lmp, int &iarg, int narg, c
 ComputeContactSurface::~ComputeContactSurface() { delete[] vector; }
 
 void ComputeContactSurface::init() {
+  require_axes(atom, grainscope::Arguments(lmp, name_, 0, 0, nullptr));
   ContactCompute::init();
   require_known_losses();
   require_one_shape();

@@ -4,6 +4,7 @@
 #include "box_state.h"
 #include "fix_grain_record.h"
 #include "strain_source.h"
+#include "surroundings.h"
 #include "atom.h"
 #include "domain.h"
 #include "group.h"
@@ -49,7 +50,7 @@ struct Box {
 }
 
 struct ComputeDisplacementShear::Impl {
-  explicit Impl(LAMMPS *lmp) : strain(lmp) {}
+  explicit Impl(LAMMPS *lmp) : strain(lmp, name) {}
   grainscope::StrainSource strain;
   double start = 0.0;
   FixGrainRecord *record = nullptr;
@@ -61,15 +62,16 @@ ComputeDisplacementShear::ComputeDisplacementShear(LAMMPS *lmp, int &iarg, int n
     : Compute(lmp, iarg, narg, arg), impl_(new Impl(lmp)) {
   grainscope::Arguments arguments(lmp, name, iarg, narg, arg);
   while (!arguments.done()) {
-    const std::string keyword = arguments.choice("keyword", {"start", "strain"});
+    const std::string keyword = arguments.keyword({"start", "strain"});
     if (keyword == "start") impl_->start = arguments.number(keyword, "a strain", [](double) { return true; });
     if (keyword == "strain") impl_->strain.read(arguments);
   }
+  grainscope::require_box(lmp, arguments);
   scalar_flag = vector_flag = 1;
   extscalar = extvector = 0;
   size_vector = 8;
   vector = new double[size_vector]();
-  impl_->record = FixGrainRecord::make(lmp, id, igroup, WIDTH, SHARED, std::string(name) + " " + group->names[igroup]);
+  impl_->record = FixGrainRecord::make(lmp, id, igroup, WIDTH, SHARED, std::string(name) + " " + group->names[igroup], STEP);
 }
 
 ComputeDisplacementShear::~ComputeDisplacementShear() {
@@ -78,7 +80,7 @@ ComputeDisplacementShear::~ComputeDisplacementShear() {
 }
 
 void ComputeDisplacementShear::init() {
-  impl_->strain.init(name);
+  impl_->strain.init();
   impl_->record = FixGrainRecord::find(lmp, id);
 }
 

@@ -6,6 +6,7 @@
 #include "fix_ledger_record.h"
 #include "ledger_account.h"
 #include "grain_power.h"
+#include "surroundings.h"
 #include "atom.h"
 #include "domain.h"
 #include "update.h"
@@ -25,11 +26,11 @@ ComputeDissipation::ComputeDissipation(LAMMPS *lmp, int &iarg, int narg, char **
     : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   while (!arguments.done()) {
-    const std::string keyword = arguments.word("a keyword");
-    if (keyword != "mode") arguments.fail("the only keyword is 'mode', got '" + keyword + "'");
+    const std::string keyword = arguments.keyword({"mode"});
     const std::string mode = arguments.choice(keyword, {"instantaneous", "step", "ledger"});
     impl_->mode = mode == "step" ? Impl::Mode::step : mode == "ledger" ? Impl::Mode::ledger : Impl::Mode::instantaneous;
   }
+  if (impl_->mode == Impl::Mode::ledger) grainscope::require_box(lmp, arguments);
   scalar_flag = vector_flag = 1;
   extscalar = 1;
   extvector = 1;
@@ -90,7 +91,7 @@ void ComputeDissipation::compute_vector() {
   double normal = sums.normal, friction = sums.friction, tangential_damping = sums.tangential_damping;
   if (sums.mode == Impl::Mode::step) {
     normal = -sums.normal_damping_forces.power(atom->v, atom->omega);
-    friction /= update->dt;
+    friction /= observer_->time_step();
     tangential_damping = -sums.tangential_damping_forces.power(atom->v, atom->omega);
   }
   if (sums.mode == Impl::Mode::ledger) return tell_ledger();

@@ -3,6 +3,7 @@
 #include "arguments.h"
 #include "fix_ledger_record.h"
 #include "ledger_account.h"
+#include "surroundings.h"
 #include "update.h"
 #include <cmath>
 
@@ -17,7 +18,8 @@ constexpr int residual = E::entries + E::stores, relative = residual + 1, rates 
 
 ComputeEnergyLedger::ComputeEnergyLedger(LAMMPS *lmp, int &iarg, int narg, char **arg) : Compute(lmp, iarg, narg, arg) {
   grainscope::Arguments arguments(lmp, "compute energy/ledger", iarg, narg, arg);
-  if (!arguments.done()) arguments.fail("takes no keywords, got '" + arguments.word("nothing") + "'");
+  arguments.require_none();
+  grainscope::require_box(lmp, arguments);
   scalar_flag = vector_flag = 1;
   extscalar = 0;
   extvector = -1;

@@ -45,13 +45,10 @@ struct ComputeFabric::Impl {
 ComputeFabric::ComputeFabric(LAMMPS *lmp, int &iarg, int narg, char **arg) : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   while (!arguments.done()) {
-    const std::string keyword = arguments.choice("keyword", {"plane", "branch", "force/normal", "force/tangential"});
+    const std::string keyword = arguments.keyword({"plane", "branch", "force/normal", "force/tangential"});
     if (keyword == "plane") impl_->plane.read(arguments);
-    for (const Weighted &one : weighted_tensors) {
-      if (keyword != one.name) continue;
-      if (std::find(impl_->chosen.begin(), impl_->chosen.end(), &one) != impl_->chosen.end()) arguments.fail("'" + keyword + "' is given twice");
-      impl_->chosen.push_back(&one);
-    }
+    for (const Weighted &one : weighted_tensors)
+      if (keyword == one.name) impl_->chosen.push_back(&one);
   }
   scalar_flag = vector_flag = 1;
   extscalar = 0;

@@ -5,6 +5,7 @@
 #include "grain_shape.h"
 #include "range_warning.h"
 #include "rows.h"
+#include "surroundings.h"
 #include "atom.h"
 #include "update.h"
 #include <algorithm>
@@ -45,13 +46,13 @@ struct ComputeFluctuation::Impl {
 ComputeFluctuation::ComputeFluctuation(LAMMPS *lmp, int &iarg, int narg, char **arg) : Compute(lmp, iarg, narg, arg), impl_(new Impl) {
   grainscope::Arguments arguments(lmp, "compute fluctuation", iarg, narg, arg);
   while (!arguments.done()) {
-    const std::string keyword = arguments.choice("keyword", {"plane", "layers", "diameter", "flow"});
+    const std::string keyword = arguments.keyword({"plane", "layers", "diameter", "flow"});
     if (keyword == "plane") impl_->flow.plane.read(arguments);
     if (keyword == "layers") impl_->layers = arguments.whole_number(keyword, 1, 10000);
     if (keyword == "diameter") impl_->diameter = arguments.number(keyword, "a positive length", is_positive);
     if (keyword == "flow") impl_->flow.read(arguments);
   }
-  if (!atom->superquadric_flag && !atom->sphere_flag) arguments.fail("needs atom_style superquadric or sphere");
+  grainscope::require_grains(lmp, arguments);
   scalar_flag = vector_flag = array_flag = 1;
   extscalar = 0;
   extvector = -1;
@@ -70,7 +71,7 @@ ComputeFluctuation::~ComputeFluctuation() {
   delete[] vector;
 }
 
-void ComputeFluctuation::init() {}
+void ComputeFluctuation::init() { grainscope::require_grains(lmp, grainscope::Arguments(lmp, "compute fluctuation", 0, 0, nullptr)); }
 
 void ComputeFluctuation::compute_array() {
   invoked_array = update->ntimestep;

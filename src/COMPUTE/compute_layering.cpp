@@ -21,7 +21,7 @@ struct ComputeLayering::Impl {
 ComputeLayering::ComputeLayering(LAMMPS *lmp, int &iarg, int narg, char **arg) : Compute(lmp, iarg, narg, arg), impl_(new Impl) {
   grainscope::Arguments arguments(lmp, "compute layering", iarg, narg, arg);
   while (!arguments.done()) {
-    const std::string keyword = arguments.choice("keyword", {"axis", "layers"});
+    const std::string keyword = arguments.keyword({"axis", "layers"});
     if (keyword == "axis") impl_->axis = arguments.choice(keyword, {"x", "y", "z"})[0] - 'x';
     else impl_->layers = arguments.even_number(keyword, 2, 1000);
   }

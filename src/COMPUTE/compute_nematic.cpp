@@ -2,8 +2,8 @@
 #include "compute_nematic.h"
 #include "arguments.h"
 #include "atom.h"
-#include "error.h"
 #include "nematic.h"
+#include "surroundings.h"
 #include "update.h"
 #include <Eigen/Geometry>
 
@@ -12,8 +12,8 @@ using Eigen::Vector3d;
 
 ComputeNematic::ComputeNematic(LAMMPS *lmp, int &iarg, int narg, char **arg) : Compute(lmp, iarg, narg, arg) {
   grainscope::Arguments arguments(lmp, "compute nematic", iarg, narg, arg);
-  if (!arguments.done()) arguments.fail("takes no keywords, got '" + arguments.word("nothing") + "'");
-  if (!atom->superquadric_flag && !atom->sphere_flag) arguments.fail("needs atom_style superquadric or sphere");
+  arguments.require_none();
+  grainscope::require_grains(lmp, arguments);
   scalar_flag = vector_flag = 1;
   extscalar = 0;
   extvector = 0;
@@ -23,7 +23,7 @@ ComputeNematic::ComputeNematic(LAMMPS *lmp, int &iarg, int narg, char **arg) : C
 
 ComputeNematic::~ComputeNematic() { delete[] vector; }
 
-void ComputeNematic::init() {}
+void ComputeNematic::init() { grainscope::require_grains(lmp, grainscope::Arguments(lmp, "compute nematic", 0, 0, nullptr)); }
 
 void ComputeNematic::compute_vector() {
   invoked_vector = update->ntimestep;

@@ -28,7 +28,7 @@ const double hard_grains = 1.1e3;
 ComputeStressContact::ComputeStressContact(LAMMPS *lmp, int &iarg, int narg, char **arg)
     : ContactCompute(lmp, iarg, narg, arg), sums_(new grainscope::StressSums) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
-  if (!arguments.done()) arguments.fail("takes no keywords, got '" + arguments.word("nothing") + "'");
+  arguments.require_none();
   scalar_flag = vector_flag = 1;
   extscalar = 0;
   extvector = 0;

@@ -6,6 +6,7 @@
 #include "grain_shape.h"
 #include "mesh_correlation.h"
 #include "rows.h"
+#include "surroundings.h"
 #include "velocity_component.h"
 #include "comm.h"
 #include "domain.h"
@@ -96,7 +97,7 @@ ComputeVelocityCorrelation::ComputeVelocityCorrelation(LAMMPS *lmp, int &iarg, i
   bool mesh_given = false;
   while (!arguments.done()) {
     const std::string keyword =
-        arguments.choice("keyword", {"component", "bins", "range", "method", "mesh", "flow", "plane", "average"});
+        arguments.keyword({"component", "bins", "range", "method", "mesh", "flow", "plane", "average"});
     if (keyword == "component") impl_->component.read(arguments);
     if (keyword == "bins") impl_->bins = arguments.whole_number(keyword, 1, 10000);
     if (keyword == "range") impl_->range = arguments.number(keyword, "a positive length", is_positive);
@@ -111,7 +112,7 @@ ComputeVelocityCorrelation::ComputeVelocityCorrelation(LAMMPS *lmp, int &iarg, i
     if (keyword == "average") impl_->running = arguments.choice(keyword, {"one", "running"}) == "running";
   }
   if (mesh_given && !impl_->mesh) arguments.fail("'mesh' needs 'method mesh'");
-  if (!atom->superquadric_flag && !atom->sphere_flag) arguments.fail("needs atom_style superquadric or sphere");
+  grainscope::require_grains(lmp, arguments);
   scalar_flag = vector_flag = array_flag = 1;
   extscalar = extvector = extarray = 0;
   size_vector = 5;
@@ -124,10 +125,12 @@ ComputeVelocityCorrelation::ComputeVelocityCorrelation(LAMMPS *lmp, int &iarg, i
 ComputeVelocityCorrelation::~ComputeVelocityCorrelation() { delete[] vector; }
 
 void ComputeVelocityCorrelation::init() {
+  const Arguments complaints(lmp, name, 0, 0, nullptr);
+  grainscope::require_grains(lmp, complaints);
   impl_->measured = -1;
+  if (impl_->counted != update->ntimestep) impl_->counted = -1;  // steps may be numbered anew
   if (impl_->mesh && !(domain->xperiodic && domain->yperiodic && domain->zperiodic))
-    Arguments(lmp, name, 0, 0, nullptr)
-        .fail("'method' must be direct in a box that is not periodic in all three directions, got 'mesh'");
+    complaints.fail("'method' must be direct in a box that is not periodic in all three directions, got 'mesh'");
 }
 
 /** This rank's share of the sums over pairs. */

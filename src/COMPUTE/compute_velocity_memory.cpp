@@ -6,6 +6,7 @@
 #include "fluctuations.h"
 #include "rows.h"
 #include "strain_source.h"
+#include "surroundings.h"
 #include "velocity_component.h"
 #include "atom.h"
 #include "group.h"
@@ -30,7 +31,7 @@ enum { STRAIN = 0, PRODUCTS, PAIRS, SUMS };
 }
 
 struct ComputeVelocityMemory::Impl {
-  explicit Impl(LAMMPS *lmp) : strain(lmp) {}
+  explicit Impl(LAMMPS *lmp) : strain(lmp, name) {}
   grainscope::StrainSource strain;
   grainscope::MeanFlow flow;
   grainscope::VelocityComponent component;
@@ -56,7 +57,7 @@ ComputeVelocityMemory::ComputeVelocityMemory(LAMMPS *lmp, int &iarg, int narg, c
     : Compute(lmp, iarg, narg, arg), impl_(new Impl(lmp)) {
   grainscope::Arguments arguments(lmp, name, iarg, narg, arg);
   while (!arguments.done()) {
-    const std::string keyword = arguments.choice("keyword", {"component", "every", "lags", "strain", "flow", "plane"});
+    const std::string keyword = arguments.keyword({"component", "every", "lags", "strain", "flow", "plane"});
     if (keyword == "component") impl_->component.read(arguments);
     if (keyword == "every") impl_->every = arguments.number(keyword, "a positive strain", [](double x) { return x > 0.0; });
     if (keyword == "lags") impl_->lags = arguments.whole_number(keyword, 1, 400);
@@ -64,7 +65,8 @@ ComputeVelocityMemory::ComputeVelocityMemory(LAMMPS *lmp, int &iarg, int narg, c
     if (keyword == "flow") impl_->flow.read(arguments);
     if (keyword == "plane") impl_->flow.plane.read(arguments);
   }
-  if (!atom->superquadric_flag && !atom->sphere_flag) arguments.fail("needs atom_style superquadric or sphere");
+  grainscope::require_grains(lmp, arguments);
+  grainscope::require_box(lmp, arguments);
   scalar_flag = vector_flag = array_flag = 1;
   extscalar = extvector = extarray = 0;
   size_vector = 3;
@@ -81,7 +83,7 @@ ComputeVelocityMemory::~ComputeVelocityMemory() {
 }
 
 void ComputeVelocityMemory::init() {
-  impl_->strain.init(name);
+  impl_->strain.init();
   impl_->record = FixGrainRecord::find(lmp, id);
 }
 

@@ -19,12 +19,8 @@ namespace {
 // The host's buffers for grains that change ranks have room for 1000 numbers beyond what they are sized for.
 const int most_numbers = 800;
 
-/** A word as a whole number within bounds, or -1. */
-int whole(const char *word, int low, int high) {
-  char *end = nullptr;
-  const long n = strtol(word, &end, 10);
-  return *word && !*end && n >= low && n <= high ? static_cast<int>(n) : -1;
-}
+// A line of an input script would replace the memory of a compute behind its back.
+bool making = false;
 
 /** FNV-1a, 32 bits: every such number is a double. */
 double hash(const std::string &text) {
@@ -36,11 +32,10 @@ double hash(const std::string &text) {
 }
 
 FixGrainRecord::FixGrainRecord(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg) {
-  width_ = narg == 6 ? whole(arg[3], 1, most_numbers) : -1;
-  const int shared = narg == 6 ? whole(arg[4], 0, 1000000) : -1;
-  if (width_ < 0 || shared < 0) error->all(FLERR, "fix grain/record: is made by the computes that need it, not by an input script");
+  if (!making) error->all(FLERR, "fix grain/record: is made by the computes that need it, not by an input script");
+  width_ = atoi(arg[3]);
+  shared_.assign(atoi(arg[4]), 0.0);
   meaning_ = atof(arg[5]);
-  shared_.assign(shared, 0.0);
   restart_global = restart_peratom = create_attribute = 1;
   std::copy(domain->h, domain->h + 6, edges_);
   grow_arrays(atom->nmax);
@@ -54,6 +49,12 @@ FixGrainRecord::~FixGrainRecord() {
 }
 
 int FixGrainRecord::setmask() { return FixConst::PRE_FORCE; }
+
+void FixGrainRecord::reset_timestep(bigint now, bigint before) {
+  if (step_at_ < 0) return;
+  double &step = shared_[step_at_];
+  step = step == before ? now : -1.0;
+}
 
 /** A tilt that changes by more than half an edge between two force evaluations was turned back. */
 void FixGrainRecord::note_box() {
@@ -72,7 +73,7 @@ void FixGrainRecord::take_turns(double turns[3]) {
 
 std::string FixGrainRecord::id_for(const char *compute) { return std::string(compute) + "_record"; }
 
-FixGrainRecord *FixGrainRecord::make(LAMMPS *lmp, const char *id, int igroup, int width, int shared, const std::string &meaning) {
+FixGrainRecord *FixGrainRecord::make(LAMMPS *lmp, const char *id, int igroup, int width, int shared, const std::string &meaning, int step_at) {
   const std::string record = id_for(id);
   if (lmp->modify->find_fix(record.c_str()) >= 0)
     lmp->error->all(FLERR, ("compute " + std::string(id) + " needs the fix ID '" + record + "' for its memory, but it is taken").c_str());
@@ -80,8 +81,11 @@ FixGrainRecord *FixGrainRecord::make(LAMMPS *lmp, const char *id, int igroup, in
                                 std::to_string(hash(meaning))};
   char *arg[6];
   for (int k = 0; k < 6; k++) arg[k] = const_cast<char *>(words[k].c_str());
+  making = true;
   lmp->modify->add_fix(6, arg);
+  making = false;
   FixGrainRecord *made = find(lmp, id);
+  made->step_at_ = step_at;
   made->require_room();
   return made;
 }

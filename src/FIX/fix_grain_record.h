@@ -23,12 +23,15 @@ class FixGrainRecord : public Fix {
   FixGrainRecord(class LAMMPS *lmp, int narg, char **arg);
   ~FixGrainRecord();
   int setmask();
+  void reset_timestep(bigint now, bigint before);
   void setup_pre_force(int) { note_box(); }
   void pre_force(int) { note_box(); }
 
   /** Makes the record of compute `id`, in its constructor; what a restart file holds of it is restored, and refused when `meaning` (style
-   *  and keywords of the compute) was another. Collective. */
-  static FixGrainRecord *make(class LAMMPS *lmp, const char *id, int igroup, int width, int shared, const std::string &meaning);
+   *  and keywords of the compute) was another. `step_at`: where the shared numbers hold a step, which `reset_timestep` renumbers.
+   *  Collective. */
+  static FixGrainRecord *make(class LAMMPS *lmp, const char *id, int igroup, int width, int shared, const std::string &meaning,
+                              int step_at = -1);
   /** The record that was made, or an error when it is gone. */
   static FixGrainRecord *find(class LAMMPS *lmp, const char *id);
   /** To be called by the compute's destructor. */
@@ -58,6 +61,7 @@ class FixGrainRecord : public Fix {
   int width_;
   std::vector<double> values_, shared_;
   double meaning_;
+  int step_at_ = -1;
   double edges_[6];
   double turns_[3] = {0.0, 0.0, 0.0};
 

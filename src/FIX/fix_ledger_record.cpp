@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_ledger_record.h"
+#include "arguments.h"
 #include "box_state.h"
 #include "contact_observer.h"
 #include "grain_shape.h"
@@ -27,6 +28,9 @@ using grainscope::ContactObserver;
 using grainscope::EnergyLedger;
 
 namespace {
+
+// A line of an input script would replace the books of a compute behind its back.
+bool making = false;
 
 bool one_of(const char *style, std::initializer_list<const char *> styles) {
   for (const char *one : styles)
@@ -65,7 +69,7 @@ struct FixLedgerRecord::Saved {
 };
 
 FixLedgerRecord::FixLedgerRecord(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), impl_(new Impl) {
-  if (narg != 4) error->all(FLERR, "fix ledger/record: is made by the computes that need it, not by an input script");
+  if (!making) error->all(FLERR, "fix ledger/record: is made by the computes that need it, not by an input script");
   impl_->name = arg[3];
   restart_global = 1;
 }
@@ -142,6 +146,8 @@ void FixLedgerRecord::init() {
   if (!observer.knows_past())
     fail("needs 'ledger on' in pair_style gran/insitu, which remembers what each contact stored, got '" + impl_->pair->models() + "'");
   require_known_models();
+  if (impl_->pair->renumbered())
+    fail("grains were given other IDs, and what is known of contacts goes by ID: say 'compress no' to delete_atoms");
   require_moved_by_verlet();
   require_flowing_box();
   using Law = ContactObserver::TangentialLaw;
@@ -204,7 +210,7 @@ double FixLedgerRecord::start_step(EnergyLedger &ledger) const {
 
 void FixLedgerRecord::pre_initial_integrate() {
   if (!impl_->ledger.pending() && impl_->dt != update->dt)
-    fail("the time step changed from " + std::to_string(impl_->dt) + " to " + std::to_string(update->dt) +
+    fail("the time step changed from " + grainscope::Arguments::text(impl_->dt) + " to " + grainscope::Arguments::text(update->dt) +
          " without a new set-up of the run: the forces of one belong to the half steps of the other");
   impl_->dt = update->dt;
   impl_->arrived -= start_step(impl_->ledger);
@@ -281,7 +287,9 @@ FixLedgerRecord *FixLedgerRecord::make(LAMMPS *lmp, const char *id, int igroup, 
                                 std::string("compute ") + id + " (" + style + ")"};
   char *arg[4];
   for (int k = 0; k < 4; k++) arg[k] = const_cast<char *>(words[k].c_str());
+  making = true;
   lmp->modify->add_fix(4, arg);
+  making = false;
   return find(lmp, id);
 }
 

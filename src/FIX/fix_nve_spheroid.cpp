@@ -15,7 +15,7 @@ using namespace LAMMPS_NS;
 
 FixNVESpheroid::FixNVESpheroid(LAMMPS *lmp, int narg, char **arg) : FixNVE(lmp, narg, arg) {
   grainscope::Arguments arguments(lmp, "fix nve/spheroid", 3, narg, arg);
-  if (!arguments.done()) arguments.fail("takes no keywords, got '" + arguments.word("nothing") + "'");
+  arguments.require_none();
   if (!atom->superquadric_flag) arguments.fail("needs atom_style superquadric, got '" + std::string(atom->atom_style) + "'");
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_press_strain.h"
+#include "arguments.h"
 #include "contact_observer.h"
 #include "pair_gran_insitu.h"
 #include "peculiar_motion.h"
@@ -10,6 +11,7 @@
 #include "domain.h"
 #include "fix_wall_gran.h"
 #include "force.h"
+#include "group.h"
 #include "input.h"
 #include "modify.h"
 #include "primitive_wall.h"
@@ -55,6 +57,7 @@ struct FixPressStrain::Impl {
   grainscope::ShearedBox box;
   grainscope::Intervals intervals;
   int momentum_groupbit = 1;
+  std::string momentum_group;
   grainscope::ContactObserver *observer = nullptr;
   double exponent = 1.5;
   bool sticks = true;
@@ -102,6 +105,7 @@ FixPressStrain::FixPressStrain(LAMMPS *lmp, int narg, char **arg, const HostArgu
     : FixDeform(lmp, host.pointers.size(), const_cast<char **>(host.pointers.data())), impl_(new Impl(lmp, narg, arg)) {
   // The box and its velocity remapping concern every grain; the group only says whose drift is removed.
   impl_->momentum_groupbit = groupbit;
+  impl_->momentum_group = arg[1];
   igroup = 0;
   groupbit = 1;
   restart_global = 1;
@@ -126,7 +130,7 @@ void FixPressStrain::require_controllable_box() const {
       press_strain_error(lmp, shear + " needs a box periodic along both axes");
     for (const Tilt &tilt : grainscope::tilts)
       if (&tilt != settings.shear && impl_->box.tilt(tilt) != 0.0)
-        press_strain_error(lmp, "with " + shear + " the tilt " + tilt.name + " must be 0, got " + std::to_string(impl_->box.tilt(tilt)));
+        press_strain_error(lmp, "with " + shear + " the tilt " + tilt.name + " must be 0, got " + grainscope::Arguments::text(impl_->box.tilt(tilt)));
   }
   for (int k = 0; k < modify->nfix; k++) {
     Fix *fix = modify->fix[k];
@@ -149,10 +153,18 @@ void FixPressStrain::require_no_wall_on_axis(Fix *fix) const {
     press_strain_error(lmp, std::string("cannot move box edges along '") + axis + "': fix " + fix->id + " is a wall on that axis");
 }
 
+/** The host lets a group be deleted that no fix is registered for, and this one is for `all`. */
+void FixPressStrain::require_momentum_group() const {
+  const int found = group->find(impl_->momentum_group.c_str());
+  if (found < 0 || group->bitmask[found] != impl_->momentum_groupbit)
+    press_strain_error(lmp, "its group '" + impl_->momentum_group + "' was deleted: define the group and the fix again");
+}
+
 void FixPressStrain::init() {
   using Law = grainscope::ContactObserver::TangentialLaw;
   Impl &my = *impl_;
   require_controllable_box();
+  require_momentum_group();
   PairGranInsitu *pair = PairGranInsitu::required_by(lmp, "fix press/strain");
   my.observer = &pair->observer();
   my.observer->add(this);
@@ -173,7 +185,7 @@ void FixPressStrain::evaluate_rate() {
   if (!settings.rate.variable.empty()) settings.rate.value = value_of(lmp, "rate", settings.rate);
   if (settings.rate.value == 0.0 || !std::isfinite(settings.rate.value))
     press_strain_error(lmp, "'rate' must be a shear rate other than 0, got v_" + settings.rate.variable + " = " +
-                                std::to_string(settings.rate.value));
+                                grainscope::Arguments::text(settings.rate.value));
   if (!settings.max_rate_given) settings.control.max_rate = std::fabs(settings.rate.value);
 }
 
@@ -187,7 +199,7 @@ void FixPressStrain::evaluate_variables() {
   modify->addstep_compute(update->ntimestep + 1);
   if (!(settings.target.value >= 0.0) || !std::isfinite(settings.target.value))
     press_strain_error(lmp, "'target' must be a pressure >= 0, got v_" + settings.target.variable + " = " +
-                                std::to_string(settings.target.value));
+                                grainscope::Arguments::text(settings.target.value));
 }
 
 void FixPressStrain::begin_contacts() {

@@ -45,6 +45,7 @@ class FixPressStrain : public FixDeform, public grainscope::ContactSink {
 
   void require_controllable_box() const;
   void require_no_wall_on_axis(Fix *fix) const;
+  void require_momentum_group() const;
   void evaluate_rate();
   void evaluate_variables();
   double progress_of_a_step() const;

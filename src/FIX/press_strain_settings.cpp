@@ -51,11 +51,11 @@ PressStrainSettings::PressStrainSettings(LAMMPS_NS::LAMMPS *lmp, int narg, char 
   Arguments arguments(lmp, "fix press/strain", 3, narg, arg);
   std::set<std::string> given;
   while (!arguments.done()) {
-    const std::string keyword = arguments.word("a keyword");
+    const std::string keyword = arguments.keyword(
+        {"axis", "target", "shear", "every", "every/time", "every/step", "gain", "limit", "maxrate", "momentum", "kinetic"});
     const std::string kind = keyword.compare(0, 6, "every/") == 0 ? "every" : keyword;
     if (!given.insert(kind).second)
-      arguments.fail(kind == "every" ? "'every', 'every/time' and 'every/step' exclude each other, got a second one: '" + keyword + "'"
-                                     : "'" + keyword + "' is given twice");
+      arguments.fail("'every', 'every/time' and 'every/step' exclude each other, got a second one: '" + keyword + "'");
     if (keyword == "axis") axis = arguments.choice(keyword, {"x", "y", "z"})[0] - 'x';
     else if (keyword == "target")
       target = read_quantity(arguments, keyword, "a pressure >= 0 or a variable v_name", [](double x) { return x >= 0.0; });
@@ -66,10 +66,7 @@ PressStrainSettings::PressStrainSettings(LAMMPS_NS::LAMMPS *lmp, int narg, char 
       control.limit = arguments.number(keyword, "between 0 and 1, both excluded", [](double x) { return x > 0.0 && x < 1.0; });
     else if (keyword == "maxrate") control.max_rate = arguments.number(keyword, "a rate > 0", positive);
     else if (keyword == "momentum") remove_momentum = arguments.yes_or_no(keyword);
-    else if (keyword == "kinetic") kinetic = arguments.yes_or_no(keyword);
-    else
-      arguments.fail("keywords are axis, target, shear, every, every/time, every/step, gain, limit, maxrate, momentum and kinetic, got '" +
-                     keyword + "'");
+    else kinetic = arguments.yes_or_no(keyword);
   }
   max_rate_given = given.count("maxrate");
   if (!given.count("axis")) arguments.fail("'axis x', 'axis y' or 'axis z' is required");

@@ -2,6 +2,7 @@
 #include "arguments.h"
 #include "error.h"
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 
 namespace grainscope {
@@ -12,6 +13,16 @@ Arguments::Arguments(LAMMPS_NS::LAMMPS *lmp, const std::string &style, int first
 std::string Arguments::word(const std::string &wanted) {
   if (done()) fail("expected " + wanted + (at_ ? " after '" + words_[at_ - 1] + "'" : "") + ", got the end of the command");
   return words_[at_++];
+}
+
+std::string Arguments::keyword(const std::vector<std::string> &keywords, const std::string &kind) {
+  const std::string got = choice(kind, keywords);
+  if (!keywords_.insert(got).second) fail("'" + got + "' is given twice");
+  return got;
+}
+
+void Arguments::require_none() {
+  if (!done()) fail("takes no keywords, got '" + words_[at_] + "'");
 }
 
 std::string Arguments::choice(const std::string &keyword, const std::vector<std::string> &choices) {
@@ -27,7 +38,14 @@ std::string Arguments::choice(const std::string &keyword, const std::vector<std:
 bool Arguments::is_number(const std::string &text, double &value) {
   char *end = nullptr;
   value = std::strtod(text.c_str(), &end);
-  return !text.empty() && !std::isspace(static_cast<unsigned char>(text[0])) && *end == '\0' && std::isfinite(value);
+  return !text.empty() && text.find_first_not_of("0123456789+-.eE") == std::string::npos && *end == '\0' && std::isfinite(value);
+}
+
+std::string Arguments::text(double value) {
+  if (std::isnan(value)) return "nan";  // whatever its sign
+  char written[32];
+  snprintf(written, sizeof written, "%g", value);
+  return written;
 }
 
 double Arguments::number(const std::string &keyword, const std::string &requirement, bool (*accept)(double)) {

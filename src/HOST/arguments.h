@@ -3,6 +3,7 @@
 #define GRAINSCOPE_ARGUMENTS_H
 
 #include "pointers.h"
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,10 @@ class Arguments : private LAMMPS_NS::Pointers {
   bool done() const { return at_ == words_.size(); }
   /** The next word; an error that names `wanted` when there is none. */
   std::string word(const std::string &wanted);
+  /** The next keyword (or, for messages, the next `kind` of word), one of `keywords`; an error when it was read before. */
+  std::string keyword(const std::vector<std::string> &keywords, const std::string &kind = "keyword");
+  /** For a style without keywords: an error when there is a word. */
+  void require_none();
   /** The value that follows `keyword`, as one of `choices`. */
   std::string choice(const std::string &keyword, const std::vector<std::string> &choices);
   bool yes_or_no(const std::string &keyword) { return choice(keyword, {"yes", "no"}) == "yes"; }
@@ -26,8 +31,10 @@ class Arguments : private LAMMPS_NS::Pointers {
   int whole_number(const std::string &keyword, int low, int high);
   /** The same, even. */
   int even_number(const std::string &keyword, int low, int high);
-  /** `text` as a finite number; false when it is not one to the last character. */
+  /** `text` as a finite decimal number; false when it is not one to the last character. */
   static bool is_number(const std::string &text, double &value);
+  /** `value` for messages, small or large, to six digits. */
+  static std::string text(double value);
 
   [[noreturn]] void fail(const std::string &keyword, const std::string &requirement, const std::string &got) const;
   [[noreturn]] void fail(const std::string &message) const;
@@ -36,6 +43,7 @@ class Arguments : private LAMMPS_NS::Pointers {
   std::string style_;
   std::vector<std::string> words_;
   std::size_t at_ = 0;
+  std::set<std::string> keywords_;  // read so far
 
   int multiple(const std::string &keyword, int of, int low, int high, const std::string &what);
 };

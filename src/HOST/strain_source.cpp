@@ -5,6 +5,7 @@
 #include "input.h"
 #include "modify.h"
 #include "variable.h"
+#include <cmath>
 
 namespace grainscope {
 
@@ -38,8 +39,12 @@ void StrainSource::find_press_strain(const Arguments &complaints) {
   if (!fix_) complaints.fail("needs to know the strain: use fix press/strain, or the keyword 'strain' with f_ID[n] or v_name");
 }
 
-void StrainSource::init(const std::string &style) {
-  const Arguments complaints(lmp, style, 0, 0, nullptr);
+void StrainSource::init() {
+  find(Arguments(lmp, style_, 0, 0, nullptr));
+  ready_ = true;
+}
+
+void StrainSource::find(const Arguments &complaints) {
   fix_ = nullptr;
   variable_ = -1;
   if (text_.empty()) {
@@ -55,10 +60,13 @@ void StrainSource::init(const std::string &style) {
   }
 }
 
-double StrainSource::now() const {
-  if (fix_) return fix_->compute_vector(element_);
-  if (variable_ < 0) Arguments(lmp, "a compute that follows the strain", 0, 0, nullptr).fail("was not set up: do not use 'pre no' in the first run with it");
-  return input->variable->compute_equal(variable_);
+double StrainSource::now() {
+  const Arguments complaints(lmp, style_, 0, 0, nullptr);
+  if (!ready_) complaints.fail("was not set up: do not use 'pre no' in the first run with it");
+  find(complaints);  // again: `run every` may have changed what there is
+  const double strain = fix_ ? fix_->compute_vector(element_) : input->variable->compute_equal(variable_);
+  if (!std::isfinite(strain)) complaints.fail("strain", "finite", text_ + " = " + Arguments::text(strain));
+  return strain;
 }
 
 }

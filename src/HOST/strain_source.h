@@ -15,22 +15,26 @@ class Arguments;
  *  fix press/strain. */
 class StrainSource : private LAMMPS_NS::Pointers {
  public:
-  explicit StrainSource(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
+  /** `style` is for messages. */
+  StrainSource(LAMMPS_NS::LAMMPS *lmp, const std::string &style) : Pointers(lmp), style_(style) {}
 
   /** Reads what follows the keyword 'strain': f_ID[n] or v_name. */
   void read(Arguments &arguments);
-  /** Finds it, or errors in the name of `style`. Before each run: fixes and variables come and go. */
-  void init(const std::string &style);
-  /** The strain now. Collective. */
-  double now() const;
+  /** Finds it, or errors. Before each run: fixes and variables come and go. */
+  void init();
+  /** The strain now, a finite number. Collective. */
+  double now();
 
  private:
+  std::string style_;
   std::string text_;          // as given; empty: fix press/strain
   std::string name_;          // of the fix or variable
   int element_ = 0;           // of the fix's vector, from 0
   LAMMPS_NS::Fix *fix_ = nullptr;
   int variable_ = -1;
+  bool ready_ = false;
 
+  void find(const Arguments &complaints);
   void find_press_strain(const Arguments &complaints);
 };
 

@@ -54,6 +54,8 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   bool active() const { return active_; }
   /** The box as it was in the evaluation that was observed last. */
   const BoxState &box() const { return box_; }
+  /** The time step of the evaluation: at the end of a step it may have been changed already. */
+  double time_step() const { return dt_; }
 
   /** Image shift of atom j, three integers as doubles: x_j = x_owner + H . shift. Valid when a sink asked for images. */
   const double *image_shift(int j) const { return &image_shifts_[3 * j]; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pair_gran_insitu.h"
+#include "contact_ids.h"
 #include "contact_observer.h"
 #include "ellipsoid_surface.h"
 #include "fix_run_guard.h"
@@ -38,6 +39,8 @@ struct PairGranInsitu::Impl {
   FixSetupMemory *memory = nullptr;
   bool warned_of_stale_springs = false;
   bool sending_images = false;
+  bigint grains = 0;               // in the last evaluation
+  bool renumbered = false;         // since then
   bigint images_of_build = -1;
 };
 
@@ -53,6 +56,8 @@ PairGranInsitu::~PairGranInsitu() {
 const std::string &PairGranInsitu::models() const { return impl_->models; }
 
 ContactObserver &PairGranInsitu::observer() { return impl_->observer; }
+
+bool PairGranInsitu::renumbered() const { return impl_->renumbered; }
 
 grainscope::EllipsoidBodies &PairGranInsitu::ellipsoid_bodies() { return impl_->bodies; }
 
@@ -70,12 +75,12 @@ PairGranInsitu *PairGranInsitu::required_by(LAMMPS *lmp, const char *who) {
 }
 
 void PairGranInsitu::settings(int narg, char **arg) {
-  if (force->pair != this)
-    error->all(FLERR, "pair_style gran/insitu cannot be a sub-style of hybrid: contact history works with one granular style only; "
-                      "use it alone");
   std::vector<char *> words(arg, arg + narg);
   impl_->ledger = take_setting(words, "ledger", "off", "on");
   impl_->neutral = take_setting(words, "setup", "host", "neutral");
+  if (force->pair != this)
+    error->all(FLERR, "pair_style gran/insitu cannot be a sub-style of hybrid: contact history works with one granular style only; "
+                      "use it alone");
   narg = words.size();
   arg = words.data();
   std::string received;
@@ -203,6 +208,10 @@ void PairGranInsitu::init_style() {
   require_same_columns_in_restart();
   FixRunGuard::make(lmp, impl_->models + (impl_->ledger ? " ledger on" : ""));
   if (impl_->neutral) impl_->memory = FixSetupMemory::make(lmp);
+  impl_->renumbered = atom->natoms < impl_->grains && !grainscope::contacts_know_their_grains(lmp);
+  if (impl_->renumbered && comm->me == 0)
+    error->warning(FLERR, "grains were given other IDs, and the host keeps tangential springs by ID: some are now those of other contacts. Say "
+                          "'compress no' to delete_atoms");
   PairGranProxy::init_style();
   warn_of_stale_springs();
   watch_time_step();
@@ -285,6 +294,7 @@ void PairGranInsitu::compute(int eflag, int vflag) {
     impl_->observer.end();
   }
   if (again) memory->swap_evaluation();
+  impl_->grains = atom->natoms;
   if (memory) memory->set_stamp(impl_->observer.stamp());
   impl_->watch.judge();
 }

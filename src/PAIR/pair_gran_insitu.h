@@ -46,6 +46,8 @@ class PairGranInsitu : public PairGranProxy, public grainscope::EllipsoidOwner {
   grainscope::ContactObserver &observer();
   /** The words of the command that name models and settings. */
   const std::string &models() const;
+  /** Before a run: grains were given other IDs since the last, and with them each other's springs. */
+  bool renumbered() const;
   grainscope::EllipsoidBodies &ellipsoid_bodies();
   grainscope::EllipsoidSurface &ellipsoid_surface();
 

@@ -75,7 +75,6 @@ CASES = {
     "limit-negative": refused("surface ellipsoid: curvatureLimitFactor must be at least 0, got -0.5", extra="curvatureLimitFactor -0.5"),
     "limit-negative-under-gran": refused("curvatureLimitFactor must be at least 0, got -2", extra="curvatureLimitFactor -2", pair="gran"),
     "misspelt-surface": refusal(lambda: deck(surface="elipsoid"), "invalid contact model", "elipsoid"),
-    "solver-takes-no-keywords": refused("compute contact/solver: takes no keywords, got 'steps'", body=(f"{SOLVER} steps", "run 1")),
     "solver-of-a-group": refused("compute contact/solver: the group must be 'all'", "got 'few'", body=(
         "group few id 1:3", SOLVER.replace("all", "few"), "run 1")),
     "solver-needs-surface-ellipsoid": refusal(solver_of(surface="superquadric"),

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from case import main
-from deck import Deck, thermo
+from deck import Deck
 from packing import dense_packing
 from refusal import refusal
 
@@ -36,10 +36,6 @@ CASES = {
                                   "contact distance factor + skin)", "high along z, got 4"),
     "newton-on": refusal(lambda: deck("compute c all stress/contact", tangential="off").text().replace("newton off", "newton on"),
                          "compute stress/contact requires 'newton off', got 'newton on'"),
-    **{f"{style.replace('/', '-')}-needs-gran-insitu": refusal(
-        lambda style=style: deck(f"compute c all {style}", *thermo(1, "c_c" if style != "contact/local" else "step"), pair="gran"),
-        f"compute {style} requires pair_style gran/insitu, got 'gran'")
-       for style in ("stress/contact", "dissipation", "contact/local")},
 }
 
 if __name__ == "__main__":

@@ -32,8 +32,6 @@ INSERT = ["region top block -20 20 -10 10 4 8 units box",
           "overlapcheck yes all_in yes particles_in_region 3 region top", "run 200"]
 CFD = ["fix cfd all couple/cfd couple_every 100 mpi", "fix drag all couple/cfd/force/implicit", "run 1"]
 CASES = {
-    "takes-no-keywords": refused("fix nve/spheroid: takes no keywords, got 'integration_scheme'",
-                                 fix="fix integrate all nve/spheroid integration_scheme 1"),
     "spheres": refused("fix nve/spheroid: needs atom_style superquadric, got 'sphere'", packing=dense_packing(atom_style="sphere")),
     "triaxial-grains": refused("fix nve/spheroid: grain 2 has three different moments of inertia (semi-axes 1 1.2 1.5, blockiness 2 2)",
                                ADVICE, packing=grains((5, (1.0, 2.0, 3.0), ROUND), (2, (1.0, 1.2, 1.5), ROUND))),

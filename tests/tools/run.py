@@ -23,9 +23,15 @@ def binary():
     return path
 
 
-def _environment():
+# Open MPI starts a process of one rank four times as fast when it looks for no others.
+ALONE = {"OMPI_MCA_ess_singleton_isolated": "1", "OMPI_MCA_pml": "ob1", "OMPI_MCA_btl": "self"}
+
+
+def _environment(ranks):
     env = dict(os.environ, OMP_NUM_THREADS="1", OMPI_MCA_btl_vader_single_copy_mechanism="none",
                OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_mpi_yield_when_idle="1")
+    if ranks == 1:
+        env.update(ALONE)
     if os.geteuid() == 0:
         env.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     return env
@@ -160,7 +166,7 @@ def attempt(deck, ranks=1, folder=None, arguments=(), time_limit=TIME_LIMIT):
     (folder / "in.deck").write_text(_deck_text(deck))
     command = [*_command(ranks), "-in", "in.deck", "-log", "log.liggghts", *arguments]
     try:
-        done = subprocess.run(command, cwd=folder, env=_environment(), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+        done = subprocess.run(command, cwd=folder, env=_environment(ranks), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                               stdin=subprocess.DEVNULL, timeout=time_limit, text=True, errors="replace")
     except subprocess.TimeoutExpired:
         raise Failure(f"{' '.join(command)} in {folder} did not end within {time_limit} s")
