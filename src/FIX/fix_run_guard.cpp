@@ -20,6 +20,9 @@ using namespace LAMMPS_NS;
 namespace {
 
 char guard_id[] = "gran_insitu_guard", group_all[] = "all", guard_style[] = "run/guard";
+// A line of an input script would replace it.
+bool making = false;
+
 const int seldom = 1000;   // steps between looks at what a run can do without for a while
 
 struct Quantity {
@@ -35,7 +38,7 @@ std::ostream &operator<<(std::ostream &out, const Quantity &quantity) { return o
 }
 
 FixRunGuard::FixRunGuard(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg) {
-  if (narg != 3 || strcmp(id, guard_id) != 0) error->all(FLERR, "fix run/guard: is made by pair_style gran/insitu, not by an input script");
+  if (!making) error->all(FLERR, "fix run/guard: is made by pair_style gran/insitu, not by an input script");
   restart_global = restart_file = 1;
   nevery = 1;
 }
@@ -47,7 +50,9 @@ void FixRunGuard::make(LAMMPS *lmp, const std::string &settings) {
   if (found >= 0 && !guard) lmp->error->all(FLERR, (std::string("pair_style gran/insitu needs the fix ID '") + guard_id + "', but it is taken").c_str());
   if (guard) modify->delete_fix(guard_id);
   char *words[] = {guard_id, group_all, guard_style};
+  making = true;
   modify->add_fix(3, words);
+  making = false;
   guard = static_cast<FixRunGuard *>(modify->fix[modify->nfix - 1]);
   if (found < 0 && !guard->settings_.empty() && guard->settings_ != settings && lmp->comm->me == 0)
     lmp->error->warning(FLERR, ("pair_style gran/insitu: the restart file was written with '" + guard->settings_ + "', and now it is '" + settings +

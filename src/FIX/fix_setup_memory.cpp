@@ -21,6 +21,9 @@ using namespace LAMMPS_NS;
 namespace {
 
 char memory_id[] = "gran_insitu_setup", group_all[] = "all", memory_style[] = "setup/memory";
+// A line of an input script would replace what is remembered.
+bool making = false;
+
 const double same_place = 1e-9;   // of the box: what the host's wrapping may change, and no command means
 
 /** FNV-1a of the bits of numbers, as one that is a double without loss. */
@@ -75,7 +78,7 @@ void crossed(tagint before, tagint after, int edges[3]) {
 }
 
 FixSetupMemory::FixSetupMemory(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg) {
-  if (narg != 3 || strcmp(id, memory_id) != 0) error->all(FLERR, "fix setup/memory: is made by pair_style gran/insitu, not by an input script");
+  if (!making) error->all(FLERR, "fix setup/memory: is made by pair_style gran/insitu, not by an input script");
   restart_global = restart_peratom = create_attribute = force_reneighbor = 1;
   next_reneighbor = -1;
   grow_arrays(atom->nmax);
@@ -96,14 +99,19 @@ FixSetupMemory *FixSetupMemory::make(LAMMPS *lmp) {
     return found < 0 ? nullptr : dynamic_cast<FixSetupMemory *>(modify->fix[found]);
   };
   char *words[] = {memory_id, group_all, memory_style};
+  const auto add = [modify, find, &words] {
+    making = true;
+    modify->add_fix(3, words);
+    making = false;
+    return find();
+  };
   FixSetupMemory *memory = find();
   if (memory && modify->fix[modify->nfix - 1] == memory) return memory;
   if (memory) {  // to the end of the list
     const std::vector<double> values = memory->values_;
     const Shared shared = memory->shared_;
     modify->delete_fix(memory_id);
-    modify->add_fix(3, words);
-    memory = find();
+    memory = add();
     memory->just_created = 0;  // the host would give it empty arrays
     memory->values_ = values;
     memory->shared_ = shared;
@@ -111,8 +119,7 @@ FixSetupMemory *FixSetupMemory::make(LAMMPS *lmp) {
   }
   if (modify->find_fix(memory_id) >= 0)
     lmp->error->all(FLERR, (std::string("pair_style gran/insitu needs the fix ID '") + memory_id + "', but it is taken").c_str());
-  modify->add_fix(3, words);
-  return find();
+  return add();
 }
 
 void FixSetupMemory::forget(LAMMPS *lmp) {

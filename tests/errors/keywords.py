@@ -80,7 +80,8 @@ STYLES = [
     compute("displacement/shear", Keyword("start", number("a strain", ("0", "-5", "1e300"), ())), STRAIN),
     PRESS, Style("fix nve/spheroid", "fix spheroid all nve/spheroid", before=BOX),
     Style("pair_style gran/insitu", "pair_style gran/insitu model hertz tangential history", [
-        Keyword("ledger", choice("on", "off"), ends="'ledger' must be on or off, got the end of the command")], others=True)]
+        Keyword("ledger", choice("on", "off"), ends="'ledger' must be on or off, got the end of the command"),
+        Keyword("setup", choice("neutral", "host"), ends="'setup' must be neutral or host, got the end of the command")], others=True)]
 
 
 def slug(style):

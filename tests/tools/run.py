@@ -124,7 +124,7 @@ class Started:
         (self.folder / "in.deck").write_text(_deck_text(deck))
         command = [*_command(ranks), "-in", "in.deck", "-log", "log.liggghts"]
         self._output = open(self.folder / "output", "w")
-        self._process = subprocess.Popen(command, cwd=self.folder, env=_environment(), stdout=self._output, stderr=subprocess.STDOUT,
+        self._process = subprocess.Popen(command, cwd=self.folder, env=_environment(ranks), stdout=self._output, stderr=subprocess.STDOUT,
                                          stdin=subprocess.DEVNULL, start_new_session=True)
 
     def kill(self):
