@@ -104,8 +104,9 @@ void check_pair(const GrainPair &pair, double start, const double *aside) {
       on_one[k] = c.point[k] + c.depth[0] * c.normal[k];
       on_two[k] = c.point[k] - pair.d[k] - c.depth[1] * c.normal[k];
     }
-    require_below(off_surface(pair, 0, on_one), 1e-9, "the depth ends on the surface of 1");
-    require_below(off_surface(pair, 1, on_two), 1e-9, "the depth ends on the surface of 2");
+    const double rounding = 1e-9 + 1e-12 * pair.largest() / pair.smallest();  // of the larger one's lengths, as the smaller one sees it
+    require_below(off_surface(pair, 0, on_one), rounding, "the depth ends on the surface of 1");
+    require_below(off_surface(pair, 1, on_two), rounding, "the depth ends on the surface of 2");
   }
   if (!c.touching && std::isfinite(c.gap)) {
     GrainPair moved = pair;

@@ -111,6 +111,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
   lost = points;  // of a run that has blown up
   lost.add(Vector3d(input.any(), input.any(), input.any()), input.any());
   direct_pair_sums(cell, lost, bins);
+  PeriodicCell torn = cell;
+  torn.edges(0, input.whole(0, 2)) = HUGE_VAL;
+  direct_pair_sums(torn, lost, bins);
+  torn.edges *= std::nan("");
+  direct_pair_sums(torn, lost, {std::nan(""), bins.count});
   cell.periodic = {{true, true, true}};
   check_mesh(cell, lost, bins);
   return 0;

@@ -30,7 +30,10 @@ class Random {
     double square;
     do {
       square = 0.0;
-      for (int k = 0; k < n; k++) square += (v[k] = uniform(-1.0, 1.0)) * v[k];
+      for (int k = 0; k < n; k++) {
+        v[k] = uniform(-1.0, 1.0);
+        square += v[k] * v[k];
+      }
     } while (square < 0.01 || square > 1.0);
     for (int k = 0; k < n; k++) v[k] /= std::sqrt(square);
   }
@@ -78,8 +81,10 @@ void contacts(Random &random) {
     }
     std::vector<EllipsoidContact> found(batch);
     if (!triaxial) ellipsoid_contacts(batch, pairs.data(), found.data());
-    for (int p = 0; p < batch; p++)
-      contact_row(triaxial ? "triaxial" : "spheroid", triaxial ? ellipsoid_contact(bodies[2 * p], bodies[2 * p + 1], pairs[p].d, 0.0) : found[p], smallest[p]);
+    for (int p = 0; p < batch; p++) {
+      if (triaxial) found[p] = ellipsoid_contact(bodies[2 * p], bodies[2 * p + 1], pairs[p].d, 0.0);
+      contact_row(triaxial ? "triaxial" : "spheroid", found[p], smallest[p]);
+    }
   }
 }
 
@@ -128,7 +133,11 @@ void sums(Random &random) {
   PeriodicCell cell;
   cell.edges(0, 1) = 0.3;
   PointValues points;
-  for (int n = 0; n < 500; n++) points.add(Eigen::Vector3d(random.uniform(0.0, 1.0), random.uniform(0.0, 1.0), random.uniform(0.0, 1.0)), random.uniform(-1.0, 1.0));
+  for (int n = 0; n < 500; n++) {
+    Eigen::Vector3d s;
+    for (int k = 0; k < 3; k++) s[k] = random.uniform(0.0, 1.0);
+    points.add(s, random.uniform(-1.0, 1.0));
+  }
   const PairSums pairs = direct_pair_sums(cell, points, {0.5, 10});
   for (int k = 0; k < 10; k++) row("correlation", 1.0 + pairs.pairs[k], {pairs.products[k], pairs.pairs[k]});
 }
