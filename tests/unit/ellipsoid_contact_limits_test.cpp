@@ -264,7 +264,8 @@ TEST(ellipsoid_contact_limits, far_apart) {
 /** Of what is no number one pair and many say that the answer is none. */
 TEST(ellipsoid_contact_limits, no_numbers_are_told_as_fallbacks) {
   const double nan = std::nan("");
-  for (GrainPair pair : {pair_of({1, 1, 2}, {1, 1, 2}, nan, 0, 0), pair_of({1, 1, 1}, {1, 1, 1}, nan, 0, 0), pair_of({1, 1, nan}, {1, 1, 2}, 1, 0, 0)}) {
+  for (GrainPair pair : {pair_of({1, 1, 2}, {1, 1, 2}, nan, 0, 0), pair_of({1, 1, 1}, {1, 1, 1}, nan, 0, 0),
+                         pair_of({1, 1, nan}, {1, 1, 2}, 1, 0, 0)}) {
     const EllipsoidContact alone = kernel_contact<Spheroid>(pair);
     EXPECT_TRUE(alone.fallback);
     EXPECT_TRUE(kernel_contact<Triaxial>(pair).fallback);
