@@ -82,7 +82,7 @@ double best_length(const Squares &squares) {
 DecayFit fit_decay(const std::vector<double> &r, const std::vector<double> &c) {
   Squares squares;
   for (std::size_t k = 0; k < r.size(); k++) {
-    if (!(c[k] > 0.05)) continue;
+    if (!(c[k] > 0.05 && r[k] < HUGE_VAL)) continue;
     squares.r.push_back(r[k]);
     squares.c.push_back(c[k]);
   }

@@ -6,7 +6,7 @@
 
 namespace grainscope {
 
-/** Least squares of exp(-r/length), which is 1 at r = 0, over the points with c > 0.05, r >= 0 (at r = 0 they only count):
+/** Least squares of exp(-r/length), which is 1 at r = 0, over the points with c > 0.05, 0 <= r < infinity (at r = 0 they only count):
  *  length minimises S = sum (c - exp(-r/length))^2; error = sqrt(S/(points - 1) / sum (d exp(-r/length)/d length)^2). */
 struct DecayFit {
   double length = 0.0;  // 0 without points, and when no finite length is best (c that does not decay)

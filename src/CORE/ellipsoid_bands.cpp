@@ -24,6 +24,15 @@ double parametric_element(const Vector3d &s, double psi, double phi) {
   return sine * Vector3d(s[1] * s[2] * sine * std::cos(phi), s[0] * s[2] * sine * std::sin(phi), s[0] * s[1] * std::cos(psi)).norm();
 }
 
+/** The angle of the point (x cos t, y sin t), and its derivative by t. */
+struct Stretched {
+  double angle, slope;
+  Stretched(double t, double y, double x) : angle(std::atan2(y * std::sin(t), x * std::cos(t))) {
+    const double along = x * std::cos(t), up = y * std::sin(t);
+    slope = x * y / (along * along + up * up);
+  }
+};
+
 template <class F>
 double integral(F f, double from, double to) {
   return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(f, from, to, 4, 1e-13);
@@ -36,20 +45,28 @@ double surface_angle(const Vector3d &x, const Vector3d &semi_axes, SurfaceAngle 
   return std::atan2(y.head<2>().norm(), std::fabs(y[2]));
 }
 
-int band_of(double psi, int bands) { return std::min(static_cast<int>(psi / M_PI_2 * bands), bands - 1); }
+int band_of(double psi, int bands) {
+  const double at = psi / M_PI_2 * bands;
+  return at < bands ? static_cast<int>(at) : bands - 1;
+}
 
 std::vector<double> band_areas(const Vector3d &semi_axes, int bands, SurfaceAngle angle) {
   const bool round = semi_axes[0] == semi_axes[1];
   const bool polar = angle == SurfaceAngle::polar;
-  // On a spheroid a polar angle is one parametric angle, whose area element is the smoother one.
-  const auto element = polar && !round ? polar_element : parametric_element;
+  const double across = round ? semi_axes[0] : std::sqrt(semi_axes[0] * semi_axes[1]), flatness = semi_axes[2] / across;
+  // Polar angles are reached through parametric ones, in which elements change slowly however long or flat the grain is.
   const auto edge = [&](int k) {
     const double psi = k * M_PI_2 / bands;
-    return polar && round ? std::atan2(semi_axes[2] / semi_axes[0] * std::sin(psi), std::cos(psi)) : psi;
+    return polar ? std::atan2(flatness * std::sin(psi), std::cos(psi)) : psi;
   };
-  const auto ring = [&](double psi) {
-    if (round) return M_PI_2 * element(semi_axes, psi, 0.0);
-    return integral([&](double phi) { return element(semi_axes, psi, phi); }, 0.0, M_PI_2);
+  const auto ring = [&](double tau) {
+    if (round) return M_PI_2 * parametric_element(semi_axes, tau, 0.0);
+    if (!polar) return integral([&](double phi) { return parametric_element(semi_axes, tau, phi); }, 0.0, M_PI_2);
+    const Stretched psi(tau, across, semi_axes[2]);
+    return psi.slope * integral([&](double t) {
+      const Stretched phi(t, semi_axes[1], semi_axes[0]);
+      return phi.slope * polar_element(semi_axes, psi.angle, phi.angle);
+    }, 0.0, M_PI_2);
   };
   std::vector<double> areas(bands);
   for (int k = 0; k < bands; k++) areas[k] = 8.0 * integral(ring, edge(k), edge(k + 1));  // eight octants

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ellipsoid_contact.h"
+#include "concentric.h"
 #include "sphere_contact.h"
 #include "spheroid_pair.h"
 #include "symmetry_axis.h"
@@ -98,73 +99,50 @@ GRAINSCOPE_INLINE void solve(const typename Pair::Body &one, const typename Pair
   pair.surface(kept, 1, lambda, inside, length, inverse_length, answer.depth[1], answer.curvature[1]);
 }
 
-inline double smallest_square(const Spheroid &body) { return std::min(body.equatorial, body.polar); }
-inline double smallest_square(const Triaxial &body) { return *std::min_element(body.square, body.square + 3); }
-
-/** Unit vector along a shortest semi-axis. */
-inline void shortest_axis(const Spheroid &body, double *n) {
-  if (body.polar <= body.equatorial) {
-    std::copy(body.u, body.u + 3, n);
-    return;
-  }
-  int across = 0;  // the coordinate axis that is farthest from the symmetry axis, made perpendicular to it
-  for (int k = 1; k < 3; k++)
-    if (std::fabs(body.u[k]) < std::fabs(body.u[across])) across = k;
-  const double length = root(1.0 - body.u[across] * body.u[across]);
-  for (int k = 0; k < 3; k++) n[k] = ((k == across) - body.u[across] * body.u[k]) / length;
-}
-
-inline void shortest_axis(const Triaxial &body, double *n) {
-  const int least = static_cast<int>(std::min_element(body.square, body.square + 3) - body.square);
-  std::copy(body.axis[least], body.axis[least] + 3, n);
-}
-
-/** Centres so close that their line has no direction. */
-template <class Body> inline bool concentric(const Body &one, const Body &two, const double *d) {
-  return dot(d, d) < 1e-26 * std::min(smallest_square(one), smallest_square(two));
-}
-
-inline bool is_sphere(const Spheroid &body) { return body.polar == body.equatorial; }
-
 inline double number(double lane, int) { return lane; }
 inline double number(const Lanes &lanes, int k) { return lanes[k]; }
+
+/** Not so where squares of lengths are beyond the range of numbers, or what was given is none. */
+inline bool is_sound(const EllipsoidContact &c) {
+  if (!c.touching) return c.gap >= 0.0;
+  double sum = c.depth[0] + c.depth[1] + c.curvature[0] + c.curvature[1];
+  for (double x : c.point) sum += std::fabs(x);
+  return std::fabs(dot(c.normal, c.normal) - 1.0) < 1e-9 && c.depth[0] >= 0.0 && c.depth[1] >= 0.0 && sum < HUGE_VAL;
+}
 
 /** One lane's answer. Of those that do not touch, only what is defined. */
 template <class Real>
 GRAINSCOPE_INLINE void unpack(const Answer<Real> &answer, int lane, bool touching, bool unsettled, EllipsoidContact &c) {
   c = EllipsoidContact{};
   c.touching = touching;
-  c.fallback = unsettled;
   c.steps = static_cast<int>(number(answer.steps, lane));
   c.lambda = number(answer.lambda, lane);
   c.gap = number(answer.gap, lane);
-  if (!touching) return;
-  for (int k = 0; k < 3; k++) {
+  for (int k = 0; k < 3 && touching; k++) {
     c.normal[k] = number(answer.normal[k], lane);
     c.point[k] = number(answer.point[k], lane);
   }
-  for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < 2 && touching; k++) {
     c.depth[k] = number(answer.depth[k], lane);
     c.curvature[k] = number(answer.curvature[k], lane);
   }
+  c.fallback = unsettled || !is_sound(c);
 }
 
 template <class Pair, class Body, class Pose>
 EllipsoidContact regular_contact(const Body &one, const Body &two, const Pose &pose1, const Pose &pose2, const double *d, double start,
                                  double tolerance) {
-  if (concentric(one, two, d)) {  // any normal would do; theirs is the shortest way out of the thinner one
+  const bool no_direction = concentric(one, two, d);
+  double n[3];
+  if (no_direction) {  // any would do; theirs is the shortest way out of the thinner one
     const double square1 = smallest_square(one), square2 = smallest_square(two);
-    double n[3];
     shortest_axis(square1 <= square2 ? one : two, n);
     for (int k = 0; k < 3; k++) n[k] *= 1e-12 * root(std::min(square1, square2));
-    EllipsoidContact c = regular_contact<Pair>(one, two, pose1, pose2, n, 0.0, tolerance);
-    c.fallback = true;
-    return c;
   }
   Answer<double> answer;
-  solve<Pair>(pose1, pose2, d, start, tolerance, ELLIPSOID_STEPS, answer);
+  solve<Pair>(pose1, pose2, no_direction ? n : d, no_direction ? 0.0 : start, tolerance, ELLIPSOID_STEPS, answer);
   EllipsoidContact c;
-  unpack(answer, 0, answer.touching, answer.unsettled, c);
+  unpack(answer, 0, answer.touching, answer.unsettled || no_direction, c);
   return c;
 }
 
@@ -217,8 +195,11 @@ Triaxial make_triaxial(const double semi_axes[3], const double quaternion[4]) {
 
 template <>
 EllipsoidContact ellipsoid_contact(const Spheroid &one, const Spheroid &two, const double d[3], double start, double tolerance) {
-  if (is_sphere(one) && is_sphere(two) && !concentric(one, two, d))
-    return sphere_contact(root(one.equatorial), root(two.equatorial), d, dot(d, d));
+  if (is_sphere(one) && is_sphere(two) && !concentric(one, two, d)) {
+    EllipsoidContact c = sphere_contact(root(one.equatorial), root(two.equatorial), d, dot(d, d));
+    c.fallback = !is_sound(c);
+    return c;
+  }
   return regular_contact<SpheroidPair<double>>(one, two, pose_of(one), pose_of(two), d, start, tolerance);
 }
 

@@ -36,7 +36,7 @@ Triaxial make_triaxial(const double semi_axes[3], const double quaternion[4]);
  *  That point is also where G1 + G2 is least on G1 = G2, G_k = (x - x_k).B_k^-1 (x - x_k) - 1, which is LIGGGHTS's definition. */
 struct EllipsoidContact {
   bool touching;
-  bool fallback;     // the answer is a defined one but not the regular one: concentric, or the iteration did not settle
+  bool fallback;     // the answer is not the regular one: concentric, the iteration did not settle, or it is no number
   int steps;         // Newton or bisection steps taken, at most ELLIPSOID_STEPS
   double lambda;     // 0 to 1: next time's start
   double normal[3];  // unit vector from 1 to 2

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "energy_ledger.h"
+#include "four.h"
 #include "lanes.h"
 #include <cmath>
 #include <iterator>
@@ -55,25 +56,6 @@ void EnergyLedger::begin_evaluation(int n_local, bool again) {
   stepped_ = stepped_ && again;
 }
 
-namespace {
-
-/** Four numbers side by side, and where the allocator put them. */
-typedef double Four __attribute__((vector_size(32)));
-typedef double FourInMemory __attribute__((vector_size(32), aligned(8), may_alias));
-GRAINSCOPE_INLINE FourInMemory &four_at(double *memory) { return *reinterpret_cast<FourInMemory *>(memory); }
-GRAINSCOPE_INLINE const FourInMemory &four_at(const double *memory) { return *reinterpret_cast<const FourInMemory *>(memory); }
-/** The fourth repeats the third, and is read by nobody. (A zero there would be cheap too, but by an instruction that valgrind does not know.) */
-GRAINSCOPE_INLINE Four four_of(double x, double y, double z) { return Four{x, y, z, z}; }
-GRAINSCOPE_INLINE Four four_of(const Vector3d &v) { return four_of(v[0], v[1], v[2]); }
-GRAINSCOPE_INLINE Four four_times(double x) { return Four{x, x, x, x}; }
-
-/** Torque of a force. */
-GRAINSCOPE_INLINE Four torque_of(const Vector3d &arm, const Vector3d &f) {
-  return four_of(arm[1] * f[2] - arm[2] * f[1], arm[2] * f[0] - arm[0] * f[2], arm[0] * f[1] - arm[1] * f[0]);
-}
-
-}
-
 /** A force along one direction: what it does to its two grains, and what is summed of it. */
 struct EnergyLedger::Unit {
   Four force, torque_i, torque_j, diagonal, beside;
@@ -90,13 +72,13 @@ struct EnergyLedger::Unit {
 GRAINSCOPE_INLINE void EnergyLedger::add_part(int part, double size, const Unit &unit, double *of_i, double *of_j) {
   const Four times = four_times(size), force = times * unit.force;
   const int at = 8 * slot_[part];
-  four_at(contacts_.sums[part] + 0) += times * unit.diagonal;
-  four_at(contacts_.sums[part] + 4) += times * unit.beside;
-  four_at(of_i + at + 0) += force;
-  four_at(of_i + at + 4) += times * unit.torque_i;
+  add_to(contacts_.sums[part], times * unit.diagonal);
+  add_to(contacts_.sums[part] + 4, times * unit.beside);
+  add_to(of_i + at, force);
+  add_to(of_i + at + 4, times * unit.torque_i);
   if (!of_j) return;
-  four_at(of_j + at + 0) -= force;
-  four_at(of_j + at + 4) -= times * unit.torque_j;
+  take_from(of_j + at, force);
+  take_from(of_j + at + 4, times * unit.torque_j);
 }
 
 GRAINSCOPE_INLINE void EnergyLedger::add_past(const Contact &c, const ContactPast &past, double elastic_force) {
@@ -174,7 +156,7 @@ void EnergyLedger::end_of_step(const Grain &g, const double omega[3], const doub
     other_force -= four_at(at + 0);
     other_torque -= four_at(at + 4);
   }
-  four_at(ends_.other) += other_force * four_of(p) + other_torque * four_of(w);
+  add_to(ends_.other, other_force * four_of(p) + other_torque * four_of(w));
 }
 
 /** Taken from the grains in the half step before an evaluation. */
@@ -242,11 +224,11 @@ void EnergyLedger::start_of_step(const Grain &g, const double omega_after[3], co
     if (slot_[k] < 0) continue;
     double *part = wrenches_of(g.index) + 8 * slot_[k];
     const Four power = four_at(part + 0) * velocity + four_at(part + 4) * turning;
-    four_at(starts_.rate[k]) += power;
+    add_to(starts_.rate[k], power);
     other -= power;
     std::fill(part, part + 8, 0.0);
   }
-  four_at(starts_.other) += other;
+  add_to(starts_.other, other);
 
   // The coming drift in the frame: told before it, because a grain that is wrapped afterwards takes on another velocity.
   const Vector3d after = p + flow, drift = dt * next_.gradient_times(after), middle = g.mass * (p - 0.5 * drift);

@@ -30,7 +30,7 @@ int fast_length(int at_least) {
 std::array<int, 3> mesh_size(const PeriodicCell &cell, const DistanceBins &bins, int per_bin, double most) {
   std::array<double, 3> wanted;
   for (int k = 0; k < 3; k++) wanted[k] = std::ceil(per_bin * cell.height(k) / bins.width() - 1e-6);  // rounding must not add a cell
-  if (wanted[0] * wanted[1] * wanted[2] > most)
+  if (!(wanted[0] * wanted[1] * wanted[2] <= most))
     throw std::length_error(std::to_string(std::llround(wanted[0])) + " x " + std::to_string(std::llround(wanted[1])) + " x " +
                             std::to_string(std::llround(wanted[2])));
   std::array<int, 3> size;
@@ -40,10 +40,7 @@ std::array<int, 3> mesh_size(const PeriodicCell &cell, const DistanceBins &bins,
 
 std::array<int, 3> LagMesh::cell_of(const PointValues &points, std::size_t i) const {
   std::array<int, 3> cell;
-  for (int k = 0; k < 3; k++) {
-    const double s = points.s[k][i] - std::floor(points.s[k][i]);
-    cell[k] = std::min(static_cast<int>(s * size[k]), size[k] - 1);
-  }
+  for (int k = 0; k < 3; k++) cell[k] = cell_along(points.s[k][i] - std::floor(points.s[k][i]), size[k]);
   return cell;
 }
 
@@ -67,7 +64,7 @@ void add_lags(const PeriodicCell &cell, const LagMesh &mesh, const double *corre
       images.lower(n, x.data(), y.data(), z.data(), r2.data());
       const double *values = correlation + (plane * mesh.size[1] + b) * mesh.row;
       for (int c = 0; c < n; c++) {
-        if (r2[c] >= range2) continue;
+        if (!(r2[c] < range2)) continue;
         const int bin = std::min(static_cast<int>(std::sqrt(r2[c]) * per_length), bins.count - 1);
         sums[bin] += whole ? std::nearbyint(values[c]) : values[c];
       }

@@ -23,11 +23,13 @@ void NematicSums::add_spin(const Eigen::Vector3d &omega) {
   sums[14] += 1.0;
 }
 
-double line_angle(double x, double y) {
-  const double angle = std::atan2(y, x);
+/** A line's angle in (-pi/2, pi/2], from one in [-pi, pi]. */
+static double within_half_turn(double angle) {
   if (angle > M_PI_2) return angle - M_PI;
   return angle <= -M_PI_2 ? angle + M_PI : angle;
 }
+
+double line_angle(double x, double y) { return within_half_turn(std::atan2(y, x)); }
 
 double major_axis_angle(const Eigen::Vector3d &axis, Shape shape) {
   if (axis[0] * axis[0] + axis[1] * axis[1] < 1e-18) return 0.0;
@@ -52,7 +54,7 @@ Nematic::Nematic(const NematicSums &all)
 
   const bool mostly_oblate = 2.0 * s[10] > grains_with_axis;
   director_theta = major_axis_angle(director, mostly_oblate ? Shape::oblate : Shape::prolate);
-  if (grains_with_theta > 0.0) theta = 0.5 * std::atan2(s[8], s[7]);
+  if (grains_with_theta > 0.0) theta = within_half_turn(0.5 * std::atan2(s[8], s[7]));
 }
 
 }

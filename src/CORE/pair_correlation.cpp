@@ -24,7 +24,7 @@ class Grid {
   Grid(const PeriodicCell &cell, double range, std::size_t points) : periodic_(cell.periodic) {
     const int most = std::max(1, static_cast<int>(std::cbrt(points / 8.0)));
     for (int k = 0; k < 3; k++) {
-      const double reach = std::min(range / cell.height(k), 1e3);  // farther is everywhere
+      const double heights = range / cell.height(k), reach = heights < 1e3 ? heights : 1e3;  // farther is everywhere
       n_[k] = static_cast<int>(std::min<double>(most, std::max(1.0, 2.0 / reach)));
       reach_[k] = static_cast<int>(std::ceil(reach * n_[k]));
       if (2 * reach_[k] + 1 >= n_[k]) n_[k] = 1;
@@ -38,7 +38,7 @@ class Grid {
     for (int k = 0; k < 3; k++) {
       double s = points.s[k][i];
       if (periodic_[k]) s -= std::floor(s);
-      at[k] = std::max(0, std::min(static_cast<int>(s * n_[k]), n_[k] - 1));
+      at[k] = cell_along(s, n_[k]);
     }
     return index(at);
   }

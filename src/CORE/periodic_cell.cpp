@@ -22,7 +22,7 @@ double PeriodicCell::rounding_radius() const {
 }
 
 NearestImages::NearestImages(const PeriodicCell &cell, double range) {
-  if (range <= cell.rounding_radius()) return;
+  if (!(range > cell.rounding_radius())) return;
   const Eigen::Matrix3d metric = cell.edges.transpose() * cell.edges;
   Vector3d largest;  // components of a separation: rounded, or across the box and beyond
   for (int k = 0; k < 3; k++) largest[k] = cell.periodic[k] ? 0.5 : 1.5;

@@ -3,6 +3,7 @@
 #define GRAINSCOPE_PERIODIC_CELL_H
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -19,6 +20,12 @@ struct PeriodicCell {
    *  there is one, is that whose components along the edges are rounded into [-1/2, 1/2]. */
   double rounding_radius() const;
 };
+
+/** The cell, of n along an edge, of a place in units of the edge; what lies beyond the edge in the one at its end, what is no number in the last. */
+inline int cell_along(double s, int n) {
+  const double at = s * n;
+  return at < n ? static_cast<int>(std::max(at, 0.0)) : n - 1;
+}
 
 /** Nearest images at any distance up to a range: those with rounded components, moved by the few lattice vectors that bring one of them
  *  nearer. There are none up to the rounding radius, nor in a box with right angles. */

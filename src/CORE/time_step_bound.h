@@ -40,9 +40,7 @@ class GrainModes {
     double stiffness = 0.0, damping = 0.0;  // value = dt^2 stiffness + dt damping
 
     /** The time step at which it is at the limit. */
-    double largest_step() const {
-      return stiffness > 0.0 ? (std::sqrt(damping * damping + 4.0 * limit * stiffness) - damping) / (2.0 * stiffness) : limit / damping;
-    }
+    double largest_step() const { return 2.0 * limit / (std::sqrt(damping * damping + 4.0 * limit * stiffness) + damping); }
   };
 
   /** `inertia`: tensor in the laboratory frame. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "arguments.h"
-#include "error.h"
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -8,7 +9,7 @@
 namespace grainscope {
 
 Arguments::Arguments(LAMMPS_NS::LAMMPS *lmp, const std::string &style, int first, int narg, char **arg)
-    : Pointers(lmp), style_(style), words_(arg + std::min(first, narg), arg + narg) {}
+    : lmp_(lmp), style_(style), words_(arg + std::min(first, narg), arg + narg) {}
 
 std::string Arguments::word(const std::string &wanted) {
   if (done()) fail("expected " + wanted + (at_ ? " after '" + words_[at_ - 1] + "'" : "") + ", got the end of the command");
@@ -71,9 +72,6 @@ void Arguments::fail(const std::string &keyword, const std::string &requirement,
   fail("'" + keyword + "' must be " + requirement + ", got '" + got + "'");
 }
 
-void Arguments::fail(const std::string &message) const {
-  error->all(FLERR, (style_ + ": " + message).c_str());
-  std::abort();  // not reached: error->all ends the run
-}
+void Arguments::fail(const std::string &message) const { end_run(lmp_, style_ + ": " + message); }
 
 }

@@ -2,16 +2,20 @@
 #ifndef GRAINSCOPE_ARGUMENTS_H
 #define GRAINSCOPE_ARGUMENTS_H
 
-#include "pointers.h"
 #include <set>
 #include <string>
 #include <vector>
 
+namespace LAMMPS_NS { class LAMMPS; }
+
 namespace grainscope {
+
+/** Ends the run on all ranks with `message`. Apart from what reads words, which the fuzzer takes without the host. */
+[[noreturn]] void end_run(LAMMPS_NS::LAMMPS *lmp, const std::string &message);
 
 /** The words of one command, read in order. Every complaint names the style, the keyword, the requirement and the value received:
  *  `compute dissipation: 'mode' must be instantaneous or step, got 'fast'`. Errors are collective: all ranks read the same words. */
-class Arguments : private LAMMPS_NS::Pointers {
+class Arguments {
  public:
   Arguments(LAMMPS_NS::LAMMPS *lmp, const std::string &style, int first, int narg, char **arg);
 
@@ -40,6 +44,7 @@ class Arguments : private LAMMPS_NS::Pointers {
   [[noreturn]] void fail(const std::string &message) const;
 
  private:
+  LAMMPS_NS::LAMMPS *lmp_;
   std::string style_;
   std::vector<std::string> words_;
   std::size_t at_ = 0;

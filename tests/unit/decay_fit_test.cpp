@@ -2,6 +2,7 @@
 #include "decay_fit.h"
 #include <gtest/gtest.h>
 #include <cmath>
+#include <limits>
 
 using grainscope::DecayFit;
 using grainscope::fit_decay;
@@ -102,4 +103,12 @@ TEST(decay_fit, what_does_not_decay_has_no_length) {
   EXPECT_EQ(fit_decay({1.0, 2.0}, {1.0, 1.0}).length, 0.0);
   EXPECT_EQ(fit_decay({1.0, 2.0}, {1.2, 1.1}).length, 0.0);
   EXPECT_EQ(fit_decay({1.0, 2.0}, {1.2, 1.1}).points, 2);
+}
+
+TEST(decay_fit, points_at_no_finite_distance_do_not_count) {
+  const double infinite = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(fit_decay({infinite, std::nan("")}, {0.5, 0.5}).points, 0);
+  const DecayFit with = fit_decay({1.0, infinite, 2.0}, {0.5, 0.4, 0.25}), without = fit_decay({1.0, 2.0}, {0.5, 0.25});
+  EXPECT_EQ(with.points, 2);
+  EXPECT_EQ(with.length, without.length);
 }

@@ -75,3 +75,12 @@ TEST(ellipsoid_bands, equator_belongs_to_the_last_band) {
   EXPECT_EQ(band_of(M_PI_2, 10), 9);
   EXPECT_EQ(band_of(0.5 * M_PI_2 * (1.0 - 1e-15), 10), 4);
 }
+
+TEST(ellipsoid_bands, long_and_flat_triaxial_grains_have_one_area) {
+  for (const Vector3d &semi : {Vector3d(0.02, 10, 1), Vector3d(50, 0.1, 1), Vector3d(10, 0.1, 1), Vector3d(0.3, 10, 1), Vector3d(0.02, 0.1, 1)}) {
+    const double area = sum(band_areas(semi, 1, SurfaceAngle::parametric));
+    for (int bands : {1, 3, 10}) EXPECT_NEAR(sum(band_areas(semi, bands, SurfaceAngle::polar)) / area, 1.0, 5e-12) << semi.transpose();
+  }
+}
+
+TEST(ellipsoid_bands, what_is_no_number_is_in_the_last_band) { EXPECT_EQ(band_of(std::nan(""), 10), 9); }

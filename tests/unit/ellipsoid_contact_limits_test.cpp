@@ -260,3 +260,20 @@ TEST(ellipsoid_contact_limits, far_apart) {
       EXPECT_GT(c.gap, 0.1 * away);
     });
 }
+
+/** Of what is no number one pair and many say that the answer is none. */
+TEST(ellipsoid_contact_limits, no_numbers_are_told_as_fallbacks) {
+  const double nan = std::nan("");
+  for (GrainPair pair : {pair_of({1, 1, 2}, {1, 1, 2}, nan, 0, 0), pair_of({1, 1, 1}, {1, 1, 1}, nan, 0, 0),
+                         pair_of({1, 1, nan}, {1, 1, 2}, 1, 0, 0)}) {
+    const EllipsoidContact alone = kernel_contact<Spheroid>(pair);
+    EXPECT_TRUE(alone.fallback);
+    EXPECT_TRUE(kernel_contact<Triaxial>(pair).fallback);
+    const Spheroid one = make_spheroid(pair.semi[0], pair.quaternion[0]), two = make_spheroid(pair.semi[1], pair.quaternion[1]);
+    EllipsoidPair many[8];
+    EllipsoidContact contacts[8];
+    for (EllipsoidPair &same : many) same = {&one, &two, {pair.d[0], pair.d[1], pair.d[2]}, 0.0};
+    ellipsoid_contacts(8, many, contacts);
+    for (const EllipsoidContact &c : contacts) EXPECT_TRUE(c.fallback);
+  }
+}

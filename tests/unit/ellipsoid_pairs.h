@@ -12,6 +12,7 @@ struct GrainPair {
   double semi[2][3], quaternion[2][4], d[3];
 
   reference::Body body(int k) const { return {semi[k], quaternion[k]}; }
+  double largest() const { return std::max(*std::max_element(semi[0], semi[0] + 3), *std::max_element(semi[1], semi[1] + 3)); }
   double smallest() const { return std::min(*std::min_element(semi[0], semi[0] + 3), *std::min_element(semi[1], semi[1] + 3)); }
 };
 

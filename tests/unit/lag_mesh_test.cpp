@@ -93,3 +93,18 @@ TEST(lag_mesh, counts_are_rounded_lag_by_lag) {
   add_lags(cell, whole, field.data(), true, {2.0, 1}, found);
   EXPECT_EQ(found[0], 3.0);
 }
+
+TEST(lag_mesh, what_is_no_place_or_no_box_does_no_harm) {
+  PointValues points;
+  for (double where : {-1e-17, 1e150, HUGE_VAL, std::nan("")}) points.add(Vector3d(where, 0.5, 0.5), 1.0);
+  for (std::size_t i = 0; i < points.size(); i++) {
+    const int cell = whole.cell_of(points, i)[0];
+    EXPECT_TRUE(cell >= 0 && cell < 12) << cell;
+  }
+  PeriodicCell torn = sheared();
+  torn.edges *= std::nan("");
+  std::vector<double> field(12 * 10 * whole.row, 1.0), found(1, 0.0);
+  add_lags(torn, whole, field.data(), true, {2.0, 1}, found);
+  EXPECT_EQ(found[0], 0.0);
+  EXPECT_THROW(grainscope::mesh_size(torn, {2.0, 1}, 4, 1e9), std::length_error);
+}

@@ -71,3 +71,7 @@ TEST(line_angle, is_in_the_half_open_interval) {
   EXPECT_NEAR(grainscope::line_angle(-1, -1), M_PI_4, 1e-15);
   EXPECT_NEAR(grainscope::line_angle(-1, 1), -M_PI_4, 1e-15);
 }
+
+TEST(nematic, a_line_across_is_at_plus_half_pi_whatever_its_rounding) {
+  for (double off : {-1e-17, 0.0, 1e-17}) EXPECT_NEAR(Nematic(axes({{off, 1, 0}})).theta, M_PI_2, 1e-15);
+}

@@ -179,3 +179,20 @@ TEST(direct_pair_sums, nothing_and_one_point_have_no_pairs) {
     EXPECT_EQ(sums.products, std::vector<double>(3, 0.0));
   }
 }
+
+/** Of a run that has blown up: a grain far out or nowhere, a box that is none. Whatever is not near is in no bin. */
+TEST(direct_pair_sums, what_is_no_place_has_no_pairs) {
+  for (double where : {1e150, -1e150, HUGE_VAL, std::nan("")}) {
+    PeriodicCell cell;
+    cell.periodic = {{false, true, true}};
+    PointValues points;
+    points.add(Vector3d(0.5, 0.5, 0.5), 1.0);
+    points.add(Vector3d(where, 0.6, 0.5), 1.0);
+    EXPECT_EQ(direct_pair_sums(cell, points, {0.5, 3}).pairs, std::vector<double>(3, 0.0)) << where;
+  }
+  PeriodicCell torn;
+  torn.edges *= std::nan("");
+  PointValues points;
+  for (double x : {0.1, 0.2}) points.add(Vector3d(x, 0.5, 0.5), 1.0);
+  EXPECT_EQ(direct_pair_sums(torn, points, {std::nan(""), 3}).pairs, std::vector<double>(3, 0.0));
+}

@@ -49,7 +49,7 @@ TEST(principal_axes, of_a_degenerate_plane_that_is_tilted) {
 }
 
 TEST(principal_axes, of_zero_are_those_of_the_laboratory) {
-  const PrincipalAxes axes(Matrix3d(Matrix3d::Zero()));
+  const PrincipalAxes axes{Matrix3d(Matrix3d::Zero())};
   EXPECT_EQ(axes.vectors, Matrix3d::Identity());
   EXPECT_EQ(axes.values, Vector3d::Zero());
 }

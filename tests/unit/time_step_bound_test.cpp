@@ -61,4 +61,9 @@ TEST(time_step_bound, the_largest_step_is_where_the_limit_is_reached) {
   EXPECT_NEAR(modes.fastest(mass, inertia, largest).value, 4.0, 1e-12);
 }
 
+TEST(time_step_bound, the_largest_step_of_a_dashpot_beside_which_the_spring_is_nothing) {
+  EXPECT_NEAR((GrainModes::Mode{0.0, 1.0, 1e10}).largest_step(), 4e-10, 1e-24);
+  EXPECT_NEAR((GrainModes::Mode{0.0, 0.0, 1e10}).largest_step(), 4e-10, 1e-24);
+}
+
 }

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "pressure_control.h"
+#include "input.h"
+
+using namespace grainscope;
+using fuzz::require;
+using fuzz::require_below;
+
+namespace {
+
+Contact contact_of(fuzz::Input &input) {
+  Contact c{};
+  input.direction(c.normal.data(), 3);
+  c.branch = input.logarithmic(1e-3, 1e3) * c.normal + input.small() * Eigen::Vector3d(input.small(), input.small(), input.small());
+  c.force = 100.0 * Eigen::Vector3d(input.small(), input.small(), input.small());
+  c.weight = input.flag() ? 1.0 : 0.5;
+  c.normal_stiffness = input.logarithmic(1e-3, 1e9);
+  c.tangential_stiffness = input.flag() ? 0.8 * c.normal_stiffness : 0.0;
+  c.damping_coefficient = input.flag() ? input.logarithmic(1e-6, 1e6) : 0.0;
+  c.tangential_damping = input.flag() ? c.damping_coefficient : 0.0;
+  c.sliding = input.flag();
+  return c;
+}
+
+/** The box moves the way that lowers the error, never faster than it may, and says so when it would. */
+void check_input(const PressureControl &control, const NetworkResponse &window, double target, double length, double interval) {
+  const PressureControl::Input input = control.input(window, target, length, interval);
+  const double bound = length * std::min(control.limit / interval, control.max_rate), error = window.pressure - target;
+  require(std::isfinite(input.velocity), "an input is finite", input.velocity);
+  require_below(std::fabs(input.velocity), bound, "an input keeps its limit");
+  require(input.velocity * error >= 0.0, "the box grows where the pressure is too high", input.velocity);
+  require(!input.clipped || std::fabs(input.velocity) == bound, "a clipped input is at the limit", input.velocity);
+  require(error != 0.0 || input.velocity == 0.0, "nothing moves at the target", input.velocity);
+}
+
+/** As many multiples of the interval were told as have gone by; steps longer than an interval tell one. */
+void check_intervals(fuzz::Input &input) {
+  const double interval = input.logarithmic(1e-9, 1e6);
+  Intervals intervals(interval);
+  double told = 0.0;
+  for (int n = input.whole(1, 40); n > 0; n--) {
+    const double step = interval * (input.flag() ? input.logarithmic(1e-6, 0.9) : 0.1);
+    told += intervals.advance(step);
+    const double gone = intervals.passed() / interval;
+    require(told == std::floor(gone + 1e-9) + 1.0 || told == std::floor(gone + 1e-9), "multiples of an interval are told once", told - gone);
+    require(intervals.next() > gone, "the next multiple is yet to come", intervals.next());
+    if (input.flag()) {
+      Intervals other(interval);
+      other.restore(intervals.passed(), intervals.next());
+      intervals = other;
+    }
+  }
+}
+
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+  fuzz::Input input(data, size);
+  PressureControl control;
+  control.automatic = input.flag();
+  control.gain = input.flag() ? input.logarithmic(1e-12, 1e12) : 0.0;
+  control.limit = input.uniform(1e-9, 1.0 - 1e-9);
+  if (input.flag()) control.max_rate = input.logarithmic(1e-9, 1e9);
+  const int axis = input.whole(0, 2);
+  NetworkResponse evaluation, window;
+  for (int n = input.whole(0, 8); n > 0; n--) {
+    evaluation.add(contact_of(input), axis, input.flag() ? 1.5 : 1.0, input.flag());
+    require(evaluation.stiffness >= 0.0 && evaluation.damping >= 0.0, "a network resists", evaluation.stiffness);
+  }
+  window.add(evaluation, input.logarithmic(1e-3, 1.0));
+  const double length = input.logarithmic(1e-6, 1e6), interval = input.logarithmic(1e-12, 1e6);
+  check_input(control, window, input.flag() ? 100.0 * input.uniform(0.0, 1.0) : 0.0, length, interval);
+  check_input(control, window, window.pressure, length, interval);
+  check_intervals(input);
+
+  const NetworkResponse anything{input.any(), input.any(), input.any()};  // of a run that has blown up
+  control.input(anything, input.any(), length, interval);
+  return 0;
+}

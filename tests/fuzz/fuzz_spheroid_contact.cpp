@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact_checks.h"
+#include <vector>
+
+using namespace grainscope;
+using fuzz::require;
+
+namespace {
+
+Spheroid any_spheroid(fuzz::Input &input) {
+  double semi[3], quaternion[4];
+  for (double &s : semi) s = std::fabs(input.any());
+  if (input.flag()) semi[1] = semi[0];
+  for (double &q : quaternion) q = input.any();
+  return make_spheroid(semi, quaternion);
+}
+
+bool same(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b)); }
+
+void require_same(const EllipsoidContact &a, const EllipsoidContact &b) {
+  require(a.touching == b.touching && a.fallback == b.fallback && a.steps == b.steps, "alone or side by side, the same decisions");
+  require(same(a.lambda, b.lambda) && same(a.gap, b.gap), "alone or side by side, the same lambda and gap");
+  for (int k = 0; k < 3; k++) require(same(a.normal[k], b.normal[k]) && same(a.point[k], b.point[k]), "alone or side by side, the same contact");
+  for (int k = 0; k < 2; k++)
+    require(same(a.depth[k], b.depth[k]) && same(a.curvature[k], b.curvature[k]), "alone or side by side, the same depths");
+}
+
+}
+
+/** Several pairs, each of a sheared packing or of nothing that makes sense: sound answers, and the same from one pair and from many. */
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+  fuzz::Input input(data, size);
+  const int n = input.whole(1, 11);
+  std::vector<Spheroid> bodies(2 * n);
+  std::vector<EllipsoidPair> pairs(n);
+  for (int p = 0; p < n; p++) {
+    EllipsoidPair &pair = pairs[p];
+    if (input.byte() < 96) {
+      for (int side = 0; side < 2; side++) bodies[2 * p + side] = any_spheroid(input);
+      for (double &x : pair.d) x = input.any();
+      pair.start = input.any();
+    } else {
+      const GrainPair grains = fuzz::grain_pair(input, false);
+      for (int side = 0; side < 2; side++) make(grains, side, bodies[2 * p + side]);
+      std::copy(grains.d, grains.d + 3, pair.d);
+      pair.start = input.flag() ? 0.0 : input.uniform(0.0, 1.0);
+      double aside[3];
+      input.direction(aside, 3);
+      fuzz::check_pair<Spheroid>(grains, pair.start, aside);
+    }
+    pair.one = &bodies[2 * p];
+    pair.two = &bodies[2 * p + 1];
+  }
+  std::vector<EllipsoidContact> contacts(n);
+  ellipsoid_contacts(n, pairs.data(), contacts.data());
+  for (int p = 0; p < n; p++) {
+    fuzz::require_sound(contacts[p]);
+    require_same(contacts[p], ellipsoid_contact(*pairs[p].one, *pairs[p].two, pairs[p].d, pairs[p].start));
+  }
+  return 0;
+}

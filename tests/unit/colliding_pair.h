@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_COLLIDING_PAIR_H
+#define GRAINSCOPE_COLLIDING_PAIR_H
+
+#include "energy_ledger.h"
+#include <cmath>
+
+namespace colliding_pair {
+
+using Eigen::Vector3d;
+using grainscope::Contact;
+using grainscope::ContactPast;
+using grainscope::EnergyLedger;
+using grainscope::LedgerFrame;
+
+/** A sphere that moves by kick, drift, kick; its velocities are those that the ledger is shown. */
+struct Sphere {
+  double mass, inertia;
+  Vector3d x, v, omega, force = Vector3d::Zero(), torque = Vector3d::Zero();
+
+  void kick(double dt) {
+    v += 0.5 * dt / mass * force;
+    omega += 0.5 * dt / inertia * torque;
+  }
+  EnergyLedger::Grain shown(int index) const { return {index, mass, x.data(), v.data(), force.data(), torque.data()}; }
+};
+
+/** Two spheres under a law of this test's own: an elastic force k d^(3/2), damping c d^(1/4) u_n, a tangential spring of stiffness h d^(1/2)
+ *  with friction, a torque against rolling; and a constant force from outside. The ledger is told what it would be told by the pair style. */
+class Pair {
+ public:
+  static constexpr double radius = 1.0, k = 1e4, c = 30.0, h = 8e3, friction = 0.3;
+  const double dt;
+  Sphere spheres[2] = {{2.0, 0.8, {-1.01, 0.05, 0.0}, {0.6, 0.0, 0.1}, {0.0, 0.3, 0.9}},
+                       {3.0, 1.1, {1.0, 0.0, 0.1}, {-0.4, 0.1, 0.0}, {0.2, 0.0, 0.5}}};
+  EnergyLedger ledger;
+  LedgerFrame frame;
+  Vector3d outside = Vector3d::Zero();
+  double rolling = 0.0;  // torque per difference of spins
+  bool touching = false, touched = false;
+
+  explicit Pair(double step = 1e-3) : dt(step) { ledger.set_law({1.5, true, false, false}); }
+
+  void evaluate(bool springs_move) {
+    Sphere &i = spheres[0], &j = spheres[1];
+    i.force = outside;
+    j.force = Vector3d::Zero();
+    i.torque = j.torque = Vector3d::Zero();
+    ledger.begin_evaluation(2);
+    const Vector3d r = i.x - j.x, n = r.normalized();
+    const double d = 2.0 * radius - r.norm();
+    touching = d > 0.0;
+    if (!touching) {
+      past_ = ContactPast();
+      spring_.setZero();
+      return;
+    }
+    touched = true;
+    Contact contact{};
+    contact.j = 1;
+    contact.weight = 1.0;
+    contact.branch = r;
+    contact.normal = n;
+    contact.overlap = d;
+    contact.arm = -(radius - 0.5 * d) * n;
+    const Vector3d u = i.v - j.v + i.omega.cross(contact.arm) - j.omega.cross(contact.arm + r);
+    contact.normal_velocity = u.dot(n);
+    contact.tangential_velocity = u - u.dot(n) * n;
+    contact.normal_stiffness = k * std::sqrt(d);
+    contact.tangential_stiffness = h * std::sqrt(d);
+    contact.normal_damping = -c * std::sqrt(std::sqrt(d)) * u.dot(n);
+    contact.spring_before = spring_;
+    Vector3d tried = spring_;
+    if (springs_move) {
+      tried += dt * contact.tangential_velocity;
+      tried -= tried.dot(n) * n;
+    }
+    contact.normal_force = contact.normal_stiffness * d + contact.normal_damping;
+    const double limit = friction * std::fabs(contact.normal_force) / contact.tangential_stiffness;
+    contact.sliding = tried.norm() > limit;
+    spring_ = contact.sliding ? Vector3d(limit / tried.norm() * tried) : tried;
+    contact.spring = spring_;
+    contact.cut = tried - spring_;
+    contact.tangential_force = -contact.tangential_stiffness * spring_;
+    contact.force = contact.normal_force * n + contact.tangential_force;
+    contact.spin = i.omega - j.omega;
+    contact.rolling_torque = -rolling * contact.spin;
+    contact.past = &past_;
+    ledger.add(contact, dt, springs_move);
+    past_ = {true, d, contact.normal_stiffness * d, contact.tangential_stiffness, -0.5 * dt * contact.normal_stiffness * d * u.dot(n),
+             0.5 * dt * contact.tangential_stiffness * spring_.dot(contact.tangential_velocity)};
+    i.force += contact.force;
+    j.force -= contact.force;
+    i.torque += contact.arm.cross(contact.force) + contact.rolling_torque;
+    j.torque -= (contact.arm + r).cross(contact.force) + contact.rolling_torque;
+  }
+
+  void step(const Vector3d &unseen_kick = Vector3d::Zero()) {
+    ledger.begin_start_of_step(frame);
+    for (int g = 0; g < 2; g++) {
+      const Sphere &s = spheres[g];
+      const Vector3d momentum = s.inertia * s.omega, after = s.omega + 0.5 * dt / s.inertia * s.torque;
+      ledger.start_of_step(s.shown(g), after.data(), momentum.data(), dt);
+    }
+    ledger.book_start(dt);
+    for (Sphere &s : spheres) s.kick(dt);
+    spheres[0].v += unseen_kick;
+    for (Sphere &s : spheres) s.x += dt * s.v;
+    evaluate(true);
+    ledger.begin_end_of_step();
+    for (int g = 0; g < 2; g++) {
+      const Sphere &s = spheres[g];
+      const Vector3d momentum = s.inertia * s.omega;
+      ledger.end_of_step(s.shown(g), s.omega.data(), momentum.data(), dt);
+    }
+    ledger.book_step(dt);
+    for (Sphere &s : spheres) s.kick(dt);
+  }
+
+  double residual() const {
+    double stored = 0.0;
+    for (double one : ledger.stored()) stored += one;
+    return EnergyLedger::residual(ledger.totals(), stored - ledger.start_energy());
+  }
+  double kinetic() const {
+    double sum = 0.0;
+    for (const Sphere &s : spheres) sum += 0.5 * s.mass * s.v.squaredNorm() + 0.5 * s.inertia * s.omega.squaredNorm();
+    return sum;
+  }
+
+ private:
+  Vector3d spring_ = Vector3d::Zero();
+  ContactPast past_;
+};
+
+}
+
+#endif
