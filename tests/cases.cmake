@@ -138,6 +138,7 @@ add_cases(rank-sweep cases/rank_sweep.py LABEL long RANKS 8 CASES every-decompos
 add_cases(decomposition cases/decomposition.py LABEL case RANKS 8 CASES on-corners-of-a-tilted-box just-below-the-least-height)
 add_cases(decomposition cases/decomposition.py LABEL case RANKS 4 CASES
   empty-ranks just-above-the-least-height just-above-the-least-height-of-ellipsoids)
+add_cases(decomposition cases/decomposition.py LABEL case RANKS 3 CASES migrants)
 add_cases(decomposition cases/decomposition.py LABEL case RANKS 1 3 CASES
   arrive-on-the-upper-face shrinks-by-press-strain shrinks-by-fix-deform shrinks-by-change-box sheared-too-narrow
   restart-of-grains-beyond-the-box)
@@ -148,6 +149,11 @@ add_cases(decomposition cases/decomposition.py LABEL long RANKS 2 3 4 CASES on-c
 add_cases(decomposition cases/decomposition.py LABEL long RANKS 2 3 8 CASES
   just-above-the-least-height just-above-the-least-height-of-ellipsoids)
 add_cases(decomposition cases/decomposition.py LABEL long RANKS 8 CASES
-  empty-ranks arrive-on-the-upper-face shrinks-by-press-strain shrinks-by-fix-deform shrinks-by-change-box sheared-too-narrow
+  migrants empty-ranks arrive-on-the-upper-face shrinks-by-press-strain shrinks-by-fix-deform shrinks-by-change-box sheared-too-narrow
   restart-of-grains-beyond-the-box)
 add_cases(rank-statistics cases/rank_statistics.py LABEL long RANKS 4 CASES prolate-flow)
+add_cases(shuffle cases/shuffle.py LABEL case RANKS 1 CASES ellipsoids)
+add_cases(shuffle cases/shuffle.py LABEL case RANKS 3 CASES spheres)
+add_cases(shuffle cases/shuffle.py LABEL long RANKS 1 CASES spheres superquadrics)
+add_cases(shuffle cases/shuffle.py LABEL long RANKS 4 8 CASES ellipsoids superquadrics)
+add_cases(builds numerics/builds.py LABEL long RANKS 1 2 CASES spheres spheroids superquadrics)

@@ -141,21 +141,28 @@ def _compare_bins(watched, found, expected, differences):
         differences.note(f"{name}: bins", _scaled(found[:, :, column][alike], expected[:, :, column][alike], max(scale, 1e-300)))
 
 
-def differences(questions, found, expected):
-    """Of two results: every number that was told, in every step that both tell."""
-    worst, tables = Differences(), (found.thermo()[-1], expected.thermo()[-1])
+def differences(questions, found, expected, moments=slice(None), numbers=None):
+    """Of two results: every number that was told at these moments. `numbers`: what grain 1, 2, ... of `found` is called in `expected`."""
+    worst, tables = Differences(), [{name: values[moments] for name, values in r.thermo()[-1].items()} for r in (found, expected)]
     require(len(tables[0]["step"]) == len(tables[1]["step"]) > 0, "different steps")
     for (name, a), (_, b) in zip(*(_blocks_of_thermo(questions, t) for t in tables)):
         require(bool(np.isfinite(a).all()), f"{name}: not finite")
         worst.note(name, _scaled(a, b))
     for (watched, a), (_, b) in zip(*(_tables_of_thermo(questions, t) for t in tables)):
         _compare_bins(watched, a, b, worst)
-    grains = [[columns for _, columns in r.dump("grains.dump")] for r in (found, expected)]
-    rows = [[rows_from_lower(rows_of(table, "rows"), grains_of(columns)) for (_, table), columns in zip(r.dump("rows.dump"), own)]
-            for r, own in zip((found, expected), grains)]
+    grains = [[columns for _, columns in r.dump("grains.dump")][moments] for r in (found, expected)]
+    rows = [[rows_of(table, "rows") for _, table in r.dump("rows.dump")][moments] for r in (found, expected)]
+    if numbers is not None:
+        grains[0], rows[0] = [_renamed(columns, numbers) for columns in grains[0]], [{**r, "id": numbers[r["id"].astype(int) - 1]} for r in rows[0]]
     _compare_grains(*grains, worst)
-    _compare_rows(*rows, worst)
+    _compare_rows(*([rows_from_lower(r, grains_of(columns)) for r, columns in zip(*pair)] for pair in zip(rows, grains)), worst)
     return worst
+
+
+def _renamed(columns, numbers):
+    columns = {**columns, "id": numbers[columns["id"].astype(int) - 1]}
+    order = np.argsort(columns["id"])
+    return {name: values[order] for name, values in columns.items()}
 
 
 def _largest(tables, *names):
