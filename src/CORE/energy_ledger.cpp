@@ -57,11 +57,11 @@ void EnergyLedger::begin_evaluation(int n_local) {
 
 namespace {
 
-/** Four numbers side by side, and where the allocator put them. */
+/** Four numbers side by side, and where the allocator put them: a struct, because clang forgets the alignment of a typedef behind a reference. */
 typedef double Four __attribute__((vector_size(32)));
-typedef double FourInMemory __attribute__((vector_size(32), aligned(8), may_alias));
-GRAINSCOPE_INLINE FourInMemory &four_at(double *memory) { return *reinterpret_cast<FourInMemory *>(memory); }
-GRAINSCOPE_INLINE const FourInMemory &four_at(const double *memory) { return *reinterpret_cast<const FourInMemory *>(memory); }
+struct __attribute__((packed, aligned(8), may_alias)) FourInMemory { Four four; };
+GRAINSCOPE_INLINE FourInMemory &in_place(double *memory) { return *reinterpret_cast<FourInMemory *>(memory); }
+GRAINSCOPE_INLINE Four four_at(const double *memory) { return reinterpret_cast<const FourInMemory *>(memory)->four; }
 /** The fourth repeats the third, and is read by nobody. (A zero there would be cheap too, but by an instruction that valgrind does not know.) */
 GRAINSCOPE_INLINE Four four_of(double x, double y, double z) { return Four{x, y, z, z}; }
 GRAINSCOPE_INLINE Four four_of(const Vector3d &v) { return four_of(v[0], v[1], v[2]); }
@@ -90,13 +90,13 @@ struct EnergyLedger::Unit {
 GRAINSCOPE_INLINE void EnergyLedger::add_part(int part, double size, const Unit &unit, double *of_i, double *of_j) {
   const Four times = four_times(size), force = times * unit.force;
   const int at = 8 * slot_[part];
-  four_at(contacts_.sums[part] + 0) += times * unit.diagonal;
-  four_at(contacts_.sums[part] + 4) += times * unit.beside;
-  four_at(of_i + at + 0) += force;
-  four_at(of_i + at + 4) += times * unit.torque_i;
+  in_place(contacts_.sums[part] + 0).four += times * unit.diagonal;
+  in_place(contacts_.sums[part] + 4).four += times * unit.beside;
+  in_place(of_i + at + 0).four += force;
+  in_place(of_i + at + 4).four += times * unit.torque_i;
   if (!of_j) return;
-  four_at(of_j + at + 0) -= force;
-  four_at(of_j + at + 4) -= times * unit.torque_j;
+  in_place(of_j + at + 0).four -= force;
+  in_place(of_j + at + 4).four -= times * unit.torque_j;
 }
 
 GRAINSCOPE_INLINE void EnergyLedger::add_past(const Contact &c, const ContactPast &past, double elastic_force) {
@@ -174,7 +174,7 @@ void EnergyLedger::end_of_step(const Grain &g, const double omega[3], const doub
     other_force -= four_at(at + 0);
     other_torque -= four_at(at + 4);
   }
-  four_at(ends_.other) += other_force * four_of(p) + other_torque * four_of(w);
+  in_place(ends_.other).four += other_force * four_of(p) + other_torque * four_of(w);
 }
 
 /** Taken from the grains in the half step before an evaluation. */
@@ -242,11 +242,11 @@ void EnergyLedger::start_of_step(const Grain &g, const double omega_after[3], co
     if (slot_[k] < 0) continue;
     double *part = wrenches_of(g.index) + 8 * slot_[k];
     const Four power = four_at(part + 0) * velocity + four_at(part + 4) * turning;
-    four_at(starts_.rate[k]) += power;
+    in_place(starts_.rate[k]).four += power;
     other -= power;
     std::fill(part, part + 8, 0.0);
   }
-  four_at(starts_.other) += other;
+  in_place(starts_.other).four += other;
 
   // The coming drift in the frame: told before it, because a grain that is wrapped afterwards takes on another velocity.
   const Vector3d after = p + flow, drift = dt * next_.gradient_times(after), middle = g.mass * (p - 0.5 * drift);
