@@ -135,17 +135,19 @@ add_cases(ledger cases/ledger.py LABEL case RANKS 2 4 CASES same-spheres same-sp
 add_cases(ranges cases/ranges.py LABEL case RANKS 1 2 CASES time-step time-step-in-short-runs time-step-unseen quiet kappa clipping unstable-from-the-start profile)
 add_cases(rank-sweep cases/rank_sweep.py LABEL case RANKS 8 CASES spheres spheroids-through-a-flip superquadrics-through-a-flip)
 add_cases(rank-sweep cases/rank_sweep.py LABEL long RANKS 8 CASES every-decomposition)
-add_cases(decomposition cases/decomposition.py LABEL case RANKS 8 CASES on-corners-of-a-tilted-box just-below-the-least-height)
+add_cases(decomposition cases/decomposition.py LABEL case RANKS 2 CASES on-corners-of-a-tilted-box)
+add_cases(decomposition cases/decomposition.py LABEL case RANKS 4 CASES just-below-the-least-height)
 add_cases(decomposition cases/decomposition.py LABEL case RANKS 4 CASES empty-ranks)
 add_cases(decomposition cases/decomposition.py LABEL case RANKS 3 CASES just-above-the-least-height just-above-the-least-height-of-ellipsoids)
-add_cases(decomposition cases/decomposition.py LABEL case RANKS 3 CASES migrants)
+add_cases(decomposition cases/decomposition.py LABEL long RANKS 3 CASES migrants)
 add_cases(decomposition cases/decomposition.py LABEL case RANKS 1 3 CASES
   arrive-on-the-upper-face shrinks-by-press-strain shrinks-by-fix-deform shrinks-by-change-box sheared-too-narrow
   restart-of-grains-beyond-the-box)
 add_cases(decomposition cases/decomposition.py LABEL case RANKS 1 CASES host-cannot-balance)
 add_cases(decomposition cases/decomposition.py LABEL long RANKS 2 3 4 8 CASES
   on-corners spheres-on-corners-of-a-tilted-box)
-add_cases(decomposition cases/decomposition.py LABEL long RANKS 2 3 4 CASES on-corners-of-a-tilted-box just-below-the-least-height)
+add_cases(decomposition cases/decomposition.py LABEL long RANKS 3 4 8 CASES on-corners-of-a-tilted-box)
+add_cases(decomposition cases/decomposition.py LABEL long RANKS 2 3 8 CASES just-below-the-least-height)
 add_cases(decomposition cases/decomposition.py LABEL long RANKS 2 4 8 CASES
   just-above-the-least-height just-above-the-least-height-of-ellipsoids)
 add_cases(decomposition cases/decomposition.py LABEL long RANKS 8 CASES

@@ -89,7 +89,7 @@ def arrive_on_the_upper_face(ranks):
 def empty_ranks(ranks):
     """A cluster in the middle of a large box: the outer ranks hold no grain."""
     packing = in_the_open(dense_packing(1.5, overlap=0.04, speed=0.05))
-    results = same(packing, ranks, contacts=100, grids=("4 1 1", "1 1 4") if ranks == 4 else ("8 1 1", "1 4 2"))
+    results = same(packing, ranks, contacts=100, grids=("4 1 1",) if ranks == 4 else ("8 1 1", "1 4 2"))
     for grid, result in results.items():
         grains = next(line for line in result.output.splitlines() if line.startswith("Nlocal:")).split()
         require(grid == "1 1 1" or grains[5:7] == ["0", "min"], f"processors {grid}: no rank was empty: {' '.join(grains)}")
