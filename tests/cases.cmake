@@ -139,3 +139,29 @@ add_cases(changes cases/changes.py LABEL case RANKS 1 CASES
 add_cases(changes cases/changes.py LABEL case RANKS 1 2 CASES
   box-turned-orthogonal grains-deleted grains-lost clear-starts-afresh-with-ellipsoids pair-style-twice time-step-changed-in-mid-run box-scaled)
 add_cases(changes cases/changes.py LABEL case RANKS 1 2 4 CASES grains-inserted clear-starts-afresh steps-numbered-anew)
+add_cases(rank-sweep cases/rank_sweep.py LABEL case RANKS 8 CASES spheres spheroids-through-a-flip superquadrics-through-a-flip)
+add_cases(rank-sweep cases/rank_sweep.py LABEL long RANKS 8 CASES every-decomposition)
+add_cases(decomposition cases/decomposition.py LABEL case RANKS 2 CASES on-corners-of-a-tilted-box)
+add_cases(decomposition cases/decomposition.py LABEL case RANKS 4 CASES just-below-the-least-height)
+add_cases(decomposition cases/decomposition.py LABEL case RANKS 4 CASES empty-ranks)
+add_cases(decomposition cases/decomposition.py LABEL case RANKS 3 CASES just-above-the-least-height just-above-the-least-height-of-ellipsoids)
+add_cases(decomposition cases/decomposition.py LABEL long RANKS 3 CASES migrants)
+add_cases(decomposition cases/decomposition.py LABEL case RANKS 1 3 CASES
+  arrive-on-the-upper-face shrinks-by-press-strain shrinks-by-fix-deform shrinks-by-change-box sheared-too-narrow
+  restart-of-grains-beyond-the-box)
+add_cases(decomposition cases/decomposition.py LABEL case RANKS 1 CASES host-cannot-balance)
+add_cases(decomposition cases/decomposition.py LABEL long RANKS 2 3 4 8 CASES
+  on-corners spheres-on-corners-of-a-tilted-box)
+add_cases(decomposition cases/decomposition.py LABEL long RANKS 3 4 8 CASES on-corners-of-a-tilted-box)
+add_cases(decomposition cases/decomposition.py LABEL long RANKS 2 3 8 CASES just-below-the-least-height)
+add_cases(decomposition cases/decomposition.py LABEL long RANKS 2 4 8 CASES
+  just-above-the-least-height just-above-the-least-height-of-ellipsoids)
+add_cases(decomposition cases/decomposition.py LABEL long RANKS 8 CASES
+  migrants empty-ranks arrive-on-the-upper-face shrinks-by-press-strain shrinks-by-fix-deform shrinks-by-change-box sheared-too-narrow
+  restart-of-grains-beyond-the-box)
+add_cases(rank-statistics cases/rank_statistics.py LABEL long RANKS 4 CASES prolate-flow)
+add_cases(shuffle cases/shuffle.py LABEL case RANKS 1 CASES ellipsoids)
+add_cases(shuffle cases/shuffle.py LABEL case RANKS 3 CASES spheres)
+add_cases(shuffle cases/shuffle.py LABEL long RANKS 1 CASES spheres superquadrics)
+add_cases(shuffle cases/shuffle.py LABEL long RANKS 4 8 CASES ellipsoids superquadrics)
+add_cases(builds numerics/builds.py LABEL long RANKS 1 2 CASES spheres spheroids superquadrics)
