@@ -19,7 +19,7 @@ add_cases(surroundings errors/surroundings.py LABEL error CASES
 add_cases(surroundings errors/surroundings.py LABEL error RANKS 2 CASES
   words-before-hybrid variable-becomes-nan variable-becomes-negative grains-renumbered grains-renumbered-warned strain-not-set-up)
 add_cases(surroundings errors/surroundings.py LABEL error RANKS 4 CASES words-before-hybrid grains-renumbered variable-becomes-negative)
-add_cases(error-pair errors/pair.py LABEL error RANKS 1 2 CASES hybrid newton-on misspelt-model misspelt-setting small-periodic-box)
+add_cases(error-pair errors/pair.py LABEL error RANKS 1 2 CASES hybrid newton-on setup-twice guard-by-hand memory-by-hand misspelt-model misspelt-setting small-periodic-box)
 add_cases(error-press-strain errors/press_strain.py LABEL error RANKS 1 CASES
   target-no-such-variable target-variable-negative rate-variable-zero orthogonal-box not-periodic-along-axis wall-on-the-axis
   cylinder-across-the-axis second-fix-deform)

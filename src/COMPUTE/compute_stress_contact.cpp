@@ -8,12 +8,14 @@
 #include "comm.h"
 #include "error.h"
 #include "fix_property_global.h"
+#include "finite.h"
 #include "force.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "update.h"
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 using namespace LAMMPS_NS;
@@ -128,6 +130,9 @@ void ComputeStressContact::compute_vector() {
               "compute stress/contact: the stiffness number kappa is %.4g, below the hard-grain limit of %g: results depend on how stiff the "
               "grains are. Stiffer grains, or a lower pressure", kappa, hard_grains);
   for (int k = 0; k < size_vector; k++) vector[k] += 0.0;  // no negative zeros
+  if (!grainscope::all_finite(vector, size_vector))
+    error->all(FLERR, ("compute stress/contact: the stress of step " + std::to_string(update->ntimestep) + " is not finite, though every force is: look "
+                       "at overlaps and at the material's constants").c_str());
   scalar = pressure + 0.0;
 }
 

@@ -23,6 +23,7 @@ char guard_id[] = "gran_insitu_guard", group_all[] = "all", guard_style[] = "run
 // A line of an input script would replace it.
 bool making = false;
 
+const int in_trouble = 4;  // a bit beside those of grainscope::stop_signal::Wish
 const int seldom = 1000;   // steps between looks at what a run can do without for a while
 
 struct Quantity {
@@ -69,22 +70,42 @@ int FixRunGuard::setmask() { return FixConst::PRE_EXCHANGE | FixConst::PRE_NEIGH
 void FixRunGuard::init() {
   running_ = false;
   grainscope::stop_signal::watch();
-  require_finite(false);
+  fail_together(not_finite(false));
+}
+
+void FixRunGuard::setup(int) {
+  running_ = true;
+  fail_together(not_finite(true));
 }
 
 void FixRunGuard::end_of_step() {
-  require_finite(true);
-  if (update->ntimestep % seldom == 0) require_written();
-  grainscope::stop_signal::pass_on(lmp);
+  std::string trouble = not_finite(true);
+  if (trouble.empty() && update->ntimestep % seldom == 0) trouble = not_written();
+  int all = grainscope::stop_signal::noted() | (trouble.empty() ? 0 : in_trouble);
+  if (comm->nprocs > 1) MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_BOR, world);
+  if (all & in_trouble) fail_together(trouble);
+  grainscope::stop_signal::pass_on(lmp, all);
 }
 
 void FixRunGuard::post_run() {
   running_ = false;
-  require_written();
+  fail_together(not_written());
+}
+
+void FixRunGuard::fail_together(const std::string &trouble) const {
+  int first = trouble.empty() ? comm->nprocs : comm->me;
+  MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, world);
+  if (first == comm->nprocs) return;
+  std::string told = trouble;
+  int n = told.size();
+  MPI_Bcast(&n, 1, MPI_INT, first, world);
+  told.resize(n);
+  MPI_Bcast(&told[0], n, MPI_CHAR, first, world);
+  error->all(FLERR, told.c_str());
 }
 
 /** A force that is not finite is met in its own step, before it moves a grain out of the world. */
-void FixRunGuard::require_finite(bool forces) const {
+std::string FixRunGuard::not_finite(bool forces) const {
   const int n = atom->nlocal;
   const Quantity state[] = {{"position", atom->x, 3}, {"velocity", atom->v, 3}, {"angular velocity", atom->omega, 3},
                             {"quaternion", atom->superquadric_flag ? atom->quaternion : nullptr, 4}};
@@ -96,7 +117,7 @@ void FixRunGuard::require_finite(bool forces) const {
       if (!first && wrong(one)) first = &one;
   for (const Quantity &one : state)
     if (!first && wrong(one)) first = &one;
-  if (!first) return;
+  if (!first) return "";
 
   std::ostringstream message;
   message << "step " << update->ntimestep << ": the " << *first << " of grains";
@@ -110,7 +131,7 @@ void FixRunGuard::require_finite(bool forces) const {
   message << " is not finite";
   if (forces) message << ". Look at the time step (doc/stability.md), at overlaps of grains that were just inserted, and at the material's constants";
   else message << ": look at the commands that set it";
-  error->one(FLERR, message.str().c_str());
+  return message.str();
 }
 
 void FixRunGuard::pre_exchange() { grains_ = atom->nlocal; }
@@ -128,10 +149,10 @@ void FixRunGuard::pre_neighbor() {
 }
 
 /** All streams that the host has open: it does not look whether its output arrives. */
-void FixRunGuard::require_written() const {
-  if (fflush(nullptr) == 0) return;
+std::string FixRunGuard::not_written() const {
+  if (fflush(nullptr) == 0) return "";
   const std::string reason = strerror(errno);
-  error->one(FLERR, ("step " + std::to_string(update->ntimestep) + ": output of this run (dumps, tables, log) cannot be written: " + reason).c_str());
+  return "step " + std::to_string(update->ntimestep) + ": output of this run (dumps, tables, log) cannot be written: " + reason;
 }
 
 /** The words of the pair style: what contact history is made of. In a run the host would write springs as they were before the step: it puts them
@@ -148,7 +169,6 @@ void FixRunGuard::write_restart(FILE *file) {
 void FixRunGuard::restart(char *buffer) { settings_ = buffer; }
 
 void FixRunGuard::write_restart_file(char *file) {
-  if (comm->me != 0 || strchr(file, '%')) return;
-  const std::string trouble = grainscope::restart_seal::seal(file);
-  if (!trouble.empty()) error->one(FLERR, trouble.c_str());
+  if (strchr(file, '%')) return;
+  fail_together(comm->me == 0 ? grainscope::restart_seal::seal(file) : "");
 }

@@ -23,7 +23,7 @@ class FixRunGuard : public Fix {
   void init();
   void setup_pre_exchange() { pre_exchange(); }
   void setup_pre_neighbor() { pre_neighbor(); }
-  void setup(int) { running_ = true; }
+  void setup(int);
   void pre_exchange();
   void pre_neighbor();
   void end_of_step();
@@ -41,8 +41,11 @@ class FixRunGuard : public Fix {
   bool running_ = false;
   bigint grains_ = 0;            // on this rank, before they are dealt out to the ranks
 
-  void require_finite(bool forces) const;
-  void require_written() const;
+  /** What is wrong on this rank, or "". */
+  std::string not_finite(bool forces) const;
+  std::string not_written() const;
+  /** Ends the run when anything is wrong on any rank; collective. */
+  void fail_together(const std::string &trouble) const;
 };
 
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_setup_memory.h"
+#include "grain_state.h"
 #include "atom.h"
 #include "atom_vec.h"
 #include "comm.h"
@@ -9,9 +10,7 @@
 #include "update.h"
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
-#include <initializer_list>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -26,53 +25,10 @@ bool making = false;
 
 const double same_place = 1e-9;   // of the box: what the host's wrapping may change, and no command means
 
-/** FNV-1a of the bits of numbers, as one that is a double without loss. */
-class Hash {
- public:
-  void add(const double *values, int n) {
-    const unsigned char *bytes = reinterpret_cast<const unsigned char *>(values);
-    for (std::size_t k = 0; k < n * sizeof(double); k++) h_ = (h_ ^ bytes[k]) * 1099511628211u;
-  }
-  void add(double value) { add(&value, 1); }
-  double value() const { return static_cast<double>(h_ >> 11); }
-
- private:
-  std::uint64_t h_ = 14695981039346656037u;
-};
-
-double velocity_hash_of(const Atom *atom, int i) {
-  Hash hash;
-  hash.add(atom->v[i], 3);
-  return hash.value();
-}
-
-double state_hash_of(const Atom *atom, int i) {
-  Hash hash;
-  hash.add(atom->omega[i], 3);
-  hash.add(atom->radius[i]);
-  hash.add(atom->rmass[i]);
-  hash.add(atom->type[i]);
-  if (atom->superquadric_flag) {
-    hash.add(atom->quaternion[i], 4);
-    hash.add(atom->angmom[i], 3);
-    hash.add(atom->shape[i], 3);
-    hash.add(atom->blockiness[i], 2);
-  }
-  return hash.value();
-}
-
 tagint as_image(double slot) {
   tagint image;
   std::memcpy(&image, &slot, sizeof image);
   return image;
-}
-
-/** Whole edges that a grain was moved by, down being positive, when its image changed. */
-void crossed(tagint before, tagint after, int edges[3]) {
-  const auto part = [](tagint image, int k) {
-    return static_cast<int>(k == 0 ? image & IMGMASK : k == 1 ? image >> IMGBITS & IMGMASK : image >> IMG2BITS);
-  };
-  for (int k = 0; k < 3; k++) edges[k] = part(after, k) - part(before, k);
 }
 
 }
@@ -206,7 +162,7 @@ void FixSetupMemory::set_box(const Box &box) {
 /** A grain was wrapped since its last evaluation: place and velocity that it would have had there. */
 void FixSetupMemory::carry_across(int i, tagint image_before) {
   int n[3];
-  crossed(image_before, atom->image[i], n);
+  grainscope::edges_crossed(image_before, atom->image[i], n);
   const Box &box = shared_.evaluated;
   double *place = of(i) + half_x, *v = of(i) + half_v, edges[3];
   for (int k = 0; k < 3; k++) edges[k] = box.high[k] - box.low[k];
@@ -222,11 +178,11 @@ void FixSetupMemory::carry_across(int i, tagint image_before) {
 /** Whether grain i is as it was at the end of the last run, but for wrapping. */
 bool FixSetupMemory::same(int i) const {
   const double *mine = of(i);
-  if (mine[known] != 1.0 || mine[state_hash] != state_hash_of(atom, i)) return false;
+  if (mine[known] != 1.0 || mine[state_hash] != grainscope::state_hash(atom, i)) return false;
   const tagint before = as_image(mine[image]);
-  if (before == atom->image[i] && mine[velocity_hash] != velocity_hash_of(atom, i)) return false;
+  if (before == atom->image[i] && mine[velocity_hash] != grainscope::velocity_hash(atom, i)) return false;
   int n[3];
-  crossed(before, atom->image[i], n);
+  grainscope::edges_crossed(before, atom->image[i], n);
   const double shift[3] = {n[0] * domain->xprd + n[1] * domain->xy + n[2] * domain->xz, n[1] * domain->yprd + n[2] * domain->yz, n[2] * domain->zprd};
   for (int k = 0; k < 3; k++)
     if (!(std::fabs(atom->x[i][k] - mine[x + k] + shift[k]) <= same_place * domain->prd[k])) return false;
@@ -309,8 +265,8 @@ void FixSetupMemory::take_rest() {
     std::copy(atom->x[i], atom->x[i] + 3, mine + x);
     mine[image] = 0.0;
     std::memcpy(&mine[image], &atom->image[i], sizeof atom->image[i]);
-    mine[velocity_hash] = velocity_hash_of(atom, i);
-    mine[state_hash] = state_hash_of(atom, i);
+    mine[velocity_hash] = grainscope::velocity_hash(atom, i);
+    mine[state_hash] = grainscope::state_hash(atom, i);
   }
 }
 

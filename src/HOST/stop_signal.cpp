@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "stop_signal.h"
-#include "comm.h"
 #include "lammps.h"
 #include "modify.h"
 #include "signal_handling.h"
@@ -15,7 +14,6 @@ namespace stop_signal {
 
 namespace {
 
-enum Wish { quit = 1, restart = 2 };
 volatile std::sig_atomic_t wishes = 0;
 
 void say(const char *words) {
@@ -44,11 +42,11 @@ void watch() {
   for (int signal : {SIGTERM, SIGINT, SIGUSR1}) sigaction(signal, &action, nullptr);
 }
 
-void pass_on(LAMMPS_NS::LAMMPS *lmp) {
-  int all = wishes;
-  if (lmp->comm->nprocs > 1) MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_BOR, lmp->world);
+int noted() { return wishes; }
+
+void pass_on(LAMMPS_NS::LAMMPS *lmp, int all) {
   // At the last step of a run the next run is waited for: the host would leave without a restart.
-  if (!all || lmp->update->ntimestep >= lmp->update->laststep) return;
+  if (!(all & (quit | restart)) || lmp->update->ntimestep >= lmp->update->laststep) return;
   using namespace LAMMPS_NS;
   const bool writes = SignalHandler::enable_restart_writing;
   SignalHandler::request_write_restart = writes;

@@ -13,8 +13,11 @@ namespace stop_signal {
 
 /** Takes the signals over from the host. */
 void watch();
-/** At the end of a step, collective: what has reached any rank is passed on to the host, for the coming step. */
-void pass_on(LAMMPS_NS::LAMMPS *lmp);
+enum Wish { quit = 1, restart = 2 };
+/** What has reached this rank, as bits. */
+int noted();
+/** At the end of a step: what has reached any rank is passed on to the host, for the coming step. */
+void pass_on(LAMMPS_NS::LAMMPS *lmp, int all);
 
 }
 

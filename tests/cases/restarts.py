@@ -111,8 +111,8 @@ def restart_is_exact(packing, surface="ellipsoid", extra="setup neutral ledger o
     return case
 
 
-def long_deck(packing, steps, every):
-    deck = neutral(packing)
+def long_deck(packing, steps, every, ranks):
+    deck = neutral(packing, processors=f"{ranks} 1 1")  # the host would choose a grid for the box that it finds
     lines, _ = everything_with_state(deck)
     end = [*dump_grains(packing, steps), f"restart {every} {' '.join(FILES)}", "thermo 100", f"run {steps} upto"]
     return replace(deck, body=[*lines, *end]), deck.restarted(" ".join(FILES), [*lines, *end])
@@ -122,7 +122,7 @@ def killed_and_resumed(packing, times, steps=3000, every=150):
     """SIGKILL at `times` random moments, each run resumed from the newer of its two restart files that is whole: the same final state, to the last
     bit, as a run that was left alone and wrote the same files."""
     def case(ranks):
-        fresh, resumed = long_deck(packing, steps, every)
+        fresh, resumed = long_deck(packing, steps, every, ranks)
         began = time.monotonic()
         expected = run(fresh, ranks)
         took = time.monotonic() - began
@@ -200,6 +200,7 @@ CASES = {
     "noticed-spins": changes_are_noticed(["set atom 3 omegax 1.5"]),
     "noticed-places": changes_are_noticed(["displace_atoms all random 0.001 0.001 0.001 24571"]),
     "noticed-box": changes_are_noticed(["change_box all x scale 0.999 remap"]),
+    "noticed-time-step": changes_are_noticed(["timestep 0.005"]),
     "noticed-deletion": changes_are_noticed(["group some id 5:9", "delete_atoms group some"]),
     "exact-spheres": restart_is_exact(tilted(SPHERES, 0.495)),
     "exact-spheroids": restart_is_exact(tilted(SPHEROIDS, 0.495)),

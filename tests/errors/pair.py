@@ -34,6 +34,10 @@ CASES = {
     "misspelt-setting": refusal(lambda: as_text("tangential history", "tangential history limitFours on"), "limitFours"),
     "small-periodic-box": refusal(small_box, "pair_style gran/insitu: the periodic box must be at least 2 x (largest diameter x "
                                   "contact distance factor + skin)", "high along z, got 4"),
+    "setup-twice": refusal(lambda: as_text("tangential history", "tangential history setup host setup neutral"),
+                           "pair_style gran/insitu: 'setup' is given twice"),
+    "guard-by-hand": refusal(lambda: deck("fix gran_insitu_guard all run/guard", "run 1"), "fix run/guard: is made by pair_style gran/insitu"),
+    "memory-by-hand": refusal(lambda: deck("fix gran_insitu_setup all setup/memory", "run 1"), "fix setup/memory: is made by pair_style gran/insitu"),
     "newton-on": refusal(lambda: deck("compute c all stress/contact", tangential="off").text().replace("newton off", "newton on"),
                          "compute stress/contact requires 'newton off', got 'newton on'"),
 }

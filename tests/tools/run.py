@@ -125,7 +125,7 @@ class Started:
         command = [*_command(ranks), "-in", "in.deck", "-log", "log.liggghts"]
         self._output = open(self.folder / "output", "w")
         self._process = subprocess.Popen(command, cwd=self.folder, env=_environment(ranks), stdout=self._output, stderr=subprocess.STDOUT,
-                                         stdin=subprocess.DEVNULL, start_new_session=True)
+                                         stdin=subprocess.DEVNULL, start_new_session=True, restore_signals=False)
 
     def kill(self):
         """SIGKILL to all ranks, and to mpirun."""
@@ -139,6 +139,9 @@ class Started:
         """The processes of the ranks, of which each may be sent a signal of its own."""
         command = ["pgrep", "-P", str(self._process.pid), "-x", Path(binary()).name]
         return [int(pid) for pid in subprocess.run(command, stdout=subprocess.PIPE, text=True).stdout.split()] or [self._process.pid]
+
+    def ended(self):
+        return self._process.poll() is not None
 
     def end(self, time_limit=TIME_LIMIT):
         """Waits for it; its Result."""
@@ -155,6 +158,8 @@ def wait_for_steps(started):
     """Until it has begun its steps."""
     log = started.folder / "log.liggghts"
     while not log.exists() or "Step" not in log.read_text(errors="replace"):
+        if started.ended():
+            raise Failure(f"the run in {started.folder} ended before its first step")
         time.sleep(0.05)
     time.sleep(0.3)
 
