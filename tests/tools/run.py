@@ -8,6 +8,8 @@ import tempfile
 import numpy as np
 
 TIME_LIMIT = 120.0
+TIME_SCALE = float(os.environ.get("GRAINSCOPE_TIME_SCALE", "1"))  # a build that looks over its own shoulder takes longer
+FINDINGS = ("ERROR: AddressSanitizer", "ERROR: LeakSanitizer", "runtime error: ", "AddressSanitizer:DEADLYSIGNAL")
 
 
 class Failure(Exception):
@@ -41,6 +43,13 @@ def tail(output):
     output = (output or "").split("-" * 60)[0]
     noise = ("Created ", "Setting atom", "  1 settings made")
     return "\n".join(line for line in output.splitlines() if not line.startswith(noise))[-2500:]
+
+
+def require_clean(output):
+    """No sanitizer found anything, whatever the run was to end with."""
+    at = min((k for k in map(output.find, FINDINGS) if k >= 0), default=-1)
+    if at >= 0:
+        raise Failure(f"a sanitizer complains:\n{output[max(0, output.rfind(chr(10), 0, at)):at + 6000]}")
 
 
 class Result:
@@ -115,9 +124,10 @@ def attempt(deck, ranks=1, folder=None, arguments=(), time_limit=TIME_LIMIT):
     command = [*_command(ranks), "-in", "in.deck", "-log", "log.liggghts", *arguments]
     try:
         done = subprocess.run(command, cwd=folder, env=_environment(), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                              stdin=subprocess.DEVNULL, timeout=time_limit, text=True, errors="replace")
+                              stdin=subprocess.DEVNULL, timeout=time_limit * TIME_SCALE, text=True, errors="replace")
     except subprocess.TimeoutExpired:
-        raise Failure(f"{' '.join(command)} in {folder} did not end within {time_limit} s")
+        raise Failure(f"{' '.join(command)} in {folder} did not end within {time_limit * TIME_SCALE} s")
+    require_clean(done.stdout)
     return Result(folder, done.returncode, done.stdout)
 
 
