@@ -31,11 +31,11 @@ def _environment():
     return env
 
 
-def _command(ranks):
+def _command(ranks, program):
     if ranks == 1:
-        return [binary()]
+        return [program]
     mpiexec = os.environ.get("GRAINSCOPE_MPIEXEC", "mpirun")
-    return [mpiexec, "--oversubscribe", "--bind-to", "none", "-np", str(ranks), binary()]
+    return [mpiexec, "--oversubscribe", "--bind-to", "none", "-np", str(ranks), program]
 
 
 def tail(output):
@@ -116,12 +116,12 @@ def _deck_text(deck):
     return deck if isinstance(deck, str) else deck.text()
 
 
-def attempt(deck, ranks=1, folder=None, arguments=(), time_limit=TIME_LIMIT):
-    """Runs a deck (a Deck or its text) and returns the Result, whatever its exit code."""
+def attempt(deck, ranks=1, folder=None, arguments=(), time_limit=TIME_LIMIT, program=None):
+    """Runs a deck (a Deck or its text) and returns the Result, whatever its exit code. `program`: what to start in place of the binary."""
     folder = Path(folder or tempfile.mkdtemp(prefix="case-", dir=os.environ.get("GRAINSCOPE_SCRATCH")))
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "in.deck").write_text(_deck_text(deck))
-    command = [*_command(ranks), "-in", "in.deck", "-log", "log.liggghts", *arguments]
+    command = [*_command(ranks, program or binary()), "-in", "in.deck", "-log", "log.liggghts", *arguments]
     try:
         done = subprocess.run(command, cwd=folder, env=_environment(), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                               stdin=subprocess.DEVNULL, timeout=time_limit * TIME_SCALE, text=True, errors="replace")
