@@ -46,9 +46,21 @@ def moved(*lines, packing=None, **choices):
     return Deck(packing, body=[*lines, *dump_grains(packing, 5), "run 10"], **{"surface": "ellipsoid", **choices})
 
 
+def triaxial():
+    packing = dense_packing(1.5)
+    return replace(packing, grains=[replace(grain, semi_axes=(1.0, 0.9, 1.5)) for grain in packing.grains])
+
+
+def modelled(words):
+    """The model that the words of a pair_style name, in the order that a Deck gives them."""
+    surface = re.search(r"surface (\w+)", words)[1]
+    rolling = re.search(r"rolling_friction (\w+)", words)
+    return moved(surface=surface, rolling=rolling[1] if rolling else "off", extra=LEDGER if "ledger on" in words else "")
+
+
 def continued():
     """All that is in restart files, written and read by one process."""
-    deck = replace(measured("energy/ledger"))
+    deck = measured("energy/ledger")
     state = ["variable strain equal 0.02*step*dt", PRESS, "compute ledger all energy/ledger", "compute walk all displacement/shear",
              "compute memory all velocity/memory every 1e-4 lags 3", *thermo(2, "c_ledger", "c_walk", "c_memory", "f_press")]
     deck.body = [*state, "run 4", "write_restart half.restart", "run 4", "clear"]
@@ -65,10 +77,10 @@ DECKS = {
     "fix nve/spheroid": moved("unfix integrate", "fix integrate all nve/spheroid"),
     "fix press/strain": moved(PRESS + " kinetic yes"),
     "fix press/strain of spheres": moved(PRESS, packing=dense_packing(atom_style="sphere")),
-    **{f"pair_style gran/insitu {words}": moved(surface="superquadric" if "superquadric" in words else "ellipsoid",
-                                                extra=words.replace("surface superquadric", "").replace("surface ellipsoid", "")) for words in PAIRS},
+    **{f"pair_style gran/insitu {words}": modelled(words) for words in PAIRS},
     "pair_style gran/insitu, oblate grains": moved(packing=dense_packing(0.5)),
-    "pair_style gran/insitu, triaxial grains": moved(packing=dense_packing(1.5, sizes=(1.0, 1.2), types=2)),
+    "pair_style gran/insitu, two sizes and types": moved(packing=dense_packing(1.5, sizes=(1.0, 1.2), types=2)),
+    "pair_style gran/insitu, triaxial grains": moved(packing=triaxial()),
     "pair_style gran surface ellipsoid": moved(pair="gran"),
     "compute pair/gran/local": moved("compute pairs all pair/gran/local pos id force contactPoint delta",
                                      "dump pairs all local 5 pairs.dump c_pairs[1] c_pairs[9]"),
