@@ -69,7 +69,7 @@ def continued():
 
 def walled():
     wall = "fix floor all wall/gran model hertz tangential history surface ellipsoid primitive type 1 yplane 0.0"
-    return moved(wall, boundary="p f p", pair="gran")
+    return moved(wall, packing=replace(dense_packing(1.5), triclinic=False), boundary="p f p", pair="gran")
 
 
 DECKS = {

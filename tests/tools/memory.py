@@ -10,10 +10,16 @@ from case import require
 from run import binary, run
 
 # The host's `shell` is run by the first rank: it looks at all ranks, whose process numbers the launcher has left.
-NOTE = "for p in pid.*; do sed -n 's/^VmRSS: *//p' /proc/$(cat $p)/status; done | tr -d 'kB\\n' >> memory.txt; echo >> memory.txt\n"
-LAUNCHER = "#!/bin/sh\necho $$ > pid.${OMPI_COMM_WORLD_RANK:-0}\nexec '%s' \"$@\"\n"
+NOTE = """for p in pid.*; do
+  read pid < $p
+  while read key value unit; do [ "$key" != VmRSS: ] || printf '%s ' $value; done < /proc/$pid/status
+done >> memory.txt
+echo >> memory.txt
+"""
+# The C library is told to give large blocks back as soon as they are free: it would keep a megabyte now and then.
+LAUNCHER = "#!/bin/sh\nexport MALLOC_MMAP_THRESHOLD_=131072 MALLOC_TRIM_THRESHOLD_=131072\necho $$ > pid.${OMPI_COMM_WORLD_RANK:-0}\nexec '%s' \"$@\"\n"
 SANITIZED = "LSAN_OPTIONS" in os.environ
-NOTED = "shell sh ./note"  # the deck line
+NOTED = "shell . ./note"  # the deck line
 
 
 def watched_run(deck, ranks=1, **options):
