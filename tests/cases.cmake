@@ -138,5 +138,5 @@ add_cases(lifetimes cases/lifetimes.py LABEL case RANKS 1 CASES
   pair-styles-run-200-times)
 add_cases(lifetimes cases/lifetimes.py LABEL long RANKS 2 SECONDS 600 CASES computes-asked-100-times fixes-run-100-times)
 add_cases(soak cases/soak.py LABEL case RANKS 1 2 CASES spheroids-over-1e4-steps)
-add_cases(soak cases/soak.py LABEL long RANKS 1 2 SECONDS 1800 CASES spheroids-over-1e5-steps)
+add_cases(soak cases/soak.py LABEL long RANKS 1 2 SECONDS 2000 CASES spheroids-over-1e5-steps)
 add_cases(soak cases/soak.py LABEL long RANKS 1 SECONDS 5400 CASES spheroids-over-1e6-steps spheres-over-1e6-steps)

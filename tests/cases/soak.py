@@ -68,7 +68,7 @@ SPHERES = dense_packing(atom_style="sphere", minimum=32)
 
 CASES = {
     "spheroids-over-1e4-steps": soak(SPHEROIDS, 10000, 500, 100, 250.0),
-    "spheroids-over-1e5-steps": soak(SPHEROIDS, 100000, 5000, 500, 600.0),
+    "spheroids-over-1e5-steps": soak(SPHEROIDS, 100000, 5000, 500, 1800.0),
     "spheroids-over-1e6-steps": soak(SPHEROIDS, 1000000, 20000, 1000, 5400.0),
     "spheres-over-1e6-steps": soak(SPHERES, 1000000, 20000, 1000, 5400.0),
 }
