@@ -134,8 +134,8 @@ add_cases(ledger cases/ledger.py LABEL case RANKS 1 2 4 CASES pressed-1.5)
 add_cases(ledger cases/ledger.py LABEL case RANKS 2 4 CASES same-spheres same-spheroids)
 add_cases(ranges cases/ranges.py LABEL case RANKS 1 2 CASES time-step time-step-in-short-runs time-step-unseen quiet kappa clipping unstable-from-the-start profile)
 add_cases(lifetimes cases/lifetimes.py LABEL case RANKS 1 CASES
-  every-style-is-here computes-1000-times fixes-1000-times pair-styles-1000-times computes-asked-100-times fixes-run-100-times
-  pair-styles-run-200-times)
+  every-style-is-here computes-1000-times fixes-1000-times pair-styles-1000-times pair-styles-not-compiled-1000-times
+  computes-asked-100-times fixes-run-100-times pair-styles-run-200-times)
 add_cases(lifetimes cases/lifetimes.py LABEL long RANKS 2 SECONDS 600 CASES computes-asked-100-times fixes-run-100-times)
 add_cases(soak cases/soak.py LABEL case RANKS 1 2 CASES spheroids-over-1e4-steps)
 add_cases(soak cases/soak.py LABEL long RANKS 1 2 SECONDS 2000 CASES spheroids-over-1e5-steps)

@@ -51,7 +51,7 @@ def soak(packing, steps, chunk, every, seconds):
         last = result.thermo()[-1]
         require(all(np.isfinite(v).all() for v in last.values()), "a measure is not finite")
         # Lists and the measures' bins have found their largest size in the first tenth.
-        require_flat(kilobytes[len(kilobytes) // 10:], 256.0, f"{len(packing.grains)} grains, {length} steps")
+        require_flat(kilobytes[len(kilobytes) // 10:], 512.0, f"{len(packing.grains)} grains, {length} steps")
         require_close(last["f_press[1]"][-1], RATE * length * deck.dt(), 1e-9, "strain")
         # A residual is a sum of `steps` rounding errors of 1e-16 of energies up to 1e3 times what was lost in a step.
         require(last["c_e"][-1] < 1e-9, f"the ledger's residual is {last['c_e'][-1]} of the losses")

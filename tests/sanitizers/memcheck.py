@@ -3,7 +3,6 @@
 nothing of ours lost. What the host and the libraries do among themselves is counted, and not judged."""
 from collections import Counter
 from dataclasses import replace
-import os
 from pathlib import Path
 import re
 import subprocess

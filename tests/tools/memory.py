@@ -17,7 +17,11 @@ done >> memory.txt
 echo >> memory.txt
 """
 # The C library is told to give large blocks back as soon as they are free: it would keep a megabyte now and then.
-LAUNCHER = "#!/bin/sh\nexport MALLOC_MMAP_THRESHOLD_=131072 MALLOC_TRIM_THRESHOLD_=131072\necho $$ > pid.${OMPI_COMM_WORLD_RANK:-0}\nexec '%s' \"$@\"\n"
+LAUNCHER = """#!/bin/sh
+export MALLOC_MMAP_THRESHOLD_=131072 MALLOC_TRIM_THRESHOLD_=131072
+echo $$ > pid.${OMPI_COMM_WORLD_RANK:-0}
+exec '%s' "$@"
+"""
 SANITIZED = "LSAN_OPTIONS" in os.environ
 NOTED = "shell . ./note"  # the deck line
 
