@@ -177,3 +177,10 @@ add_cases(damage cases/damage.py LABEL case RANKS 1 2 CASES
   restart-cut restart-flipped newest-whole-one other-settings velocity-nan force-inf too-long-a-step lost-from-a-periodic-box disk-full-restart)
 add_cases(damage cases/damage.py LABEL case RANKS 1 CASES plain-gran-and-back may-leave-an-open-box disk-full-dump disk-full-table)
 add_cases(damage cases/damage.py LABEL long RANKS 1 CASES restart-cut-often restart-flipped-often)
+add_cases(lifetimes cases/lifetimes.py LABEL case RANKS 1 CASES
+  every-style-is-here computes-1000-times fixes-1000-times pair-styles-1000-times pair-styles-not-compiled-1000-times
+  computes-asked-100-times fixes-run-100-times pair-styles-run-200-times)
+add_cases(lifetimes cases/lifetimes.py LABEL long RANKS 2 SECONDS 600 CASES computes-asked-100-times fixes-run-100-times)
+add_cases(soak cases/soak.py LABEL case RANKS 1 2 CASES spheroids-over-1e4-steps)
+add_cases(soak cases/soak.py LABEL long RANKS 1 2 SECONDS 2000 CASES spheroids-over-1e5-steps)
+add_cases(soak cases/soak.py LABEL long RANKS 1 SECONDS 5400 CASES spheroids-over-1e6-steps spheres-over-1e6-steps)

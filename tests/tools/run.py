@@ -10,6 +10,8 @@ import time
 import numpy as np
 
 TIME_LIMIT = 120.0
+TIME_SCALE = float(os.environ.get("GRAINSCOPE_TIME_SCALE", "1"))  # a build that looks over its own shoulder takes longer
+FINDINGS = ("ERROR: AddressSanitizer", "ERROR: LeakSanitizer", "runtime error: ", "AddressSanitizer:DEADLYSIGNAL")
 
 
 class Failure(Exception):
@@ -37,11 +39,11 @@ def _environment(ranks):
     return env
 
 
-def _command(ranks):
+def _command(ranks, program):
     if ranks == 1:
-        return [binary()]
+        return [program]
     mpiexec = os.environ.get("GRAINSCOPE_MPIEXEC", "mpirun")
-    return [mpiexec, "--oversubscribe", "--bind-to", "none", "-np", str(ranks), binary()]
+    return [mpiexec, "--oversubscribe", "--bind-to", "none", "-np", str(ranks), program]
 
 
 def tail(output):
@@ -49,6 +51,13 @@ def tail(output):
     output = (output or "").split("-" * 60)[0]
     noise = ("Created ", "Setting atom", "  1 settings made")
     return "\n".join(line for line in output.splitlines() if not line.startswith(noise))[-2500:]
+
+
+def require_clean(output):
+    """No sanitizer found anything, whatever the run was to end with."""
+    at = min((k for k in map(output.find, FINDINGS) if k >= 0), default=-1)
+    if at >= 0:
+        raise Failure(f"a sanitizer complains:\n{output[max(0, output.rfind(chr(10), 0, at)):at + 6000]}")
 
 
 class Result:
@@ -146,10 +155,10 @@ class Started:
     def end(self, time_limit=TIME_LIMIT):
         """Waits for it; its Result."""
         try:
-            code = self._process.wait(time_limit)
+            code = self._process.wait(time_limit * TIME_SCALE)
         except subprocess.TimeoutExpired:
             self.kill()
-            raise Failure(f"the run in {self.folder} did not end within {time_limit} s")
+            raise Failure(f"the run in {self.folder} did not end within {time_limit * TIME_SCALE} s")
         self._output.close()
         return Result(self.folder, code, (self.folder / "output").read_text(errors="replace"))
 
@@ -164,17 +173,18 @@ def wait_for_steps(started):
     time.sleep(0.3)
 
 
-def attempt(deck, ranks=1, folder=None, arguments=(), time_limit=TIME_LIMIT):
-    """Runs a deck (a Deck or its text) and returns the Result, whatever its exit code."""
+def attempt(deck, ranks=1, folder=None, arguments=(), time_limit=TIME_LIMIT, program=None):
+    """Runs a deck (a Deck or its text) and returns the Result, whatever its exit code. `program`: what to start in place of the binary."""
     folder = Path(folder or tempfile.mkdtemp(prefix="case-", dir=os.environ.get("GRAINSCOPE_SCRATCH")))
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "in.deck").write_text(_deck_text(deck))
-    command = [*_command(ranks), "-in", "in.deck", "-log", "log.liggghts", *arguments]
+    command = [*_command(ranks, program or binary()), "-in", "in.deck", "-log", "log.liggghts", *arguments]
     try:
         done = subprocess.run(command, cwd=folder, env=_environment(ranks), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                              stdin=subprocess.DEVNULL, timeout=time_limit, text=True, errors="replace")
+                              stdin=subprocess.DEVNULL, timeout=time_limit * TIME_SCALE, text=True, errors="replace")
     except subprocess.TimeoutExpired:
-        raise Failure(f"{' '.join(command)} in {folder} did not end within {time_limit} s")
+        raise Failure(f"{' '.join(command)} in {folder} did not end within {time_limit * TIME_SCALE} s")
+    require_clean(done.stdout)
     return Result(folder, done.returncode, done.stdout)
 
 
