@@ -24,7 +24,7 @@ char guard_id[] = "gran_insitu_guard", group_all[] = "all", guard_style[] = "run
 bool making = false;
 
 const int in_trouble = 4;  // a bit beside those of grainscope::stop_signal::Wish
-const int seldom = 1000;   // steps between looks at what a run can do without for a while
+const int seldom = 100;   // steps between looks at what a run can do without for a while
 
 struct Quantity {
   const char *name;

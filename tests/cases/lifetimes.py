@@ -18,8 +18,8 @@ ALLOWED = 64.0
 COMPUTES = ["stress/contact", "dissipation", "dissipation mode step", "dissipation mode ledger", "energy/ledger", "nematic",
             "contact/local", "contact/local id force", "contact/solver", *(w.command for w in everything(dense_packing(1.5)))]
 FIXES = ["nve/spheroid", "press/strain axis y target 2e4 shear xy rate 0.02 every 1e-3", "press/strain axis z target v_held every/step 5"]
-MADE_BY_COMPUTES = {"grain/record", "ledger/record"}
-PAIRS = ["surface ellipsoid", "surface ellipsoid ledger on tangential_damping off", "surface superquadric",
+MADE_BY_OTHERS = {"grain/record", "ledger/record", "run/guard", "setup/memory"}
+PAIRS = ["surface ellipsoid", "setup neutral surface ellipsoid", "surface ellipsoid ledger on tangential_damping off", "surface superquadric",
          "rolling_friction cdt surface superquadric"]
 NOT_COMPILED = ["cohesion sjkr surface ellipsoid"]
 HOST_COMPUTES, HOST_FIXES = ["ke", "stress/atom", "coord/atom 2.0", "reduce sum vx"], ["nve/superquadric", "deform 1 xy erate 0.02 remap v"]
@@ -89,7 +89,7 @@ def flat(kind, styles, host_styles, times, ran=False):
 def every_style_is_here(ranks):
     """A style that is added must be added to these lists."""
     here = {kind: {style.split()[0] for style in styles} for kind, styles in (("Compute", COMPUTES), ("Fix", FIXES))}
-    here["Fix"] |= MADE_BY_COMPUTES
+    here["Fix"] |= MADE_BY_OTHERS
     for header in (Path(os.environ["GRAINSCOPE_SOURCE"]) / "src").rglob("*.h"):
         for kind, style in re.findall(r"^(Compute|Fix)Style\(([^,]+),", header.read_text(), re.M):
             require(style in here[kind], f"{kind.lower()} {style} is not among those made and removed")
