@@ -2,6 +2,7 @@
 #include "compute_velocity_correlation.h"
 #include "arguments.h"
 #include "decay_fit.h"
+#include "fix_grain_record.h"
 #include "fluctuations.h"
 #include "grain_shape.h"
 #include "mesh_correlation.h"
@@ -10,11 +11,13 @@
 #include "velocity_component.h"
 #include "comm.h"
 #include "domain.h"
+#include "group.h"
 #include "update.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <sstream>
 #include <stdexcept>
 
 using namespace LAMMPS_NS;
@@ -82,10 +85,18 @@ struct ComputeVelocityCorrelation::Impl {
   bool running = false;
   grainscope::MeanFlow flow;
   std::unique_ptr<grainscope::MeshCorrelation> mesh;  // of method mesh
-  bigint measured = -1, counted = -1;  // steps of the last measurement and of the last that went into the running totals
+  bigint measured = -1;                               // the step of the last measurement
   Totals totals;
+  FixGrainRecord *record = nullptr;                   // of `average running`: the totals, which restart files hold
   grainscope::Rows rows;
   double bytes = 0.0;
+
+  /** The numbers that the ranks share in the record: the step of the last call, four sums, then products and pairs of each bin. */
+  enum { STEP, SQUARES, GRAINS, RANGE, CALLS, SUMS };
+  void make_record(LAMMPS *lmp, const char *id, int igroup);
+  bool counted(bigint step) const;
+  Totals recorded() const;
+  void add_to_record(const Totals &now, bigint step);
 
   Totals measure(LAMMPS *lmp, int groupbit);
   PairSums share_of_pairs(LAMMPS *lmp, const PeriodicCell &cell, const PointValues &points, const DistanceBins &distances);
@@ -113,6 +124,10 @@ ComputeVelocityCorrelation::ComputeVelocityCorrelation(LAMMPS *lmp, int &iarg, i
   }
   if (mesh_given && !impl_->mesh) arguments.fail("'mesh' needs 'method mesh'");
   grainscope::require_grains(lmp, arguments);
+  if (impl_->running) {
+    grainscope::require_box(lmp, arguments);
+    impl_->make_record(lmp, id, igroup);
+  }
   scalar_flag = vector_flag = array_flag = 1;
   extscalar = extvector = extarray = 0;
   size_vector = 5;
@@ -122,13 +137,54 @@ ComputeVelocityCorrelation::ComputeVelocityCorrelation(LAMMPS *lmp, int &iarg, i
   array = impl_->rows.resize(size_array_rows, size_array_cols);
 }
 
-ComputeVelocityCorrelation::~ComputeVelocityCorrelation() { delete[] vector; }
+ComputeVelocityCorrelation::~ComputeVelocityCorrelation() {
+  delete[] vector;
+  if (impl_->running) FixGrainRecord::forget(lmp, id);
+}
+
+void ComputeVelocityCorrelation::Impl::make_record(LAMMPS *lmp, const char *id, int igroup) {
+  std::ostringstream meaning;
+  meaning.precision(17);
+  meaning << name << ' ' << lmp->group->names[igroup] << ' ' << component.spin << component.axis << ' ' << bins << ' ' << range << ' '
+          << (mesh ? mesh_per_bin : 0) << ' ' << static_cast<int>(flow.kind) << ' ' << flow.rate << ' ' << flow.layers << ' ' << flow.plane.flow
+          << flow.plane.gradient;
+  record = FixGrainRecord::make(lmp, id, igroup, 1, SUMS + 2 * bins, meaning.str(), STEP);
+}
+
+bool ComputeVelocityCorrelation::Impl::counted(bigint step) const {
+  const std::vector<double> &shared = record->shared();
+  return shared[CALLS] > 0.0 && shared[STEP] == step;
+}
+
+ComputeVelocityCorrelation::Impl::Totals ComputeVelocityCorrelation::Impl::recorded() const {
+  const std::vector<double> &shared = record->shared();
+  Totals before;
+  before.sums = PairSums(bins);
+  before.squares = shared[SQUARES];
+  before.grains = shared[GRAINS];
+  before.range = shared[RANGE];
+  before.calls = shared[CALLS];
+  std::copy_n(shared.begin() + SUMS, bins, before.sums.products.begin());
+  std::copy_n(shared.begin() + SUMS + bins, bins, before.sums.pairs.begin());
+  return before;
+}
+
+/** And makes the totals what is then there. */
+void ComputeVelocityCorrelation::Impl::add_to_record(const Totals &now, bigint step) {
+  std::vector<double> &shared = record->shared();
+  totals = recorded();
+  totals.add(now);
+  const double numbers[SUMS] = {static_cast<double>(step), totals.squares, totals.grains, totals.range, totals.calls};
+  std::copy(numbers, numbers + SUMS, shared.begin());
+  std::copy_n(totals.sums.products.begin(), bins, shared.begin() + SUMS);
+  std::copy_n(totals.sums.pairs.begin(), bins, shared.begin() + SUMS + bins);
+}
 
 void ComputeVelocityCorrelation::init() {
   const Arguments complaints(lmp, name, 0, 0, nullptr);
   grainscope::require_grains(lmp, complaints);
   impl_->measured = -1;
-  if (impl_->counted != update->ntimestep) impl_->counted = -1;  // steps may be numbered anew
+  if (impl_->running) impl_->record = FixGrainRecord::find(lmp, id);
   if (impl_->mesh && !(domain->xperiodic && domain->yperiodic && domain->zperiodic))
     complaints.fail("'method' must be direct in a box that is not periodic in all three directions, got 'mesh'");
 }
@@ -182,12 +238,17 @@ ComputeVelocityCorrelation::Impl::Totals ComputeVelocityCorrelation::Impl::measu
 
 void ComputeVelocityCorrelation::measure() {
   Impl &all = *impl_;
-  if (all.measured == update->ntimestep || (all.running && all.counted == update->ntimestep)) return;
-  all.measured = all.counted = update->ntimestep;
-  const Impl::Totals now = all.measure(lmp, groupbit);
-  if (all.running && all.totals.calls > 0.0) all.totals.add(now);
-  else all.totals = now;
+  if (all.measured == update->ntimestep) return;
+  all.measured = update->ntimestep;
+  if (!all.running) all.totals = all.measure(lmp, groupbit);
+  else if (all.counted(update->ntimestep)) all.totals = all.recorded();
+  else all.add_to_record(all.measure(lmp, groupbit), update->ntimestep);
+  tell();
+}
 
+/** Rows, vector and scalar from the totals. */
+void ComputeVelocityCorrelation::tell() {
+  Impl &all = *impl_;
   const Impl::Totals &t = all.totals;
   const DistanceBins distances{t.range / t.calls, all.bins};
   const double mean_square = t.grains > 0.0 ? t.squares / t.grains : 0.0;

@@ -34,6 +34,7 @@ class ComputeVelocityCorrelation : public Compute {
   std::unique_ptr<Impl> impl_;
 
   void measure();
+  void tell();
 };
 
 }

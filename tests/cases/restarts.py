@@ -13,11 +13,13 @@ from catalogue import DISPLACEMENT, MEMORY, strain_lines
 from deck import Deck, dump_grains, shear, thermo
 from packing import dense_packing, tilted
 from run import Started, run, wait_for_steps
+from watch import Watched
 
 RATE = 0.05
 PRESS = f"fix press all press/strain axis y target 2e5 shear xy rate {RATE} every 7e-4"
 STATE = ["f_press", *[f"f_press[{k}]" for k in range(1, 9)]]
 SPHERES, SPHEROIDS = dense_packing(atom_style="sphere"), dense_packing(1.5)
+RUNNING = Watched("running", "velocity/correlation bins 6 average running", True, 5, (6, 4))
 FILES = ("even.restart", "odd.restart")
 
 
@@ -27,7 +29,7 @@ def neutral(packing, surface="ellipsoid", **choices):
 
 def everything_with_state(deck):
     """Pressure control, what computes remember, the energy ledger: lines, and what thermo prints of them."""
-    computes = [DISPLACEMENT, MEMORY]
+    computes = [DISPLACEMENT, MEMORY, RUNNING]
     told = [*STATE, *(q for w in computes for q in w.columns()), *[f"c_ledger[{k}]" for k in range(1, 38)]]
     return [*strain_lines(RATE), PRESS, *(w.define("all") for w in computes), "compute ledger all energy/ledger"], told
 
