@@ -45,6 +45,21 @@ mend(domain.cpp "prd_lamda[0] = prd_lamda[1] = prd_lamda[2] = 0.0;" "prd_lamda[0
      "prd_lamda of 0 loses atoms of triclinic boxes")
 mend(domain.cpp "prd_half_lamda[0] = prd_half_lamda[1] = prd_half_lamda[2] = 0.0;"
      "prd_half_lamda[0] = prd_half_lamda[1] = prd_half_lamda[2] = 0.5;" "prd_half_lamda of 0, likewise")
+# Files that are closed within a step are out of reach of whoever watches over the run.
+mend(dump.cpp "\n      if (filewriter) fclose(fp);" "
+      if (filewriter && (ferror(fp) | fclose(fp))) {
+        if (comm->nprocs == 1) error->all(FLERR,\"A dump file cannot be written: is the disk full?\");
+        error->one(FLERR,\"A dump file cannot be written: is the disk full?\");
+      }"
+     "a dump that could not be written is no error")
+foreach(indent "      " "    ")
+  mend(write_restart.cpp "\n${indent}fclose(fp);\n" "
+${indent}if (ferror(fp) | fclose(fp)) {
+${indent}  if (nprocs == 1) error->all(FLERR,\"A restart file cannot be written: is the disk full?\");
+${indent}  error->one(FLERR,\"A restart file cannot be written: is the disk full?\");
+${indent}}\n"
+       "a restart file that could not be written is no error")
+endforeach()
 # A box that has moved since the last neighbour list leaves grains outside: they go to the rank of their image, and are wrapped, velocities and all,
 # when the run begins.
 mend(read_restart.cpp "\n        if (coord[0] >= sublo[0] && coord[0] < subhi[0] &&" "

@@ -166,16 +166,16 @@ add_cases(shuffle cases/shuffle.py LABEL long RANKS 1 CASES spheres superquadric
 add_cases(shuffle cases/shuffle.py LABEL long RANKS 4 8 CASES ellipsoids superquadrics)
 add_cases(builds numerics/builds.py LABEL long RANKS 1 2 CASES spheres spheroids superquadrics)
 add_cases(restart cases/restarts.py LABEL case RANKS 1 2 CASES
-  split-spheroids split-through-a-flip measures-go-on exact-spheres exact-spheroids killed-a-few-times sigterm)
+  split-spheroids split-through-a-flip measures-go-on exact-spheres exact-spheroids killed-a-few-times sigterm sigterm-between-short-runs)
 add_cases(restart cases/restarts.py LABEL case RANKS 1 CASES
   split-spheres split-superquadrics split-of-spheres-through-a-flip split-with-rolling split-without-history split-with-gravity split-by-the-host
-  noticed-velocities noticed-spins noticed-places noticed-box noticed-deletion noticed-time-step exact-superquadrics exact-by-the-host)
+  split-after-no-step noticed-freezing noticed-velocities noticed-spins noticed-places noticed-box noticed-deletion noticed-time-step exact-superquadrics exact-by-the-host)
 add_cases(restart cases/restarts.py LABEL case RANKS 2 CASES sigint sigterm-to-one-rank)
 add_cases(restart cases/restarts.py LABEL case RANKS 4 CASES exact-spheroids sigterm sigterm-to-one-rank)
 add_cases(restart cases/restarts.py LABEL long RANKS 1 2 CASES killed-spheres killed-spheroids)
 add_cases(damage cases/damage.py LABEL case RANKS 1 2 CASES
   restart-cut restart-flipped newest-whole-one other-settings velocity-nan force-inf too-long-a-step lost-from-a-periodic-box)
-add_cases(damage cases/damage.py LABEL case RANKS 1 CASES plain-gran-and-back may-leave-an-open-box disk-full-dump disk-full-table disk-full-restart)
+add_cases(damage cases/damage.py LABEL case RANKS 1 CASES plain-gran-and-back may-leave-an-open-box lost-beside-an-open-face disk-full-snapshots disk-full-dump disk-full-table disk-full-restart)
 add_cases(damage cases/damage.py LABEL long RANKS 1 CASES restart-cut-often restart-flipped-often)
 add_cases(lifetimes cases/lifetimes.py LABEL case RANKS 1 CASES
   every-style-is-here computes-1000-times fixes-1000-times pair-styles-1000-times pair-styles-not-compiled-1000-times

@@ -52,7 +52,8 @@ Choice choose(const std::vector<std::string> &names) {
   }
   if (choice.file.empty()) choice.message = "read_restart: " + (refused.empty() ? "no file matches '" + names[0] + "'" : refused);
   else if (names.size() > 1 || !refused.empty())
-    choice.message = "read_restart: taking '" + choice.file + "', of step " + std::to_string(newest) + (refused.empty() ? "" : "; passed over: " + refused);
+    choice.message = "read_restart: taking '" + choice.file + "', of step " + std::to_string(newest) +
+        (refused.empty() ? "" : "; passed over: " + refused);
   return choice;
 }
 

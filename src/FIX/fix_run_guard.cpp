@@ -23,7 +23,6 @@ char guard_id[] = "gran_insitu_guard", group_all[] = "all", guard_style[] = "run
 // A line of an input script would replace it.
 bool making = false;
 
-const int in_trouble = 4;  // a bit beside those of grainscope::stop_signal::Wish
 const int seldom = 100;   // steps between looks at what a run can do without for a while
 
 struct Quantity {
@@ -48,7 +47,8 @@ void FixRunGuard::make(LAMMPS *lmp, const std::string &settings) {
   Modify *modify = lmp->modify;
   const int found = modify->find_fix(guard_id);
   FixRunGuard *guard = found < 0 ? nullptr : dynamic_cast<FixRunGuard *>(modify->fix[found]);
-  if (found >= 0 && !guard) lmp->error->all(FLERR, (std::string("pair_style gran/insitu needs the fix ID '") + guard_id + "', but it is taken").c_str());
+  if (found >= 0 && !guard)
+    lmp->error->all(FLERR, (std::string("pair_style gran/insitu needs the fix ID '") + guard_id + "', but it is taken").c_str());
   if (guard) modify->delete_fix(guard_id);
   char *words[] = {guard_id, group_all, guard_style};
   making = true;
@@ -63,6 +63,7 @@ void FixRunGuard::make(LAMMPS *lmp, const std::string &settings) {
 
 void FixRunGuard::forget(LAMMPS *lmp) {
   if (lmp->modify && lmp->modify->nfix && lmp->modify->find_fix(guard_id) >= 0) lmp->modify->delete_fix(guard_id);
+  grainscope::stop_signal::release();
 }
 
 int FixRunGuard::setmask() { return FixConst::PRE_EXCHANGE | FixConst::PRE_NEIGHBOR | FixConst::END_OF_STEP; }
@@ -79,11 +80,12 @@ void FixRunGuard::setup(int) {
 }
 
 void FixRunGuard::end_of_step() {
+  running_ = true;  // also after 'pre no', which sets nothing up
   std::string trouble = not_finite(true);
   if (trouble.empty() && update->ntimestep % seldom == 0) trouble = not_written();
-  int all = grainscope::stop_signal::noted() | (trouble.empty() ? 0 : in_trouble);
+  int all = grainscope::stop_signal::noted() | (trouble.empty() ? 0 : grainscope::stop_signal::trouble);
   if (comm->nprocs > 1) MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_BOR, world);
-  if (all & in_trouble) fail_together(trouble);
+  if (all & grainscope::stop_signal::trouble) fail_together(trouble);
   grainscope::stop_signal::pass_on(lmp, all);
 }
 
@@ -134,23 +136,33 @@ std::string FixRunGuard::not_finite(bool forces) const {
   return message.str();
 }
 
-void FixRunGuard::pre_exchange() { grains_ = atom->nlocal; }
+/** Grains that are beyond a face that is not periodic may go: thermo_modify lost. */
+void FixRunGuard::pre_exchange() {
+  grains_ = atom->nlocal;
+  const int periodic[3] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int k = 0; k < 3; k++)
+      if (!periodic[k] && !(atom->x[i][k] >= domain->boxlo[k] && atom->x[i][k] < domain->boxhi[k])) {
+        grains_--;
+        break;
+      }
+}
 
 /** The host deals grains out to the ranks again and forgets those that no rank wants. */
 void FixRunGuard::pre_neighbor() {
-  if (!domain->xperiodic || !domain->yperiodic || !domain->zperiodic) return;  // grains may leave: thermo_modify lost
   bigint lost = grains_ - atom->nlocal;
   MPI_Allreduce(MPI_IN_PLACE, &lost, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (lost == 0) return;
+  if (lost <= 0) return;
   std::ostringstream message;
-  message << "step " << update->ntimestep << ": " << lost << " grains were lost from a periodic box: they moved farther than its length between two "
+  message << "step " << update->ntimestep << ": " << lost << " grains were lost though the box is periodic: they moved farther than its length between two "
           << "neighbour lists. Look at the time step (doc/stability.md) and at overlaps of grains that were just inserted";
   error->all(FLERR, message.str().c_str());
 }
 
-/** All streams that the host has open: it does not look whether its output arrives. */
+/** All streams that the host has open: it does not look whether its output arrives. A screen that is gone is no reason to end a run. */
 std::string FixRunGuard::not_written() const {
-  if (fflush(nullptr) == 0) return "";
+  const bool screen_is_gone = fflush(stdout) != 0;
+  if (fflush(nullptr) == 0 || screen_is_gone) return "";
   const std::string reason = strerror(errno);
   return "step " + std::to_string(update->ntimestep) + ": output of this run (dumps, tables, log) cannot be written: " + reason;
 }

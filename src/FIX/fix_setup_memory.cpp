@@ -44,6 +44,7 @@ FixSetupMemory::FixSetupMemory(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, nar
 
 FixSetupMemory::~FixSetupMemory() {
   allow_sorting();
+  if (place_) *place_ = nullptr;
   atom->delete_callback(id, 0);
   atom->delete_callback(id, 1);
 }
@@ -59,7 +60,9 @@ FixSetupMemory *FixSetupMemory::make(LAMMPS *lmp) {
     making = true;
     modify->add_fix(3, words);
     making = false;
-    return find();
+    FixSetupMemory *made = find();
+    made->just_created = 0;  // the host would give it empty arrays
+    return made;
   };
   FixSetupMemory *memory = find();
   if (memory && modify->fix[modify->nfix - 1] == memory) return memory;
@@ -68,7 +71,6 @@ FixSetupMemory *FixSetupMemory::make(LAMMPS *lmp) {
     const Shared shared = memory->shared_;
     modify->delete_fix(memory_id);
     memory = add();
-    memory->just_created = 0;  // the host would give it empty arrays
     memory->values_ = values;
     memory->shared_ = shared;
     return memory;
@@ -189,18 +191,31 @@ bool FixSetupMemory::same(int i) const {
   return true;
 }
 
+/** Old forces do not hold when a fix that adds to them comes or goes. In any order: that of a deck after read_restart may be another. */
+double FixSetupMemory::movers_now() const {
+  double sum = 0.0;
+  for (int k = 0; k < modify->nfix; k++) {
+    const Fix *fix = modify->fix[k];
+    if (!(modify->fmask[k] & FixConst::POST_FORCE) && !fix->time_integrate) continue;
+    sum += grainscope::text_hash(std::string(fix->id) + ' ' + fix->style) % 1000003 + fix->groupbit;
+  }
+  return sum;
+}
+
 /** Collective. */
 bool FixSetupMemory::unchanged() const {
   const Box box = box_now(), &then = shared_.ended;
   const auto differ = [](const double (&a)[3], const double (&b)[3]) { return !std::equal(a, a + 3, b); };
-  int changed = shared_.grains != static_cast<double>(atom->natoms) || shared_.dt != update->dt || differ(box.low, then.low) ||
+  int changed = shared_.grains != static_cast<double>(atom->natoms) || shared_.dt != update->dt || shared_.movers != movers_now() || differ(box.low, then.low) ||
       differ(box.high, then.high) || differ(box.tilts, then.tilts);
   for (int i = 0; i < atom->nlocal && !changed; i++) changed = !same(i);
   const bool nothing = shared_.grains < 0.0;
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, world);
   if (changed && !nothing && comm->me == 0)
     for (FILE *out : {screen, logfile})
-      if (out) fprintf(out, "pair_style gran/insitu: grains, box or time step were changed since the last run: forces are formed anew, as with 'setup host'\n");
+      if (out)
+        fprintf(out, "pair_style gran/insitu: grains, box, time step or fixes were changed since the last run: forces are formed anew, as with 'setup "
+                "host'\n");
   return !changed;
 }
 
@@ -220,7 +235,7 @@ void FixSetupMemory::setup_pre_force(int) {
   allow_sorting();
   again_ = unchanged();
   if (again_) {
-    atom->nextsort = static_cast<bigint>(shared_.next_sort);
+    atom->nextsort = update->ntimestep + static_cast<bigint>(shared_.to_sort);
     for (int i = 0; i < atom->nlocal; i++) {
       const tagint before = as_image(of(i)[image]);
       if (before == atom->image[i]) std::copy(of(i) + x, of(i) + x + 3, atom->x[i]);  // looking whether to wrap cost a few bits
@@ -233,7 +248,6 @@ void FixSetupMemory::setup_pre_force(int) {
 }
 
 void FixSetupMemory::setup(int) {
-  running_ = true;
   if (!again_) return;
   again_ = false;
   for (int i = 0; i < atom->nlocal; i++) {
@@ -243,6 +257,7 @@ void FixSetupMemory::setup(int) {
 }
 
 void FixSetupMemory::pre_force(int) {
+  running_ = update->setupflag == 0;
   shared_.evaluated = box_now();
   for (int i = 0; i < atom->nlocal; i++) {
     std::copy(atom->x[i], atom->x[i] + 3, of(i) + half_x);
@@ -255,7 +270,8 @@ void FixSetupMemory::pre_force(int) {
 void FixSetupMemory::take_rest() {
   shared_.grains = atom->natoms;
   shared_.dt = update->dt;
-  shared_.next_sort = atom->nextsort;
+  shared_.to_sort = atom->nextsort - update->ntimestep;
+  shared_.movers = movers_now();
   shared_.ended = box_now();
   for (int i = 0; i < atom->nlocal; i++) {
     double *mine = of(i);
@@ -312,6 +328,7 @@ int FixSetupMemory::pack_restart(int i, double *buffer) {
 void FixSetupMemory::unpack_restart(int i, int nth) {
   const double *extra = atom->extra[i];
   for (int k = 0; k < nth; k++) extra += static_cast<int>(extra[0]);
+  if (extra[0] != width + 1) error->one(FLERR, "pair_style gran/insitu: the restart file holds another kind of memory of the set-up: say 'setup host'");
   std::copy(extra + 1, extra + 1 + width, of(i));
 }
 

@@ -14,8 +14,9 @@ FixStyle(setup/memory,FixSetupMemory)
 namespace LAMMPS_NS {
 
 /** What `setup neutral` of pair_style gran/insitu remembers: of every grain the velocities that its last forces were formed with, those forces, and
- *  where it was. The host evaluates all forces anew when a run begins, with other velocities than a run that goes on would have; with this, contacts are
- *  evaluated with the velocities of their step, and grains get back the forces and places that they had. In restart files.
+ *  where it was. The host evaluates all forces anew when a run begins, with other velocities than a run that goes on would have; with
+ *  this, contacts are evaluated with the velocities of their step, and grains get back the forces and places that they had. In restart
+ *  files.
  *  Made by the pair style, not by input scripts. */
 class FixSetupMemory : public Fix {
  public:
@@ -32,6 +33,8 @@ class FixSetupMemory : public Fix {
 
   /** Makes it, or moves it behind all other fixes, so that its `setup` has the last word; collective. */
   static FixSetupMemory *make(class LAMMPS *lmp);
+  /** Where a pointer to it is kept, which ends with it. */
+  void kept_at(FixSetupMemory **place) { place_ = place; }
   static void forget(class LAMMPS *lmp);
 
   /** Whether the evaluation under way repeats the last one. */
@@ -64,20 +67,22 @@ class FixSetupMemory : public Fix {
   };
   /** The box and its rates. */
   struct Box {
-    double low[3], high[3], tilts[3], rates[6], low_rates[3];
+    double low[3] = {}, high[3] = {}, tilts[3] = {}, rates[6] = {}, low_rates[3] = {};
   };
   struct Shared {
     Box evaluated, ended;        // at the last evaluation, and at the end of its step
     double grains = -1.0;        // there were, or -1 before the first run
     double dt = 0.0;
     double stamp = 0.0;
-    double next_sort = 0.0;      // the step from which on the host sorts grains by place
+    double to_sort = 0.0;        // steps until the host sorts grains by place
+    double movers = 0.0;         // checksum of the fixes that push or move grains
   };
 
   std::vector<double> values_;
   Shared shared_;
   bool running_ = false;
   bool again_ = false;
+  FixSetupMemory **place_ = nullptr;
   int sort_every_ = 0;           // what the host was told, while it is not to sort
 
   double *of(int i) { return &values_[static_cast<std::size_t>(i) * width]; }
@@ -89,6 +94,7 @@ class FixSetupMemory : public Fix {
   void wrap_now();
   bool unchanged() const;
   bool same(int i) const;
+  double movers_now() const;
   Box box_now() const;
   void set_box(const Box &box);
 };

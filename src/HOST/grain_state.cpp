@@ -2,7 +2,6 @@
 #include "grain_state.h"
 #include "atom.h"
 #include <cstddef>
-#include <cstdint>
 
 namespace grainscope {
 
@@ -11,11 +10,13 @@ namespace {
 /** FNV-1a of the bits of numbers, as one that is a double without loss. */
 class Hash {
  public:
-  void add(const double *values, int n) {
-    const unsigned char *bytes = reinterpret_cast<const unsigned char *>(values);
-    for (std::size_t k = 0; k < n * sizeof(double); k++) h_ = (h_ ^ bytes[k]) * 1099511628211u;
+  void add_bytes(const void *from, std::size_t n) {
+    const unsigned char *bytes = static_cast<const unsigned char *>(from);
+    for (std::size_t k = 0; k < n; k++) h_ = (h_ ^ bytes[k]) * 1099511628211u;
   }
+  void add(const double *values, int n) { add_bytes(values, n * sizeof(double)); }
   void add(double value) { add(&value, 1); }
+  std::uint64_t bits() const { return h_; }
   double value() const { return static_cast<double>(h_ >> 11); }
 
  private:
@@ -43,6 +44,12 @@ double state_hash(const LAMMPS_NS::Atom *atom, int i) {
     hash.add(atom->blockiness[i], 2);
   }
   return hash.value();
+}
+
+std::uint64_t text_hash(const std::string &text) {
+  Hash hash;
+  hash.add_bytes(text.data(), text.size());
+  return hash.bits();
 }
 
 void edges_crossed(LAMMPS_NS::tagint before, LAMMPS_NS::tagint after, int edges[3]) {

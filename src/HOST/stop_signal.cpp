@@ -1,59 +1,73 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "stop_signal.h"
+#include "comm.h"
 #include "lammps.h"
 #include "modify.h"
+#include "output.h"
 #include "signal_handling.h"
 #include "update.h"
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <unistd.h>
+
+namespace SignalHandler = LAMMPS_NS::SignalHandler;
 
 namespace grainscope {
 namespace stop_signal {
 
 namespace {
 
-volatile std::sig_atomic_t wishes = 0;
-
-void say(const char *words) {
-  if (write(STDOUT_FILENO, words, strlen(words)) < 0) return;  // nobody is there to be told
-}
+const int signals[] = {SIGTERM, SIGINT, SIGUSR1};
+struct sigaction before[3];
+bool watching = false;
+volatile std::sig_atomic_t wants_quit = 0, wants_restart = 0;
 
 void note(int signal) {
-  if (signal == SIGUSR1) {
-    wishes = wishes | restart;
-    return;
-  }
-  if (wishes & quit) {
-    say("\nSecond SIGINT or SIGTERM: ending at once\n");
-    std::_Exit(EXIT_FAILURE);
-  }
-  say("\nSIGINT or SIGTERM: ending after the next step\n");
-  wishes = wishes | quit;
+  if (signal == SIGUSR1) wants_restart = 1;
+  else if (wants_quit) std::_Exit(EXIT_FAILURE);  // a second one: at once
+  else wants_quit = 1;
+}
+
+void say(LAMMPS_NS::LAMMPS *lmp, const char *words) {
+  if (lmp->comm->me != 0) return;
+  for (FILE *out : {lmp->screen, lmp->logfile})
+    if (out) fprintf(out, "%s\n", words);
 }
 
 }
 
 void watch() {
+  if (watching) return;
   struct sigaction action;
   memset(&action, 0, sizeof action);
   action.sa_handler = note;
-  for (int signal : {SIGTERM, SIGINT, SIGUSR1}) sigaction(signal, &action, nullptr);
+  for (int signal : signals) sigaddset(&action.sa_mask, signal);
+  for (int k = 0; k < 3; k++) sigaction(signals[k], &action, &before[k]);
+  watching = true;
+  if (SignalHandler::request_quit) wants_quit = 1;
+  else if (SignalHandler::request_write_restart) wants_restart = 1;
+  SignalHandler::request_quit = SignalHandler::request_write_restart = false;
 }
 
-int noted() { return wishes; }
+void release() {
+  if (!watching) return;
+  for (int k = 0; k < 3; k++) sigaction(signals[k], &before[k], nullptr);
+  watching = false;
+}
+
+int noted() { return (wants_quit ? quit : 0) | (wants_restart ? restart : 0); }
 
 void pass_on(LAMMPS_NS::LAMMPS *lmp, int all) {
-  // At the last step of a run the next run is waited for: the host would leave without a restart.
-  if (!(all & (quit | restart)) || lmp->update->ntimestep >= lmp->update->laststep) return;
-  using namespace LAMMPS_NS;
-  const bool writes = SignalHandler::enable_restart_writing;
-  SignalHandler::request_write_restart = writes;
+  if (!(all & (quit | restart))) return;
+  wants_restart = 0;
+  if ((all & quit) && !SignalHandler::request_quit) say(lmp, "SIGINT or SIGTERM: the run ends after the coming step, or after this one when it is its last");
+  if (!(all & quit) && !SignalHandler::enable_restart_writing) return say(lmp, "SIGUSR1: no restart file, because of write_restart_on_signal no");
+  SignalHandler::request_write_restart = SignalHandler::enable_restart_writing;
   SignalHandler::request_quit = all & quit;
-  if (!(all & quit)) wishes = 0;
-  // The host prints a row of thermo output on that step: what it shows must be ready.
-  lmp->modify->addstep_compute_all(lmp->update->ntimestep + 1);
+  // The host prints a row of thermo output on the step: what it shows must be ready. In the last one it is.
+  if (lmp->update->ntimestep < lmp->update->laststep) lmp->modify->addstep_compute_all(lmp->update->ntimestep + 1);
+  else lmp->output->restart_requested(lmp->update->ntimestep);
 }
 
 }

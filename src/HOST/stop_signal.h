@@ -6,17 +6,21 @@ namespace LAMMPS_NS { class LAMMPS; }
 
 namespace grainscope {
 
-/** SIGTERM and SIGINT end a run with complete files and a restart, SIGUSR1 asks for a restart: the host's own custom. But the host lets every rank act
- *  when the signal reaches it, and ranks that act in different steps wait for each other for ever. Here a signal is only noted, and the ranks agree
- *  on the step. */
+/** SIGTERM and SIGINT end a run with complete files and a restart, SIGUSR1 asks for a restart: the host's own custom. But the host lets
+ *  every rank act when the signal reaches it, and ranks that act in different steps wait for each other for ever. Here a signal is only
+ *  noted, and the ranks agree on the step. */
 namespace stop_signal {
 
-/** Takes the signals over from the host. */
+/** Takes the signals over from the host, with what it has noted. */
 void watch();
-enum Wish { quit = 1, restart = 2 };
-/** What has reached this rank, as bits. */
+/** Gives them back. */
+void release();
+
+/** What ranks tell each other at the end of a step, as bits. */
+enum Word { quit = 1, restart = 2, trouble = 4 };
+/** The first two, as far as they have reached this rank. */
 int noted();
-/** At the end of a step: what has reached any rank is passed on to the host, for the coming step. */
+/** At the end of a step: what has reached any rank is passed on to the host, for the coming step, or for this one when it is the last. */
 void pass_on(LAMMPS_NS::LAMMPS *lmp, int all);
 
 }

@@ -6,6 +6,8 @@
 #include "fix_run_guard.h"
 #include "fix_setup_memory.h"
 #include "gran_insitu_models.h"
+#include "kept_history.h"
+#include "stop_signal.h"
 #include "time_step_watch.h"
 #include "atom.h"
 #include "comm.h"
@@ -97,6 +99,8 @@ void PairGranInsitu::settings(int narg, char **arg) {
   impl_->loop->settings(narg, arg, this);
   if (impl_->ledger) add_past_columns();
 
+  grainscope::stop_signal::watch();
+
   // fix contacthistory and fix check/timestep/gran look for a style of exactly this name; restart files carry it too.
   delete[] force->pair_style;
   force->pair_style = new char[5];
@@ -161,58 +165,21 @@ void PairGranInsitu::require_same_columns_in_restart() {
     error->all(FLERR, ("pair_style gran/insitu: the restart file holds " + numbers + "it was written with 'ledger on'. Say 'ledger on'").c_str());
 }
 
-namespace {
-
-/** Puts the contact history back as it was, so that an evaluation for its output alone leaves the trajectory as it is. */
-class KeptHistory {
- public:
-  /** `history` may be null: then there is none to keep. */
-  KeptHistory(NeighList *history, const NeighList *list, int width) : history_(history), list_(list), width_(width) {
-    if (!history_) return;
-    for (int ii = 0; ii < list_->inum; ii++) {
-      const int i = list_->ilist[ii], n = list_->numneigh[i];
-      values_.insert(values_.end(), history_->firstdouble[i], history_->firstdouble[i] + n * width_);
-      flags_.insert(flags_.end(), history_->firstneigh[i], history_->firstneigh[i] + n);
-    }
-  }
-  KeptHistory(const KeptHistory &) = delete;
-  KeptHistory &operator=(const KeptHistory &) = delete;
-
-  ~KeptHistory() {
-    if (!history_) return;
-    auto value = values_.begin();
-    auto flag = flags_.begin();
-    for (int ii = 0; ii < list_->inum; ii++) {
-      const int i = list_->ilist[ii], n = list_->numneigh[i];
-      std::copy(value, value + n * width_, history_->firstdouble[i]);
-      std::copy(flag, flag + n, history_->firstneigh[i]);
-      value += n * width_;
-      flag += n;
-    }
-  }
-
- private:
-  NeighList *history_;
-  const NeighList *list_;
-  int width_;
-  std::vector<double> values_;
-  std::vector<int> flags_;
-};
-
-}
-
 void PairGranInsitu::init_style() {
   impl_->observer.remove_all();
   impl_->observer.begin_run();
   impl_->images_of_build = -1;
   require_same_columns_in_restart();
-  FixRunGuard::make(lmp, impl_->models + (impl_->ledger ? " ledger on" : ""));
-  if (impl_->neutral) impl_->memory = FixSetupMemory::make(lmp);
   impl_->renumbered = atom->natoms < impl_->grains && !grainscope::contacts_know_their_grains(lmp);
   if (impl_->renumbered && comm->me == 0)
     error->warning(FLERR, "grains were given other IDs, and the host keeps tangential springs by ID: some are now those of other contacts. Say "
                           "'compress no' to delete_atoms");
   PairGranProxy::init_style();
+  FixRunGuard::make(lmp, impl_->models + (impl_->ledger ? " ledger on" : ""));
+  if (impl_->neutral) {
+    impl_->memory = FixSetupMemory::make(lmp);
+    impl_->memory->kept_at(&impl_->memory);
+  }
   warn_of_stale_springs();
   watch_time_step();
 }
@@ -288,7 +255,7 @@ void PairGranInsitu::compute(int eflag, int vflag) {
     impl_->observer.resume(memory->stamp());
   }
   {
-    const KeptHistory kept(again ? listgranhistory : nullptr, list, dnum());
+    const grainscope::KeptHistory kept(again ? listgranhistory : nullptr, list, dnum());
     if (impl_->observer.begin(!update->setupflag, again)) update_image_shifts();
     PairGran::compute(eflag, vflag);
     impl_->observer.end();
@@ -301,7 +268,7 @@ void PairGranInsitu::compute(int eflag, int vflag) {
 
 /** The host re-evaluates all contacts for compute pair/gran/local, and its surface model writes to the contact history while at it. */
 void PairGranInsitu::compute_pgl(int eflag, int vflag) {
-  const KeptHistory kept(listgranhistory, list, dnum());
+  const grainscope::KeptHistory kept(listgranhistory, list, dnum());
   PairGran::compute_pgl(eflag, vflag);
 }
 

@@ -110,7 +110,13 @@ def too_long_a_step(ranks):
 def lost_from_a_periodic_box(ranks):
     """By the host's default (thermo_modify lost ignore) grains vanish without a word."""
     deck = Deck(SPHERES, body=["thermo_modify lost ignore", "set atom 3 vx 1e5", "set atom 40 vy -1e5", "run 2000"])
-    refused(attempt(deck, ranks), "grains were lost from a periodic box")
+    refused(attempt(deck, ranks), "grains were lost though the box is periodic")
+
+
+def lost_beside_an_open_face(ranks):
+    """Along the axes that are periodic nothing may be lost, also where grains may leave along another."""
+    deck = Deck(replace(SPHERES, triclinic=False), boundary="f p p", body=["thermo_modify lost ignore", "set atom 3 vy 1e5", "run 1500"])
+    refused(attempt(deck, ranks), "were lost though the box is periodic")
 
 
 def may_leave_an_open_box(ranks):
@@ -118,13 +124,13 @@ def may_leave_an_open_box(ranks):
     run(deck, ranks)
 
 
-def disk_full(lines, *words):
-    """From some time in the run on no file may grow: what a full disk or a quota does."""
+def disk_full(lines, *words, most=200_000):
+    """From some time in the run on no file may grow beyond `most` bytes: what a full disk or a quota does."""
     def case(ranks):
         under_way = Started(Deck(SPHEROIDS, body=[shear(0.05), *lines]), ranks)
         wait_for_steps(under_way)
         for pid in under_way.ranks():
-            resource.prlimit(pid, resource.RLIMIT_FSIZE, (200_000, 200_000))
+            resource.prlimit(pid, resource.RLIMIT_FSIZE, (most, most))
         refused(under_way.end(30.0), *words)
     return case
 
@@ -141,10 +147,14 @@ CASES = {
     "force-inf": not_finite(["group one id 17", "fix push one addforce 1e999 0 0"], "step 5: the force of grains 17 is not finite"),
     "too-long-a-step": too_long_a_step,
     "lost-from-a-periodic-box": lost_from_a_periodic_box,
+    "lost-beside-an-open-face": lost_beside_an_open_face,
+    "disk-full-snapshots": disk_full(["dump d all custom 10 d.*.txt id x y z vx vy vz fx fy fz tqx tqy tqz omegax omegay omegaz radius mass",
+                                      "run 100000"], "A dump file cannot be written", most=10_000),
     "may-leave-an-open-box": may_leave_an_open_box,
     "disk-full-dump": disk_full([*dump_grains(SPHEROIDS, 1), "run 20000"], "cannot be written"),
-    "disk-full-table": disk_full([*thermo(1, "step"), "compute s all stress/contact", "fix t all ave/time 1 1 1 c_s[1] c_s[2] c_s[3] file t.txt", "run 100000"], "cannot be written"),
-    "disk-full-restart": disk_full(["restart 50 r.*", "run 100000"], "cannot seal restart file"),
+    "disk-full-table": disk_full([*thermo(1, "step"), "compute s all stress/contact", "fix t all ave/time 1 1 1 c_s[1] c_s[2] c_s[3] file t.txt",
+                                  "run 100000"], "cannot be written"),
+    "disk-full-restart": disk_full(["restart 50 r.*", "run 100000"], "A restart file cannot be written"),
 }
 
 if __name__ == "__main__":

@@ -186,6 +186,17 @@ def stopped_by(number, to_one_rank=False):
     return case
 
 
+def stopped_between_short_runs(ranks):
+    """A deck that loops over `run 1`: the last step of each is as good as any."""
+    deck = replace(neutral(SPHERES), body=["variable i loop 100000", "label again", "run 1 post no", "next i", "jump SELF again"])
+    under_way = Started(deck, ranks)
+    wait_for_steps(under_way)
+    for pid in under_way.ranks():
+        os.kill(pid, signal.SIGTERM)
+    result = under_way.end(20.0)
+    require(result.code == 0 and len(list(result.folder.glob("restart_forced_liggghts_*.data"))) == 1, result.output[-1000:])
+
+
 GRAVITY = "fix gravity all gravity 9.81 vector 0 -1 0"
 CASES = {
     "split-spheres": split_is_neutral(SPHERES, [shear(RATE)]),
@@ -198,6 +209,9 @@ CASES = {
     "split-with-gravity": split_is_neutral(SPHERES, [GRAVITY]),
     "split-by-the-host": host_split_is_not,
     "measures-go-on": measures_go_on,
+    "split-after-no-step": split_is_neutral(SPHEROIDS, [shear(RATE), "run 0"]),
+    "sigterm-between-short-runs": stopped_between_short_runs,
+    "noticed-freezing": changes_are_noticed(["group low id 1:40", "fix fr low freeze"]),
     "noticed-velocities": changes_are_noticed(["velocity all set 0 0 0"]),
     "noticed-spins": changes_are_noticed(["set atom 3 omegax 1.5"]),
     "noticed-places": changes_are_noticed(["displace_atoms all random 0.001 0.001 0.001 24571"]),
