@@ -66,7 +66,7 @@ def flipping(deck):
 def running(ranks):
     """average running: numerators, pairs, squares and grains of all calls on different steps add up; r is the mean."""
     watched = correlation_of("all", "average running", 9)
-    once = correlation_of("once", "bins 9", 9)
+    once = correlation_of("once", "", 9)
     deck = Deck(dense_packing(atom_style="sphere"))
     moments = watch(deck, [watched, once], pressed(0.05), ranks, settle=50, contacts=False, every=5, told=5)
     tables, vectors = [m.array(once) for m in moments], [m.vector(once) for m in moments]

@@ -31,7 +31,7 @@ INSERT = ["region top block 0.5 11 0.5 11 5 11 units box",
           "fix small all particletemplate/sphere 15485863 atom_type 1 density constant 1000 radius constant 0.05",
           "fix kinds all particledistribution/discrete 15485867 1 small 1.0",
           "fix insert all insert/rate/region seed 32452843 distributiontemplate kinds nparticles 30 particlerate 1000 insert_every 20 "
-          "vel constant 0 0 0 overlapcheck yes all_in yes region top", "thermo_style custom step c_c", "thermo 10", "run 60"]
+          "vel constant 0 0 0 overlapcheck yes all_in yes region top", "thermo_style custom step c_c", "thermo 1", "run 60"]
 ROLLING = ("coeffRollingStiffness", "coefficientRollingViscousDamping")
 CASES = {
     "ledger-off": refused(NAME + "needs 'ledger on' in pair_style gran/insitu", "got 'model hertz tangential history", extra=""),

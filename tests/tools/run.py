@@ -131,7 +131,7 @@ class Started:
         self.folder = Path(folder or tempfile.mkdtemp(prefix="case-", dir=os.environ.get("GRAINSCOPE_SCRATCH")))
         self.folder.mkdir(parents=True, exist_ok=True)
         (self.folder / "in.deck").write_text(_deck_text(deck))
-        command = [*_command(ranks), "-in", "in.deck", "-log", "log.liggghts"]
+        command = [*_command(ranks, binary()), "-in", "in.deck", "-log", "log.liggghts"]
         self._output = open(self.folder / "output", "w")
         self._process = subprocess.Popen(command, cwd=self.folder, env=_environment(ranks), stdout=self._output, stderr=subprocess.STDOUT,
                                          stdin=subprocess.DEVNULL, start_new_session=True, restore_signals=False)
