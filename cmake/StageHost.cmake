@@ -45,20 +45,17 @@ mend(domain.cpp "prd_lamda[0] = prd_lamda[1] = prd_lamda[2] = 0.0;" "prd_lamda[0
      "prd_lamda of 0 loses atoms of triclinic boxes")
 mend(domain.cpp "prd_half_lamda[0] = prd_half_lamda[1] = prd_half_lamda[2] = 0.0;"
      "prd_half_lamda[0] = prd_half_lamda[1] = prd_half_lamda[2] = 0.5;" "prd_half_lamda of 0, likewise")
-# Files that are closed within a step are out of reach of whoever watches over the run.
-mend(dump.cpp "\n      if (filewriter) fclose(fp);" "
-      if (filewriter && (ferror(fp) | fclose(fp))) {
-        if (comm->nprocs == 1) error->all(FLERR,\"A dump file cannot be written: is the disk full?\");
-        error->one(FLERR,\"A dump file cannot be written: is the disk full?\");
-      }"
-     "a dump that could not be written is no error")
+# The host does not look whether its output arrives. On one rank by error->all, because what error->one says may stay in a buffer.
+set(unwritten "{ int ranks; MPI_Comm_size(world,&ranks); const char *told = \"Output cannot be written: is the disk full?\";
+  if (ranks == 1) error->all(FLERR,told); else error->one(FLERR,told); }")
+set(close "\n  if (multifile) {\n    if (compressed) {\n      if (filewriter) pclose(fp);\n    } else {\n      if (filewriter) ")
+mend(dump.cpp "${close}fclose(fp);" "${close}if (ferror(fp) | fclose(fp)) ${unwritten}" "a dump that is not written is no error")
+mend(dump.cpp "\n  // if file per timestep, close" "\n  if (!multifile && filewriter && fp && ferror(fp)) ${unwritten}\n  // if file per timestep, close" "likewise")
 foreach(indent "      " "    ")
-  mend(write_restart.cpp "\n${indent}fclose(fp);\n" "
-${indent}if (ferror(fp) | fclose(fp)) {
-${indent}  if (nprocs == 1) error->all(FLERR,\"A restart file cannot be written: is the disk full?\");
-${indent}  error->one(FLERR,\"A restart file cannot be written: is the disk full?\");
-${indent}}\n"
-       "a restart file that could not be written is no error")
+  mend(write_restart.cpp "\n${indent}fclose(fp);\n" "\n${indent}if (ferror(fp) | fclose(fp)) ${unwritten}\n" "a restart file that is not written is no error")
+endforeach()
+foreach(name fix_ave_time fix_ave_histo fix_ave_spatial fix_ave_correlate fix_print)
+  mend(${name}.cpp "fflush(fp);" "if (fflush(fp) != 0 || ferror(fp)) ${unwritten}" "a table that is not written is no error")
 endforeach()
 # A box that has moved since the last neighbour list leaves grains outside: they go to the rank of their image, and are wrapped, velocities and all,
 # when the run begins.

@@ -175,7 +175,7 @@ add_cases(restart cases/restarts.py LABEL case RANKS 4 CASES exact-spheroids sig
 add_cases(restart cases/restarts.py LABEL long RANKS 1 2 CASES killed-spheres killed-spheroids)
 add_cases(damage cases/damage.py LABEL case RANKS 1 2 CASES
   restart-cut restart-flipped newest-whole-one other-settings velocity-nan force-inf too-long-a-step lost-from-a-periodic-box)
-add_cases(damage cases/damage.py LABEL case RANKS 1 CASES plain-gran-and-back may-leave-an-open-box lost-beside-an-open-face disk-full-snapshots disk-full-dump disk-full-table disk-full-restart)
+add_cases(damage cases/damage.py LABEL case RANKS 1 CASES plain-gran-and-back may-leave-an-open-box lost-beside-an-open-face disk-full-snapshots disk-full-dump disk-full-table disk-full-log disk-full-restart)
 add_cases(damage cases/damage.py LABEL long RANKS 1 CASES restart-cut-often restart-flipped-often)
 add_cases(lifetimes cases/lifetimes.py LABEL case RANKS 1 CASES
   every-style-is-here computes-1000-times fixes-1000-times pair-styles-1000-times pair-styles-not-compiled-1000-times
