@@ -154,8 +154,8 @@ void FixRunGuard::pre_neighbor() {
   MPI_Allreduce(MPI_IN_PLACE, &lost, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (lost <= 0) return;
   std::ostringstream message;
-  message << "step " << update->ntimestep << ": " << lost << " grains were lost though the box is periodic: they moved farther than its length between two "
-          << "neighbour lists. Look at the time step (doc/stability.md) and at overlaps of grains that were just inserted";
+  message << "step " << update->ntimestep << ": " << lost << " grains were lost though the box is periodic: they moved farther than its length "
+          << "between two neighbour lists. Look at the time step (doc/stability.md) and at overlaps of grains that were just inserted";
   error->all(FLERR, message.str().c_str());
 }
 

@@ -206,16 +206,16 @@ double FixSetupMemory::movers_now() const {
 bool FixSetupMemory::unchanged() const {
   const Box box = box_now(), &then = shared_.ended;
   const auto differ = [](const double (&a)[3], const double (&b)[3]) { return !std::equal(a, a + 3, b); };
-  int changed = shared_.grains != static_cast<double>(atom->natoms) || shared_.dt != update->dt || shared_.movers != movers_now() || differ(box.low, then.low) ||
-      differ(box.high, then.high) || differ(box.tilts, then.tilts);
+  int changed = shared_.grains != static_cast<double>(atom->natoms) || shared_.dt != update->dt || shared_.movers != movers_now() ||
+      differ(box.low, then.low) || differ(box.high, then.high) || differ(box.tilts, then.tilts);
   for (int i = 0; i < atom->nlocal && !changed; i++) changed = !same(i);
   const bool nothing = shared_.grains < 0.0;
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, world);
   if (changed && !nothing && comm->me == 0)
     for (FILE *out : {screen, logfile})
       if (out)
-        fprintf(out, "pair_style gran/insitu: grains, box, time step or fixes were changed since the last run: forces are formed anew, as with 'setup "
-                "host'\n");
+        fprintf(out, "pair_style gran/insitu: grains, box, time step or fixes were changed since the last run: forces are formed anew, as "
+                "with 'setup host'\n");
   return !changed;
 }
 

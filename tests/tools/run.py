@@ -146,8 +146,16 @@ class Started:
 
     def ranks(self):
         """The processes of the ranks, of which each may be sent a signal of its own."""
-        command = ["pgrep", "-P", str(self._process.pid), "-x", Path(binary()).name]
-        return [int(pid) for pid in subprocess.run(command, stdout=subprocess.PIPE, text=True).stdout.split()] or [self._process.pid]
+        found = []
+        for stat in Path("/proc").glob("[0-9]*/stat"):
+            try:
+                pid, _, rest = stat.read_text().partition(" (")
+            except OSError:  # it has ended
+                continue
+            name, _, rest = rest.rpartition(") ")
+            if name == Path(binary()).name[:15] and int(rest.split()[1]) == self._process.pid:
+                found.append(int(pid))
+        return found or [self._process.pid]
 
     def ended(self):
         return self._process.poll() is not None
