@@ -178,9 +178,9 @@ def stopped_by(number, to_one_rank=False):
         require(0 < at < steps, f"stopped at step {at}")
         means = (result.folder / "means.txt").read_text()
         require(means.endswith("\n") and int(means.splitlines()[-1].split()[0]) == at, f"the table of means ends: {means[-200:]}")
-        rest = [*lines, *dump_grains(SPHERES, at + 50), f"run {at + 50} upto"]
+        rest = [*lines, *dump_grains(SPHERES, at + 20), f"run {at + 20} upto"]
         again = run(deck.restarted(left[0], rest), ranks)
-        whole = run(replace(deck, body=[*lines, *dump_grains(SPHERES, at + 50), f"run {at + 50} upto"]), ranks)
+        whole = run(replace(deck, body=[*lines, *dump_grains(SPHERES, at + 20), f"run {at + 20} upto"]), ranks)
         same_motion(again, whole, SPHERES)  # the forced restart builds a list that the other run does not
     return case
 
