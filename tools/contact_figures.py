@@ -1,12 +1,12 @@
 """Figures of the paper about correlations and contacts: 9, 10, 11, 12 and 17, and two it tells in words: layering and memory. Each takes
-the runs' Measures and a path."""
+the steady runs and a path."""
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.ticker import NullFormatter
 import matplotlib.pyplot as plt
 import numpy as np
 
 from figure_style import (curves_by_shape, friction_grid, legible, save, shape_colour, shape_legend, shape_marker, values_of, with_value)
-from shear_measures import fit_decay
+from fits import fit_decay
 
 
 def label_of(m, measures):
@@ -30,18 +30,17 @@ def correlations(measures, path):
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.2, 3.3), constrained_layout=True)
     shown = legible(measures, inertial=0.1, mu=0.4)
     for m in shown:
-        r, c = m.correlation()
-        seen = r > 0
+        r, c = m.curves["correlation"]["r"], m.curves["correlation"]["vy"]
         style = line_style(m, shown)
-        left.plot(r[seen] / m.diameter, c[seen], color=style["color"], marker=shape_marker(m.alpha), markersize=4, linestyle="none",
+        left.plot(r, c, color=style["color"], marker=shape_marker(m.alpha), markersize=4, linestyle="none",
                   label=label_of(m, shown))
-        length = m.correlation_length()[0]
+        length = m["l_vy"][0]
         if length > 0:
             line = np.linspace(0, r.max(), 100)
-            left.plot(line / m.diameter, np.exp(-line / length), linewidth=0.9, color=style["color"], linestyle="--")
+            left.plot(line, np.exp(-line / length), linewidth=0.9, color=style["color"], linestyle="--")
     left.axhline(0, color="0.6", linewidth=0.8)
     left.set(xlabel=r"$r\,/\,d_{eq}$", ylabel=r"$\tilde{C}(r)$", ylim=(-0.25, 1.02), xlim=(0, None))
-    curves_by_shape(right, legible(measures, inertial=0.1), lambda m: np.array(m.correlation_length()) / m.diameter)
+    curves_by_shape(right, legible(measures, inertial=0.1), lambda m: m["l_vy"])
     right.set(xlabel=r"shape ratio $r_g$", ylabel=r"$\ell\,/\,d_{eq}$", ylim=(0, None))
     right.legend(fontsize=8, loc="best")
     figure.legend(*left.get_legend_handles_labels(), loc="center left", bbox_to_anchor=(1.0, 0.5))
@@ -116,7 +115,7 @@ def surface(measures, path):
     kinds = {np.sign(m.r_g) for m in measures}
     split = {-1.0, 1.0} <= kinds
     for m in measures:
-        table = m.surface()
+        table = m.curves["surface"]
         for axis, name in zip(axes, ("density", "printed density", "F_n", "F_t")):
             angles, radii = mirrored(table["psi"], table[name], left=not split or m.alpha <= 1, right=not split or m.alpha >= 1)
             axis.plot(angles, radii, linewidth=1.4, label=label_of(m, measures), **line_style(m, measures))
@@ -144,7 +143,7 @@ def directions(measures, path):
     measures = legible(measures, mu=0.4)
     figure, axes = polar_panels(titles, measures)
     for m in measures:
-        table = m.directions()
+        table = m.curves["direction"]
         around = np.append(table["beta"], table["beta"][0] + 2 * np.pi)
         for axis, name in zip(axes, ("density", "F_n", "F_t")):
             axis.plot(around, np.append(table[name], table[name][0]), linewidth=1.2, label=label_of(m, measures), **line_style(m, measures))
@@ -182,7 +181,7 @@ def surface_maps(measures, path):
     those of the area element that the paper prints."""
     measures = legible(measures, mu=0.4)
     figure, axes = plt.subplots(3, len(measures), figsize=(1.7 * len(measures) + 1.6, 4.4), squeeze=False, constrained_layout=True)
-    tables = [m.surface() for m in measures]
+    tables = [m.curves["surface"] for m in measures]
     shares = np.concatenate([table[name] for table in tables for name in ("inhomogeneity", "printed inhomogeneity")])
     limit = max(2.0, shares.max(), 1 / max(shares[shares > 0].min(initial=1.0), 0.05))
     mobilised = 0.95 * min(table["mobilisation"].min() for table in tables), max(table["mobilisation"].max() for table in tables) or 1
@@ -214,7 +213,7 @@ def memory(measures, path):
     measures = legible(measures, mu=0.4)
     figure, axis = plt.subplots(figsize=(4.6, 3.3), constrained_layout=True)
     for m in measures:
-        strain, c = m.memory()
+        strain, c = m.curves["memory"]["lag"], m.curves["memory"]["vy"]
         axis.plot(strain, c, marker=shape_marker(m.alpha), markersize=3, linewidth=1.0, label=label_of(m, measures),
                   **line_style(m, measures))
         length = fit_decay(strain[1:], c[1:])[0]
@@ -232,9 +231,8 @@ def layering(measures, path):
     measures = legible(measures, mu=0.4)
     figure, axis = plt.subplots(figsize=(4.6, 3.3), constrained_layout=True)
     for m in measures:
-        lag, c = m.layering()
-        axis.plot(lag / m.diameter, c, marker=shape_marker(m.alpha), markersize=3, linewidth=1.0, label=label_of(m, measures),
-                  **line_style(m, measures))
+        axis.plot(m.curves["layering"]["y"], m.curves["layering"]["C"], marker=shape_marker(m.alpha), markersize=3, linewidth=1.0,
+                  label=label_of(m, measures), **line_style(m, measures))
     axis.axhline(0, color="0.6", linewidth=0.8)
     axis.set(xlabel=r"$y\,/\,d_{eq}$", ylabel=r"$C(y)\,/\,C(0)$", xlim=(0, None))
     figure.legend(*axis.get_legend_handles_labels(), loc="center left", bbox_to_anchor=(1.0, 0.5))

@@ -1,10 +1,11 @@
-"""Figures of the paper about the flow as a whole: 2, 4, 5, 6, 7, 15, 16 and 18. Each takes the runs' Measures and a path."""
+"""Figures of the paper about the flow as a whole: 2, 4, 5, 6, 7, 15, 16 and 18. Each takes the steady runs and a path."""
 from matplotlib.colors import TwoSlopeNorm
 import matplotlib.pyplot as plt
 import numpy as np
 
 from figure_style import (curves_by_inertia, curves_by_shape, friction_colour, friction_grid, friction_label, legible, log_scale, nearest,
                           save, shape_colour, shape_legend, values_of, with_value)
+from fits import FitError, fit_fraction_law, fit_friction_law, fraction_law, friction_law, power_law
 
 SHAPE_RATIO = r"shape ratio $r_g$"
 INERTIA = r"inertial number $I$"
@@ -37,28 +38,22 @@ def against_inertia(measures, rows):
 
 def orientation(measures, path):
     """Fig. 2: nematic order, angle to the flow (spheres have none), rotation."""
-    figure, axes = against_shape(measures, [(lambda m: m.series("S2"), r"nematic order $S_2$"),
-                                            (lambda m: None if m.alpha == 1 else m.series("theta_x"), r"angle to the flow $\theta_x$ [°]"),
-                                            (lambda m: m.series("spin"), r"$-2\,\langle\omega_z\rangle/\dot\gamma$")])
+    figure, axes = against_shape(measures, [(lambda m: m["S2"], r"nematic order $S_2$"),
+                                            (lambda m: None if m.alpha == 1 else m["theta_x"], r"angle to the flow $\theta_x$ [°]"),
+                                            (lambda m: m["spin"], r"$-2\,\langle\omega_z\rangle/\dot\gamma$")])
     axes[0].set_ylim(bottom=0)
     axes[2].set_ylim(bottom=0)
     axes[2].axhline(1, color="0.6", linewidth=0.8, linestyle=":")
     save(figure, path)
 
 
-def power_law(x, y):
-    """Exponent and factor of y = factor x^exponent."""
-    exponent, logarithm = np.polyfit(np.log(x), np.log(y), 1)
-    return exponent, np.exp(logarithm)
-
-
 def add_shape_slopes(axis, runs, value, colour):
     """Power laws through the flat and through the long grains beyond the crossover at 1.2, where there are at least three of them."""
     for side in ([m for m in runs if m.alpha <= 1 / 1.2 + 1e-3], [m for m in runs if m.alpha >= 1.2]):
-        x, y = np.array([m.alpha for m in side]), np.array([value(m)[0] for m in side])
-        if len(side) < 3 or (y <= 0).any():
+        x, y = np.array([m.alpha for m in side]), np.array([value(m) for m in side])
+        if len(side) < 3 or (y[:, 0] <= 0).any():
             continue
-        exponent, factor = power_law(x, y)
+        (factor, exponent), _ = power_law(x, *y.T)
         axis.plot(x, factor * x**exponent, color=colour, linewidth=0.8, linestyle="--")
         axis.annotate(f"{exponent:+.2f}", (x.mean(), factor * x.mean() ** exponent), textcoords="offset points", xytext=(4, 6), fontsize=8,
                       color=colour)
@@ -68,8 +63,8 @@ def dissipation(measures, path):
     """Fig. 4: power lost to normal damping and to friction, over rate x P x volume, against the aspect ratio."""
     measures = legible(measures)
     figure, axes = plt.subplots(1, 2, figsize=(7.6, 3.3), constrained_layout=True)
-    quantities = [(lambda m: m.power_normal, r"$\mathcal{P}_n\,/\,\dot\gamma P\Omega$"),
-                  (lambda m: m.power_friction, r"$\mathcal{P}_t\,/\,\dot\gamma P\Omega$")]
+    quantities = [(lambda m: m["W_n"], r"$\mathcal{P}_n\,/\,\dot\gamma P\Omega$"),
+                  (lambda m: m["W_t"], r"$\mathcal{P}_t\,/\,\dot\gamma P\Omega$")]
     for axis, (value, label) in zip(axes, quantities):
         for mu in values_of(measures, "mu"):
             for inertial in values_of(measures, "I"):
@@ -92,9 +87,9 @@ def dissipation(measures, path):
 
 def fluctuations(measures, path):
     """Fig. 5: ratios of velocity fluctuations, and of the energy of rotation to that of translation."""
-    figure, axes = against_shape(measures, [(lambda m: m.flow_over_gradient, r"$\delta v_x\,/\,\delta v_y$"),
-                                            (lambda m: m.flow_over_vorticity, r"$\delta v_x\,/\,\delta v_z$"),
-                                            (lambda m: m.rotational_over_translational, r"$\delta E_{rot}\,/\,\delta E_{transl}$")])
+    figure, axes = against_shape(measures, [(lambda m: m["dv_x/dv_y"], r"$\delta v_x\,/\,\delta v_y$"),
+                                            (lambda m: m["dv_x/dv_z"], r"$\delta v_x\,/\,\delta v_z$"),
+                                            (lambda m: m["E_rot/E_tr"], r"$\delta E_{rot}\,/\,\delta E_{transl}$")])
     for axis in axes:
         axis.axhline(1, color="0.6", linewidth=0.8, linestyle="--")
     log_scale(axes[2].yaxis)
@@ -103,7 +98,7 @@ def fluctuations(measures, path):
 
 def lever(measures, path):
     """Fig. 6: velocity and spin fluctuations against the inertial number, with the power law of the roundest shape."""
-    rows = [(lambda m: m.lever, r"$\delta v\,/\,\dot\gamma d_{eq}$"), (lambda m: m.spin_fluctuation, r"$\delta\omega\,/\,\dot\gamma$")]
+    rows = [(lambda m: m["lever"], r"$\delta v\,/\,\dot\gamma d_{eq}$"), (lambda m: m["spin_fluctuation"], r"$\delta\omega\,/\,\dot\gamma$")]
     figure, axes, columns = against_inertia(measures, rows)
     for row, (value, _) in zip(axes, rows):
         for axis, runs in zip(row, columns):
@@ -111,43 +106,35 @@ def lever(measures, path):
             roundest = with_value(runs, alpha=alpha)
             if len(roundest) >= 3:
                 x = np.array([m.inertial for m in roundest])
-                exponent, factor = power_law(x, [value(m)[0] for m in roundest])
+                (factor, exponent), (_, error) = power_law(x, *np.array([value(m) for m in roundest]).T)
                 axis.plot(x, factor * x**exponent, color="black", linewidth=0.9, linestyle="--")
-                axis.text(0.95, 0.93, rf"slope {exponent:.2f} ($\alpha$ = {alpha:g})", transform=axis.transAxes, ha="right", fontsize=8)
+                axis.text(0.95, 0.93, rf"slope {exponent:.2f} $\pm$ {error:.2f} ($\alpha$ = {alpha:g})", transform=axis.transAxes,
+                          ha="right", fontsize=8)
         log_scale(row[0].yaxis)
     save(figure, path)
-
-
-def fit_with_exponent(x, y, basis, trials):
-    """Least squares of y = p + q basis(x, t) over p, q and the trial values t: p, q, t."""
-    best = None
-    for trial in trials:
-        design = np.column_stack([np.ones_like(x), basis(x, trial)])
-        solution = np.linalg.lstsq(design, y, rcond=None)[0]
-        misfit = ((design @ solution - y) ** 2).sum()
-        if best is None or misfit < best[0]:
-            best = misfit, *solution, trial
-    return best[1:]
 
 
 def rheology(measures, path):
     """Fig. 7: effective friction, solid fraction and coordination against the inertial number; mu(I) and phi(I) fitted to four or more runs
     of a shape."""
-    rows = [(lambda m: m.series("mu_eff"), r"$\mu = \sigma_{xy}/P$"), (lambda m: m.series("phi"), r"$\phi$"),
-            (lambda m: m.series("Z"), r"$Z$")]
+    rows = [(lambda m: m["mu_eff"], r"$\mu = \sigma_{xy}/P$"), (lambda m: m["phi"], r"$\phi$"),
+            (lambda m: m["Z"], r"$Z$")]
     figure, axes, columns = against_inertia(measures, rows)
-    bases = [(lambda x, t: 1 / (1 + t / x), np.geomspace(1e-3, 10, 200)), (lambda x, t: x**t, np.linspace(0.1, 2, 200))]
-    for row, (value, _), (basis, trials) in zip(axes, rows, bases):
+    laws = [(fit_friction_law, friction_law), (fit_fraction_law, fraction_law)]
+    for row, (value, _), (fit_law, law) in zip(axes, rows, laws):
         for axis, runs in zip(row, columns):
             for alpha in values_of(runs, "alpha"):
                 found = with_value(runs, alpha=alpha)
                 if len(found) < 4:
                     continue
                 x = np.array([m.inertial for m in found])
-                fitted = fit_with_exponent(x, np.array([value(m)[0] for m in found]), basis, trials)
+                try:
+                    parameters, _ = fit_law(x, *np.array([value(m) for m in found]).T)
+                except FitError:
+                    continue
                 line = np.geomspace(x.min(), x.max(), 60)
-                axis.plot(line, fitted[0] + fitted[1] * basis(line, fitted[2]), color=shape_colour(alpha), linewidth=0.8, linestyle="--")
-    highest = max(m.series("Z")[0] for m in measures)
+                axis.plot(line, law(line, *parameters), color=shape_colour(alpha), linewidth=0.8, linestyle="--")
+    highest = max(m["Z"][0] for m in measures)
     for axis in axes[2]:
         for contacts, style in ((3, "--"), (6, "-."), (10, ":")):
             if contacts < 1.3 * highest:
@@ -158,7 +145,7 @@ def rheology(measures, path):
 
 def normal_stress_differences(measures, path):
     """Fig. 15: N1 = sigma_xx - sigma_yy and N2 = sigma_yy - sigma_zz over P, tension positive."""
-    figure, axes, _ = against_inertia(measures, [(lambda m: m.N1, r"$N_1/P$"), (lambda m: m.N2, r"$N_2/P$")])
+    figure, axes, _ = against_inertia(measures, [(lambda m: m["N1"], r"$N_1/P$"), (lambda m: m["N2"], r"$N_2/P$")])
     for axis in axes.flat:
         axis.axhline(0, color="0.6", linewidth=0.8, zorder=0)
     save(figure, path)
@@ -170,7 +157,8 @@ def diffusion(measures, path):
     for row, axis_name in ((0, "y"), (1, "z")):
         for axis, runs in zip(axes[row], columns):
             for m in runs:
-                strain, squares, line = m.displacement(axis_name)
+                strain, squares = m.curves["displacement"]["strain"], m.curves["displacement"][f"{axis_name}2"]
+                line = squares.mean() + 2 * m[f"D_{axis_name}"][0] * (strain - strain.mean())
                 axis.plot(strain, squares, color=shape_colour(m.alpha), linewidth=1.2)
                 axis.plot(strain, line, color=shape_colour(m.alpha), linewidth=0.8, linestyle="--")
             axis.set_xlabel(r"strain since the start of the averages")
@@ -179,7 +167,7 @@ def diffusion(measures, path):
         axes[row, 0].set_ylabel(rf"$\langle {axis_name}^2\rangle\,/\,d_{{eq}}^2$")
     for row, axis_name in ((2, "y"), (3, "z")):
         for axis, runs in zip(axes[row], columns):
-            curves_by_inertia(axis, runs, lambda m, name=axis_name: m.diffusion(name))
+            curves_by_inertia(axis, runs, lambda m, name=axis_name: m[f"D_{name}"])
             axis.set_xlabel(INERTIA)
         axes[row, 0].set_ylabel(rf"$D_{axis_name}\,/\,\dot\gamma d_{{eq}}^2$")
         log_scale(axes[row, 0].yaxis)
@@ -190,8 +178,8 @@ def diffusion(measures, path):
 def stress_parts(measures, path):
     """Fig. 18: shear stress over P from normal forces, from tangential forces, and in all, over friction and shape."""
     frictions, shapes = values_of(measures, "mu"), values_of(measures, "alpha")
-    parts = [("normal forces", lambda m: m.stress("n", "xy")[0]), ("tangential forces", lambda m: m.stress("t", "xy")[0]),
-             ("total", lambda m: m.stress("n", "xy")[0] + m.stress("t", "xy")[0])]
+    parts = [("normal forces", lambda m: m["n_xy"][0]), ("tangential forces", lambda m: m["t_xy"][0]),
+             ("total", lambda m: m["n_xy"][0] + m["t_xy"][0])]
     chosen = [m for m in measures if m.I == nearest(measures, "I", 0.01)]
     figure, axes = plt.subplots(3, 1, figsize=(1.2 + max(3.6, 0.7 * len(shapes)), 1.2 + 3 * max(0.9, 0.4 * len(frictions))),
                                 constrained_layout=True, sharex=True)

@@ -1,29 +1,48 @@
-"""Steady means of a run of examples/simple_shear with `measure all`, in the units and normalisations of the paper. Used by the figures
-and the summary."""
-from functools import cached_property
+"""Steady state of a run of examples/simple_shear, in the units and normalisations of the paper: means with errors, and curves. Used by the
+figures, the summary and the tables of a study."""
+from dataclasses import dataclass
 
 import numpy as np
 
-from shear_output import Columns, InputError, mean_and_error, read_blocks, read_table
+from fits import fit_decay
+from shear_output import InputError, mean_and_error, read_blocks, read_grains, read_table
 
+# Name of each mean, its unit, and what it is. Powers are over W0 = rate x target pressure x volume.
+SERIES = {"P": ("P_target", "pressure -sigma_yy"), "mu_eff": ("-", "sigma_xy/P"), "phi": ("-", "solid fraction"),
+          "Z": ("-", "coordination, 2 contacts/grains"), "sliding": ("-", "share of sliding contacts"),
+          "W_shear": ("W0", "power put in by shear"), "W_box": ("W0", "power put in by the moving box"),
+          "W_n": ("W0", "power lost to normal damping, from the velocities at the ends of steps"),
+          "W_t": ("W0", "power lost to friction, from the slip of the springs"), "W_rest": ("W0", "power put in less power lost"),
+          "S2": ("-", "nematic order"), "theta_x": ("deg", "mean angle of the long axes to the flow"),
+          "spin": ("-", "-2 <omega_z>/rate"), "overlap_mean": ("d_eq", "mean overlap"), "overlap_max": ("d_eq", "largest overlap"),
+          "kappa": ("-", "stiffness number")}
+ALWAYS = {"I_reached": ("-", "inertial number of the mean pressure"), "L_y": ("d_eq", "mean height of the box")}
+MEASURED = {"instant_n": ("W0", "power lost to normal damping, sum of damping force x velocity at the force evaluation (Eq. 4)"),
+            "instant_t": ("W0", "power lost to friction, sum over sliding contacts of force x velocity at the force evaluation (Eq. 4)"),
+            **{f"{part}_{c}": ("P", f"sigma_{c} of the {kind} contact forces, tension positive")
+               for part, kind in (("n", "normal"), ("t", "tangential")) for c in ("xx", "yy", "zz", "xy")},
+            "N1": ("P", "sigma_xx - sigma_yy"), "N2": ("P", "sigma_yy - sigma_zz"),
+            **{f"F_{c}": ("-", f"fabric, component {c}") for c in ("xx", "yy", "zz", "xy", "xz", "yz")},
+            "fabric_deviator": ("-", "sqrt(3/2 F':F') of the mean fabric"),
+            "dv_x/dv_y": ("-", "velocity fluctuations, flow over gradient"), "dv_x/dv_z": ("-", "flow over vorticity"),
+            "E_rot/E_tr": ("-", "fluctuating energy, rotation over translation"),
+            "lever": ("-", "velocity fluctuation over rate x d_eq"), "spin_fluctuation": ("-", "fluctuation of the angular velocity over the rate"),
+            "idle": ("%", "grains with fewer than two contacts"), "layering": ("-", "largest correlation of the density beyond half a diameter"),
+            "l_vy": ("d_eq", "correlation length of dv_y"), "l_wz": ("d_eq", "correlation length of dw_z"),
+            "D_y": ("rate d_eq2", "diffusion coefficient along the gradient"), "D_z": ("rate d_eq2", "diffusion coefficient along the vorticity")}
 FILES = ["micro.txt", "displacement.txt", "surface.txt", "direction.txt", "correlation.txt", "layering.txt", "memory.txt"]
-
-
-def fit_decay(distance, correlation):
-    """Length l of exp(-x/l) and its standard error, least squares over the points above 0.05."""
-    above = correlation > 0.05
-    x, c = distance[above], correlation[above]
-    if len(x) == 0:
-        return 0.0, 0.0
-    lengths = np.geomspace(0.01 * x.max(), 100 * x.max(), 400)
-    for _ in range(4):
-        misfits = ((np.exp(-x / lengths[:, None]) - c) ** 2).sum(axis=1)
-        best = misfits.argmin()
-        lengths = np.linspace(lengths[max(best - 1, 0)], lengths[min(best + 1, len(lengths) - 1)], 101)
-    length = lengths[50]
-    slope = np.exp(-x / length) * x / length**2
-    error = np.sqrt(misfits.min() / (len(x) - 1) / (slope**2).sum()) if len(x) > 1 else 0.0
-    return length, error
+FORCES = {"F_n": ("P A_p", "mean normal force"), "F_t": ("P A_p", "mean tangential force")}
+# Name of each curve: its columns as above, the first of them what it runs over
+CURVES = {"correlation": {"r": ("d_eq", "distance"), "vy": ("-", "correlation of dv_y"), "wz": ("-", "correlation of dw_z")},
+          "memory": {"lag": ("-", "strain between"), "vy": ("-", "correlation of a grain's dv_y with itself")},
+          "layering": {"y": ("d_eq", "distance along the gradient"), "C": ("-", "correlation of the density of centres over that at 0")},
+          "surface": {"psi": ("rad", "angle between a contact and the grain's symmetry axis"), "density": ("-", "contacts rho_s A_p"),
+                      "inhomogeneity": ("-", "of the dissipated power"), "printed density": ("-", "over the area element that the paper prints"),
+                      "printed inhomogeneity": ("-", "over the area element that the paper prints"), **FORCES,
+                      "mobilisation": ("-", "mean |F_t|/(mu F_n)"), "sliding": ("-", "share of sliding contacts")},
+          "direction": {"beta": ("rad", "angle of a contact normal to the flow"), "density": ("1/rad", "of contact normals"), **FORCES},
+          "displacement": {"strain": ("-", "since the run's averages began"), "y2": ("d_eq2", "mean square displacement along the gradient"),
+                           "z2": ("d_eq2", "mean square displacement along the vorticity")}}
 
 
 def printed_shares(alpha, bins):
@@ -34,190 +53,191 @@ def printed_shares(alpha, bins):
     return element.reshape(bins, -1).sum(axis=1) / element.sum()
 
 
-class Measures:
-    """The steady state of one run. Pairs are (mean, standard error); blocks that begin before strain `start` are left out."""
+@dataclass
+class SteadyRun:
+    """Steady state of a run: its parameters, its means as (mean, standard error) by name, and its curves as arrays by name and column."""
+    name: str
+    parameters: dict
+    means: dict
+    curves: dict
 
-    def __init__(self, run, start=None):
-        self.run, self.name, self.start = run, run.name, start
-        self.alpha, self.mu, self.I = (run.parameters[name] for name in ("alpha", "mu", "I"))
-        self.diameter, self.rate, self.target = (run.parameters[name] for name in ("d_eq", "rate", "P_target"))
-        missing = [name for name in FILES if not (run.folder / name).exists()]
-        if missing:
-            raise InputError(f"{run.folder}: no {', '.join(missing)}; an ended run with `-var measure all` writes them")
-        self.micro = self.read_micro()
+    def __getitem__(self, name):
+        if name not in self.means:
+            raise InputError(f"{self.name}: no mean '{name}'; there are {', '.join(self.means)}")
+        return self.means[name]
 
-    def read_micro(self):
-        micro, _ = read_table(self.run.folder / "micro.txt")
-        ends = micro["strain"]
-        begins = ends - (np.diff(ends).mean() if len(ends) > 1 else ends[-1] / 16)
-        self.kept = np.ones(len(ends), dtype=bool) if self.start is None else begins > self.start - 1e-3
-        if not self.kept.any():
-            raise InputError(f"{self.run.folder}: no block of micro.txt begins after strain {self.start:g}; "
-                             f"the last one begins at {begins[-1]:.2f}")
-        return Columns(micro.path, ((name, values[self.kept]) for name, values in micro.items()))
+    @property
+    def alpha(self):
+        return self.parameters["alpha"]
 
-    def blocks(self, name):
-        """Columns of a file of tables, one table per block, as arrays (blocks, rows)."""
-        columns = read_blocks(self.run.folder / name)
-        if len(columns["bin"]) != len(self.kept):
-            raise InputError(f"{self.run.folder}: {name} has {len(columns['bin'])} tables, micro.txt {len(self.kept)} rows; "
-                             "they must be of one run")
-        return Columns(columns.path, ((column, values[self.kept]) for column, values in columns.items()))
+    @property
+    def mu(self):
+        return self.parameters["mu"]
+
+    @property
+    def I(self):
+        return self.parameters["I"]
 
     @property
     def r_g(self):
         return (self.alpha - 1) / (self.alpha + 1)
 
-    @cached_property
-    def rows(self):
-        return self.run.steady(self.start)
-
-    def series(self, name):
-        """Mean and error of a column of series.txt."""
-        return mean_and_error(self.run[name][self.rows])
-
     @property
-    def pressure(self):
-        """P of every block [Pa]."""
-        return -(self.micro["n_yy"] + self.micro["t_yy"])
+    def measured_all(self):
+        return "lever" in self.means
 
     @property
     def inertial(self):
         """The inertial number that the mean pressure makes."""
-        return self.I / np.sqrt(self.pressure.mean() / self.target)
-
-    @property
-    def power_normal(self):
-        return self.series("W_n")
-
-    @property
-    def power_friction(self):
-        return self.series("W_t")
-
-    @property
-    def flow_over_gradient(self):
-        return mean_and_error(self.micro["dv_x"] / self.micro["dv_y"])
-
-    @property
-    def flow_over_vorticity(self):
-        return mean_and_error(self.micro["dv_x"] / self.micro["dv_z"])
-
-    @property
-    def rotational_over_translational(self):
-        return mean_and_error(self.micro["E_rot"] / self.micro["E_tr"])
-
-    @property
-    def lever(self):
-        """|dv| over rate x diameter."""
-        return mean_and_error(self.micro["lever"])
-
-    @property
-    def spin_fluctuation(self):
-        """|dw| over the rate."""
-        return mean_and_error(np.sqrt(sum(self.micro[f"dw_{axis}"] ** 2 for axis in "xyz")) / self.rate)
-
-    def stress(self, part, component):
-        """A component of a part (n or t) of the contact stress over P."""
-        return mean_and_error(self.micro[f"{part}_{component}"] / self.pressure)
-
-    def stress_difference(self, first, second):
-        """(sigma_first - sigma_second)/P."""
-        total = {c: self.micro[f"n_{c}"] + self.micro[f"t_{c}"] for c in (first, second)}
-        return mean_and_error((total[first] - total[second]) / self.pressure)
-
-    @property
-    def N1(self):
-        return self.stress_difference("xx", "yy")
-
-    @property
-    def N2(self):
-        return self.stress_difference("yy", "zz")
-
-    @property
-    def idle(self):
-        """Grains with fewer than two contacts, in percent."""
-        return mean_and_error(100 * self.micro["idle"])
-
-    def correlation(self, component="vy"):
-        """r [m] and C(r) of vy or wz: ratio of sums over the steady state. Bins without pairs are left out."""
-        table = self.blocks("correlation.txt")
-        pairs, sums = table["pairs"].sum(axis=0), table[component].sum(axis=0)
-        filled = pairs > 0
-        return table["r"].mean(axis=0)[filled], sums[filled] / pairs[filled] / self.micro[f"{component}2"].mean()
-
-    def correlation_length(self, component="vy"):
-        """l [m] of exp(-r/l), and its error: that of the fit, or from the spread over the blocks if that is larger."""
-        length, error = fit_decay(*self.correlation(component))
-        table = self.blocks("correlation.txt")
-        single = []
-        for r, sums, pairs, square in zip(table["r"], table[component], table["pairs"], self.micro[f"{component}2"]):
-            filled = pairs > 0
-            single.append(fit_decay(r[filled], sums[filled] / pairs[filled] / square)[0])
-        return length, max(error, mean_and_error(single)[1])
-
-    def memory(self):
-        """Strain and C of the correlation of a grain's dv_y with itself."""
-        table = read_blocks(self.run.folder / "memory.txt")
-        filled = table["pairs"][-1] > 0
-        return table["lag"][-1][filled], table["C"][-1][filled]
-
-    def layering(self):
-        """Lag [m] and C over C(0) of the density of centres."""
-        table = self.blocks("layering.txt")
-        density = table["C"].mean(axis=0)
-        return table["lag"].mean(axis=0), density / density[0]
-
-    def fabric(self):
-        """Mean fabric tensor (3, 3)."""
-        xx, yy, zz, xy, xz, yz = (self.micro[f"F_{c}"].mean() for c in "xx yy zz xy xz yz".split())
-        return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-
-    @property
-    def fabric_deviator(self):
-        """sqrt(3/2 F':F') of the mean tensor, its error from the blocks."""
-        diagonal = sum((self.micro[f"F_{c}"] - 1 / 3) ** 2 for c in ("xx", "yy", "zz"))
-        blocks = np.sqrt(1.5 * (diagonal + 2 * sum(self.micro[f"F_{c}"] ** 2 for c in ("xy", "xz", "yz"))))
-        deviator = self.fabric() - np.eye(3) / 3
-        return np.sqrt(1.5 * (deviator**2).sum()), mean_and_error(blocks)[1]
+        return self["I_reached"][0]
 
     def fabric_axes(self):
         """The two eigenvalues whose axes lie in the xy plane, the larger first, and these axes (x, y), pointing to x > 0."""
-        values, vectors = np.linalg.eigh(self.fabric())
+        xx, yy, zz, xy, xz, yz = (self[f"F_{c}"][0] for c in ("xx", "yy", "zz", "xy", "xz", "yz"))
+        values, vectors = np.linalg.eigh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
         in_plane = np.argsort(np.abs(vectors[2]))[:2]
         order = in_plane[np.argsort(-values[in_plane])]
         axes = vectors[:2, order].T
         return values[order], axes * np.where(axes[:, :1] < 0, -1, 1)
 
+
+def solid_volume_and_area(run):
+    """Volume of all grains, and the area of the box across the gradient, which stays what it is."""
+    grains = read_grains(run.folder / "grains.dump")
+    return 4 / 3 * np.pi * grains.semi_axes.prod(axis=1).sum(), grains.edges[0, 0] * grains.edges[2, 2]
+
+
+class Blocks:
+    """The files of `measure all`, without the parts of the run that begin before strain `start`."""
+
+    def __init__(self, run, start):
+        missing = [name for name in FILES if not (run.folder / name).exists()]
+        if missing:
+            raise InputError(f"{run.folder}: no {', '.join(missing)}; an ended run with `-var measure all` writes them")
+        self.run, self.start = run, start
+        self.diameter, self.rate = run.parameters["d_eq"], run.parameters["rate"]
+        micro, _ = read_table(run.folder, "micro.txt")
+        ends = micro["strain"]
+        begins = ends - (np.diff(ends).mean() if len(ends) > 1 else ends[-1] / 16)
+        self.kept = np.ones(len(ends), dtype=bool) if start is None else begins > start - 1e-3
+        if not self.kept.any():
+            raise InputError(f"{run.folder}: no part of micro.txt begins after strain {start:g}; the last one begins at {begins[-1]:.2f}")
+        self.micro = {name: values[self.kept] for name, values in micro.items()}
+        self.pressure = -(self.micro["n_yy"] + self.micro["t_yy"])
+
+    def tables(self, name):
+        """Columns of a file of tables, one table per part of the run, as arrays (parts, rows)."""
+        columns = read_blocks(self.run.folder, name)
+        if len(columns["bin"]) != len(self.kept):
+            raise InputError(f"{self.run.folder}: {name} has {len(columns['bin'])} tables, micro.txt {len(self.kept)} rows; "
+                             "they must be of one run")
+        return {column: values[self.kept] for column, values in columns.items()}
+
+    def micro_means(self):
+        micro, pressure = self.micro, self.pressure
+        stress = {name: micro[name] / pressure for name in MEASURED if name[:2] in ("n_", "t_")}
+        total = {c: stress[f"n_{c}"] + stress[f"t_{c}"] for c in ("xx", "yy", "zz")}
+        fabric = {name: micro[name] for name in MEASURED if name.startswith("F_")}
+        rows = {**stress, **fabric, "N1": total["xx"] - total["yy"], "N2": total["yy"] - total["zz"],
+                "instant_n": micro["instant_n"], "instant_t": micro["instant_t"],
+                "dv_x/dv_y": micro["dv_x"] / micro["dv_y"], "dv_x/dv_z": micro["dv_x"] / micro["dv_z"],
+                "E_rot/E_tr": micro["E_rot"] / micro["E_tr"], "lever": micro["lever"],
+                "spin_fluctuation": np.sqrt(sum(micro[f"dw_{axis}"] ** 2 for axis in "xyz")) / self.rate,
+                "idle": 100 * micro["idle"], "layering": micro["layering"]}
+        return {name: mean_and_error(values) for name, values in rows.items()} | {"fabric_deviator": self.fabric_deviator()}
+
+    def fabric_deviator(self):
+        """sqrt(3/2 F':F') of the mean tensor, its error from the parts."""
+        def deviator(fabric):
+            diagonal = sum((fabric[f"F_{c}"] - 1 / 3) ** 2 for c in ("xx", "yy", "zz"))
+            return np.sqrt(1.5 * (diagonal + 2 * sum(fabric[f"F_{c}"] ** 2 for c in ("xy", "xz", "yz"))))
+        mean = {name: values.mean() for name, values in self.micro.items() if name.startswith("F_")}
+        return deviator(mean), mean_and_error(deviator(self.micro))[1]
+
+    def correlation(self, component, table):
+        """C(r) of vy or wz: ratio of sums over the steady state. Bins without pairs are left out."""
+        pairs, sums = table["pairs"].sum(axis=0), table[component].sum(axis=0)
+        filled = pairs > 0
+        return table["r"].mean(axis=0)[filled] / self.diameter, sums[filled] / pairs[filled] / self.micro[f"{component}2"].mean()
+
+    def correlation_length(self, component, table):
+        """l of exp(-r/l), and its error: that of the fit, or from the spread over the parts if that is larger."""
+        length, error = fit_decay(*self.correlation(component, table))
+        single = []
+        for r, sums, pairs, square in zip(table["r"], table[component], table["pairs"], self.micro[f"{component}2"]):
+            filled = pairs > 0
+            single.append(fit_decay(r[filled] / self.diameter, sums[filled] / pairs[filled] / square)[0])
+        return length, max(error, mean_and_error(single)[1])
+
+    def memory(self):
+        table = read_blocks(self.run.folder, "memory.txt")
+        filled = table["pairs"][-1] > 0
+        return {"lag": table["lag"][-1][filled], "vy": table["C"][-1][filled]}
+
+    def layering(self):
+        table = self.tables("layering.txt")
+        density = table["C"].mean(axis=0)
+        return {"y": table["lag"].mean(axis=0) / self.diameter, "C": density / density[0]}
+
     def surface(self):
-        """Contacts on the grain by psi, each column one array over the bins: ratios of sums over all contacts of the steady state.
-        Densities are over the exact areas; the `printed` ones over those of printed_shares."""
-        table = self.blocks("surface.txt")
+        """Contacts on the grain by psi: ratios of sums over all contacts of the steady state. Densities are over the exact areas; the
+        `printed` ones over those of printed_shares."""
+        table = self.tables("surface.txt")
         contacts, area = table["contacts"].sum(axis=0), table["A"].mean(axis=0)
         power = (table["P_n"] + table["P_t"]).sum(axis=0)
-        share = area / area.sum()
+        share, printed = area / area.sum(), printed_shares(self.run.parameters["alpha"], len(area))
         columns = {name: table[f"sum_{name}"].sum(axis=0) / np.maximum(contacts, 1e-300)
                    for name in ("F_n", "F_t", "mobilisation", "sliding")}
-        printed = printed_shares(self.alpha, len(area))
         return {"psi": table["psi"][0], "density": contacts / contacts.sum() / share, "inhomogeneity": power / power.sum() / share,
                 "printed density": contacts / contacts.sum() / printed, "printed inhomogeneity": power / power.sum() / printed, **columns}
 
     def directions(self):
-        """Contact normals by the angle to the flow: beta, density, F_n/PA_p, F_t/PA_p."""
-        table = self.blocks("direction.txt")
+        table = self.tables("direction.txt")
         contacts = table["contacts"].sum(axis=0)
         width = 2 * np.pi / contacts.size
         scale = self.pressure.mean() * self.micro["A_p"].mean()
         forces = {name: table[f"sum_{name}"].sum(axis=0) / np.maximum(contacts, 1e-300) / scale for name in ("F_n", "F_t")}
         return {"beta": table["beta"][0], "density": contacts / contacts.sum() / width, **forces}
 
-    def displacement(self, axis):
-        """Strain, mean square displacement over d^2, and its straight line, of axis x, y or z."""
-        table, _ = read_table(self.run.folder / "displacement.txt")
-        strain, squares = table["strain"], table[f"{axis}2"] / self.diameter**2
-        slope = 2 * table[f"D_{axis}"][-1] / self.diameter**2
-        return strain, squares, squares.mean() + slope * (strain - strain.mean())
+    def displacement(self):
+        """Mean square displacements, and half their slopes with errors from the slopes of four parts of the strain."""
+        table, _ = read_table(self.run.folder, "displacement.txt")
+        reached = table["step"] * self.run.parameters["dt"] * self.rate
+        rows = reached > (0 if self.start is None else self.start - 1e-3)
+        strain = table["strain"][rows]
+        curves, slopes = {"strain": strain}, {}
+        for axis in ("y", "z"):
+            squares = curves[f"{axis}2"] = table[f"{axis}2"][rows] / self.diameter**2
+            quarters = [np.polyfit(x, y, 1)[0] / 2 for x, y in zip(np.array_split(strain, 4), np.array_split(squares, 4)) if len(x) > 2]
+            error = np.std(quarters, ddof=1) / np.sqrt(len(quarters)) if len(quarters) > 1 else 0.0
+            slopes[f"D_{axis}"] = (np.polyfit(strain, squares, 1)[0] / 2 if len(strain) > 1 else 0.0, error)
+        return curves, slopes
 
-    def diffusion(self, axis):
-        """D/(rate d^2) of axis x, y or z, and 0: one run gives no error."""
-        table, _ = read_table(self.run.folder / "displacement.txt")
-        return table[f"D_{axis}"][-1] / self.diameter**2, 0.0
+
+def measured_all(run, start):
+    """Means and curves of the files of `measure all`."""
+    blocks = Blocks(run, start)
+    correlation = blocks.tables("correlation.txt")
+    r, vy = blocks.correlation("vy", correlation)
+    displacement, diffusion = blocks.displacement()
+    means = blocks.micro_means() | {f"l_{c}": blocks.correlation_length(c, correlation) for c in ("vy", "wz")} | diffusion
+    curves = {"correlation": {"r": r, "vy": vy, "wz": blocks.correlation("wz", correlation)[1]}, "memory": blocks.memory(),
+              "layering": blocks.layering(), "surface": blocks.surface(), "direction": blocks.directions(), "displacement": displacement}
+    return means, curves
+
+
+def steady_run(run, start=None):
+    """The steady state of a run, from strain `start` on."""
+    rows = run.steady(start)
+    means = {name: mean_and_error(run[name][rows]) for name in SERIES}
+    pressure, error = means["P"]
+    reached = run.parameters["I"] / np.sqrt(pressure)
+    means["I_reached"] = reached, 0.5 * reached * error / pressure
+    volume, area = solid_volume_and_area(run)
+    height, error = mean_and_error(volume / area / run["phi"][rows])
+    means["L_y"] = height / run.parameters["d_eq"], error / run.parameters["d_eq"]
+    curves = {}
+    if run.measured_all:
+        more, curves = measured_all(run, start)
+        means |= more
+    return SteadyRun(run.name, dict(run.parameters), means, curves)

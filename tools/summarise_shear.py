@@ -5,7 +5,7 @@ import sys
 
 import numpy as np
 
-from shear_measures import Measures
+from shear_measures import steady_run
 from shear_output import InputError, mean_and_error, read_run
 
 # Column, title, factor
@@ -16,13 +16,13 @@ ROWS = [("P", "pressure / target", 1), ("mu_eff", "effective friction", 1), ("ph
 
 
 # Title and (mean, error) of what `measure all` adds
-MEASURED = [("velocity fluctuation / rate d", lambda m: m.lever), ("spin fluctuation / rate", lambda m: m.spin_fluctuation),
-            ("rotational / transl. energy", lambda m: m.rotational_over_translational), ("N1 / P", lambda m: m.N1),
-            ("N2 / P", lambda m: m.N2),
-            ("shear stress / P, tangential", lambda m: m.stress("t", "xy")), ("fabric deviator", lambda m: m.fabric_deviator),
-            ("correlation length / d", lambda m: np.array(m.correlation_length()) / m.diameter),
-            ("diffusion / rate d2, gradient", lambda m: m.diffusion("y")), ("diffusion / rate d2, vorticity", lambda m: m.diffusion("z")),
-            ("grains with < 2 contacts [%]", lambda m: m.idle)]
+MEASURED = [("velocity fluctuation / rate d", lambda m: m["lever"]), ("spin fluctuation / rate", lambda m: m["spin_fluctuation"]),
+            ("rotational / transl. energy", lambda m: m["E_rot/E_tr"]), ("N1 / P", lambda m: m["N1"]),
+            ("N2 / P", lambda m: m["N2"]),
+            ("shear stress / P, tangential", lambda m: m["t_xy"]), ("fabric deviator", lambda m: m["fabric_deviator"]),
+            ("correlation length / d", lambda m: m["l_vy"]),
+            ("diffusion / rate d2, gradient", lambda m: m["D_y"]), ("diffusion / rate d2, vorticity", lambda m: m["D_z"]),
+            ("grains with < 2 contacts [%]", lambda m: m["idle"])]
 
 
 def text_of(mean, error):
@@ -37,7 +37,7 @@ def with_error(values):
 
 def measured(run, start):
     """What `measure all` adds, as pairs (name, text)."""
-    found = Measures(run, start) if run.measured_all else None
+    found = steady_run(run, start) if run.measured_all else None
     return [(title, text_of(*value(found)) if found else "-") for title, value in MEASURED]
 
 

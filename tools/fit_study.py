@@ -1,0 +1,38 @@
+#!/usr/bin/python3
+"""Fits to a study's table: fits.csv (Eqs. 5 and 6, power laws of Figs. 4 and 6 and of the diffusion, I_c ~ mu^p), each parameter with its
+standard error, and crossovers.csv (the points with P_t = P_n, Fig. 3)."""
+import argparse
+from dataclasses import asdict, fields
+from pathlib import Path
+import sys
+
+from grid_fits import Crossover, Fitted, all_fits, crossovers, kinds
+from shear_output import InputError
+from study_table import largest, over_seeds, read_study, text, write_csv
+
+
+def names_of(record):
+    return [field.name for field in fields(record)]
+
+
+def cells(record):
+    return ["" if value != value else int(value) if isinstance(value, bool) else text(value) for value in asdict(record).values()]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("study", help="folder of table.csv and curves")
+    parser.add_argument("--output", default=".", type=Path, metavar="FOLDER", help="where the files go (default: here)")
+    arguments = parser.parse_args()
+    try:
+        runs = largest(over_seeds(read_study(arguments.study)))
+        arguments.output.mkdir(parents=True, exist_ok=True)
+        write_csv(arguments.output / "fits.csv", names_of(Fitted), map(cells, all_fits(runs)))
+        write_csv(arguments.output / "crossovers.csv", ["powers", *names_of(Crossover)],
+                  [[kind, *cells(point)] for kind in kinds(runs) for point in crossovers(runs, kind)])
+    except (InputError, OSError) as error:
+        sys.exit(f"fit_study.py: {error}")
+
+
+if __name__ == "__main__":
+    main()

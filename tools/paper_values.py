@@ -1,0 +1,180 @@
+"""What the paper (and where named, others) published, as comparisons with a study's steady runs. Each gives value and error, or None where the
+runs do not hold it."""
+from dataclasses import dataclass
+from typing import Callable
+
+import numpy as np
+
+from grid_fits import crossovers, critical_values, laws_of_crossover, laws_of_inertia, laws_of_shape, sizes
+
+SLIDING, ROLLING = 0.4, 10
+
+
+@dataclass
+class Published:
+    """relation: '=' within the tolerance and twice the error, '<' or '>' beyond twice the error."""
+    quantity: str
+    relation: str
+    value: float
+    tolerance: float
+    source: str
+    measure: Callable
+
+
+def nearest_inertia(runs, inertial):
+    return min({run.I for run in runs}, key=lambda found: abs(np.log(found / inertial)))
+
+
+def one(runs, name, **wanted):
+    """(mean, error) of a run, at the inertial number nearest to 0.01 unless another is wanted."""
+    wanted = {"I": nearest_inertia(runs, wanted.pop("I", 0.01)), **wanted}
+    return next((run[name] for run in runs if name in run.means and all(run.parameters[key] == value for key, value in wanted.items())), None)
+
+
+def fitted(laws, fit, parameter, **wanted):
+    """(value, error) of a fit."""
+    return next(((law.value, law.error) for law in laws if law.fit == fit and law.parameter == parameter
+                 and all(getattr(law, key) == value for key, value in wanted.items())), None)
+
+
+def exponent(name, alpha, mu):
+    def measure(runs):
+        mu_of_run = min({run.mu for run in runs}) if mu == 0 else mu
+        return fitted(laws_of_inertia([run for run in runs if run.alpha == alpha and run.mu == mu_of_run]), f"{name} ~ I^x", "x")
+    return measure
+
+
+def shape_slope(name, side, mu):
+    def measure(runs):
+        inertial = nearest_inertia(runs, 0.01)
+        mu_of_run = min({run.mu for run in runs}) if mu == 0 else mu
+        chosen = [run for run in runs if run.mu == mu_of_run and run.I == inertial]
+        return fitted(laws_of_shape(chosen), f"{name} ~ M^x, {side}", "x")
+    return measure
+
+
+def crossover_exponent(alpha):
+    return lambda runs: fitted(laws_of_crossover([run for run in runs if run.alpha == alpha]), "I_c ~ mu^p, W", "p")
+
+
+def crossover_at(runs, alpha, mu):
+    return next(((c.I, c.I_error) for c in crossovers([run for run in runs if run.alpha == alpha])
+                 if c.sliding_above and c.I_error > 0 and np.isclose(c.mu, mu)), None)
+
+
+def rolling_at(runs, alpha, inertial):
+    inertial = nearest_inertia(runs, inertial)
+    chosen = [run for run in runs if run.alpha == alpha and run.I == inertial]
+    return next(((c.mu, c.mu_error) for c in crossovers(chosen) if not c.sliding_above), None)
+
+
+def ratio(first, second):
+    """(value, error) of a quotient of two pairs."""
+    if first is None or second is None:
+        return None
+    value = first[0] / second[0]
+    return value, abs(value) * np.hypot(first[1] / first[0], second[1] / second[0])
+
+
+def crossover_ratio(alpha, other):
+    return lambda runs: ratio(crossover_at(runs, alpha, 0.01), crossover_at(runs, other, 0.01))
+
+
+def rolling_ratio(alpha, other):
+    return lambda runs: ratio(rolling_at(runs, alpha, 0.1), rolling_at(runs, other, 0.1))
+
+
+def correlation_length(runs):
+    """The largest l/L_y at I = 0.1."""
+    found = [ratio(run["l_vy"], run["L_y"]) for run in runs if run.I == nearest_inertia(runs, 0.1) and "l_vy" in run.means]
+    return max(found, default=None)
+
+
+def friction_of_longest(runs):
+    """The friction coefficient whose correlation length at I = 0.1, averaged over the shapes, is largest."""
+    chosen = [run for run in runs if run.I == nearest_inertia(runs, 0.1) and "l_vy" in run.means]
+    means = {mu: np.mean([run["l_vy"][0] for run in chosen if run.mu == mu]) for mu in {run.mu for run in chosen}}
+    return (max(means, key=means.get), 0.0) if means else None
+
+
+def critical(name, alpha, mu):
+    def measure(runs):
+        mu_of_run = min({run.mu for run in runs}) if mu == 0 else mu
+        chosen = [run for run in runs if run.alpha == alpha and run.mu == mu_of_run]
+        return next((pair for _, _, pair in critical_values(chosen, name)), None)
+    return measure
+
+
+def fabric_angle(runs):
+    """Angle of the largest eigenvector of the fabric of spheres to the flow [deg], and what the errors of its components make of it."""
+    inertial = nearest_inertia(runs, 0.01)
+    run = next((run for run in runs if run.alpha == 1 and run.mu == SLIDING and run.I == inertial and "F_xy" in run.means), None)
+    if run is None:
+        return None
+    _, axes = run.fabric_axes()
+    spread = np.hypot(run["F_xx"][1], run["F_yy"][1]) / (4 * abs(run["F_xy"][0]))
+    return np.degrees(np.arctan2(axes[0, 1], axes[0, 0])), np.degrees(spread)
+
+
+def extreme(name, choose, shapes=lambda alpha: True):
+    """The largest or smallest value among all runs."""
+    return lambda runs: choose([run[name] for run in runs if name in run.means and shapes(run.alpha)], default=None)
+
+
+def friction_share(runs):
+    """Share of friction in the loss of the flattest shape in the sliding regime."""
+    flattest = min(run.alpha for run in runs)
+    normal, friction = one(runs, "W_n", alpha=flattest, mu=SLIDING), one(runs, "W_t", alpha=flattest, mu=SLIDING)
+    if normal is None:
+        return None
+    share = friction[0] / (normal[0] + friction[0])
+    return share, share * (1 - share) * np.hypot(normal[1] / normal[0], friction[1] / friction[0])
+
+
+def size_effect(runs):
+    """The largest relative change of mu between the two largest systems of one shape and friction."""
+    changes = []
+    groups = sizes(runs)
+    for alpha, mu in {key[:2] for key in groups}:
+        (_, small), (_, large) = sorted((key[2], line) for key, line in groups.items() if key[:2] == (alpha, mu))[-2:]
+        for run in large:
+            changes += [ratio(run["mu_eff"], other["mu_eff"]) for other in small if other.I == run.I]
+    return max(((abs(value - 1), error) for value, error in changes), default=None)
+
+
+PUBLISHED = [
+    Published("spin -2<omega_z>/rate of spheres, mu = 0.4", "=", 1, 0.01, "Fig. 2c", lambda runs: one(runs, "spin", alpha=1, mu=SLIDING)),
+    *(Published(f"I_c ~ mu^p, alpha = {alpha:g}", "=", 2, 0.1, "Fig. 3, \"roughly\"", crossover_exponent(alpha)) for alpha in (0.5, 0.67, 1, 1.5, 2)),
+    *(Published(f"I_c at mu = 0.01, alpha = {alpha:g} over that of spheres", ">", 1, 0, "Fig. 3", crossover_ratio(alpha, 1))
+      for alpha in (0.5, 0.67, 1.5, 2)),
+    *(Published(f"I_c at mu = 0.01, alpha = {flat:g} over {long:g}", ">", 1, 0, "Fig. 3", crossover_ratio(flat, long))
+      for flat, long in ((0.67, 1.5), (0.5, 2))),
+    *(Published(f"mu where rolling begins at I = 0.1, alpha = {one_:g} over {other:g}", ">", 1, 0, "Fig. 3", rolling_ratio(one_, other))
+      for one_, other in ((1.5, 1), (0.67, 1.5), (0.5, 2))),
+    Published("P_n ~ M^x, mu -> 0, I ~ 0.01, long", "=", -0.90, 0.05, "Fig. 4", shape_slope("W_n", "long", 0)),
+    Published("P_n ~ M^x, mu -> 0, I ~ 0.01, flat", "=", -0.96, 0.05, "Fig. 4", shape_slope("W_n", "flat", 0)),
+    Published("P_t ~ M^x, mu = 0.1, I ~ 0.01, long", "=", -0.30, 0.05, "Fig. 4", shape_slope("W_t", "long", 0.1)),
+    Published("P_t ~ M^x, mu = 0.1, I ~ 0.01, flat", "=", -0.33, 0.05, "Fig. 4", shape_slope("W_t", "flat", 0.1)),
+    Published("friction's share of the loss, flattest shape, mu = 0.4, I ~ 0.01", ">", 0.95, 0, "Sec. III B, \"virtually all\"", friction_share),
+    Published("E_rot/E_tr, alpha = 1.5, mu -> 0, I ~ 0.01", ">", 1, 0, "Fig. 5c",
+              lambda runs: one(runs, "E_rot/E_tr", alpha=1.5, mu=min({run.mu for run in runs}))),
+    Published("E_rot/E_tr of spheres, mu = 10, I ~ 0.01", "=", 1, 0.1, "Fig. 5c", lambda runs: one(runs, "E_rot/E_tr", alpha=1, mu=ROLLING)),
+    Published("velocity fluctuation ~ I^x, mu -> 0, alpha = 1.5", "=", -0.49, 0.02, "Fig. 6", exponent("lever", 1.5, 0)),
+    Published("velocity fluctuation ~ I^x, mu = 0.4, alpha = 1", "=", -0.19, 0.02, "Fig. 6", exponent("lever", 1, SLIDING)),
+    Published("velocity fluctuation ~ I^x, mu = 10, alpha = 1", "=", -0.46, 0.02, "Fig. 6", exponent("lever", 1, ROLLING)),
+    Published("spin fluctuation ~ I^x, mu -> 0, alpha = 1.5", "=", -0.54, 0.02, "Fig. 6", exponent("spin_fluctuation", 1.5, 0)),
+    Published("spin fluctuation ~ I^x, mu = 0.4, alpha = 1", "=", -0.25, 0.02, "Fig. 6", exponent("spin_fluctuation", 1, SLIDING)),
+    Published("spin fluctuation ~ I^x, mu = 10, alpha = 1", "=", -0.47, 0.02, "Fig. 6", exponent("spin_fluctuation", 1, ROLLING)),
+    Published("mu_c of spheres, mu -> 0", "=", 0.10, 0.01, "Peyneau & Roux 2008", critical("mu_c", 1, 0)),
+    Published("phi_c of spheres, mu -> 0", "=", 0.64, 0.005, "Peyneau & Roux 2008", critical("phi_c", 1, 0)),
+    Published("largest Z of spheres", "<", 6, 0, "Fig. 7", extreme("Z", max, lambda alpha: alpha == 1)),
+    Published("largest Z of other shapes", "<", 10, 0, "Fig. 7", extreme("Z", max, lambda alpha: alpha != 1)),
+    Published("mu_c at mu = 10 over that at mu = 1, alpha = 0.5", "<", 1, 0, "Fig. 8",
+              lambda runs: ratio(critical("mu_c", 0.5, ROLLING)(runs), critical("mu_c", 0.5, 1)(runs))),
+    Published("largest l/L_y at I = 0.1", "<", 0.16, 0, "Sec. III D", correlation_length),
+    Published("mu of the largest l at I = 0.1", "=", 0.4, 0.61, "Fig. 9b, 0.1 to 1", friction_of_longest),
+    Published("angle of the fabric of spheres to the flow [deg], mu = 0.4, I ~ 0.01", "=", -45, 5, "Fig. 10", fabric_angle),
+    Published("largest change of mu with N", "<", 0.02, 0, "Fig. 14, N = 2000 to 4000", size_effect),
+    Published("largest N2/P", "<", 0, 0, "Fig. 15", extreme("N2", max)),
+    Published("D_y ~ I^x, mu -> 0, alpha = 1", "=", -1 / 8, 0.03, "App. E", exponent("D_y", 1, 0)),
+]

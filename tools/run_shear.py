@@ -1,0 +1,109 @@
+#!/usr/bin/python3
+"""Runs examples/simple_shear, or takes up what an earlier attempt left in the output folder: one that was killed, or one that ended at a
+smaller strain. Screen output goes to screen.txt there, one attempt after the other, the variables to variables.txt, and what each attempt
+that ended cost to cost.txt. Ends with an error, and the reason that the run gave, if the run failed."""
+import argparse
+import os
+from pathlib import Path
+import subprocess
+import sys
+import time
+
+DECK = Path(__file__).resolve().parents[1] / "examples" / "simple_shear" / "in.simple_shear"
+NONE_WHOLE = "ERROR: read_restart: '"
+MAY_CHANGE = ("strain", "steady")
+COST = "# from[step] to[step] ranks wall[s] cpu[s] memory[B]\n"
+
+
+def command(arguments, resume):
+    launcher = ["mpirun", "-np", str(arguments.ranks)] if arguments.ranks > 1 else []
+    variables = [f"{name}={value}" for name, value in arguments.variables] + [f"out={arguments.out}", f"resume={int(resume)}"]
+    options = [word for variable in variables for word in ("-var", *variable.split("=", 1))]
+    return [*launcher, arguments.binary, "-in", str(DECK), "-log", "none", *options]
+
+
+def check_variables(arguments):
+    """Refuses to take up a run with other variables than it began with; only the strain and the start of the averages may change."""
+    path = arguments.out / "variables.txt"
+    begun = dict(line.split("=", 1) for line in path.read_text().splitlines()) if path.exists() else {}
+    asked = dict(arguments.variables)
+    for name in sorted((begun.keys() | asked.keys()) - set(MAY_CHANGE)):
+        if begun.get(name) != asked.get(name):
+            sys.exit(f"run_shear.py: {arguments.out}: {name} must stay what the run began with, {begun.get(name, 'the default')}, "
+                     f"got {asked.get(name, 'the default')}; use another folder, or remove this one to start again")
+
+
+def last_row(path):
+    return path.read_text().splitlines()[-1].split() if path.exists() else []
+
+
+def strain_reached(out):
+    """Strain at which the last attempt ended; 0 when it did not end."""
+    parameters, cost = last_row(out / "parameters.txt"), last_row(out / "cost.txt")
+    return float(parameters[5]) if cost and parameters and parameters[-2:] == cost[1::-1] else 0.0
+
+
+def write_cost(arguments, wall, usage):
+    """Adds the attempt that ended to cost.txt: the cpu time of all ranks, and the memory of the largest."""
+    steps, begun = last_row(arguments.out / "parameters.txt")[-2:]
+    path = arguments.out / "cost.txt"
+    header = COST if begun == "0" or not path.exists() else ""
+    with path.open("w" if begun == "0" else "a") as table:
+        cpu = usage.ru_utime + usage.ru_stime
+        table.write(f"{header}{begun} {steps} {arguments.ranks} {wall:.2f} {cpu:.2f} {1024 * usage.ru_maxrss}\n")
+
+
+def attempt(arguments, resume):
+    """Exit status of one attempt, and what it printed."""
+    screen = arguments.out / "screen.txt"
+    begin = time.monotonic()
+    with screen.open("ab") as output:
+        end_of_earlier = output.tell()
+        run = subprocess.Popen(command(arguments, resume), stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT)
+        _, status, usage = os.wait4(run.pid, 0)
+        run.returncode = os.waitstatus_to_exitcode(status)
+    if run.returncode == 0:
+        write_cost(arguments, time.monotonic() - begin, usage)
+    with screen.open("rb") as text:
+        text.seek(end_of_earlier)
+        return run.returncode, text.read().decode(errors="replace")
+
+
+def variable(text):
+    name, equals, value = text.partition("=")
+    if not (name and equals and value):
+        raise argparse.ArgumentTypeError(f"a variable must be name=value, got '{text}'")
+    return name, value
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("out", type=Path, help="output folder of the run")
+    parser.add_argument("variables", nargs="+", type=variable, metavar="name=value", help="variables of the deck, such as alpha=1.5")
+    parser.add_argument("--binary", default="grainscope", help="the program (default: grainscope, on the PATH)")
+    parser.add_argument("--ranks", type=int, default=1, help="MPI ranks (default: 1, without mpirun)")
+    arguments = parser.parse_args()
+    try:
+        arguments.out.mkdir(parents=True, exist_ok=True)
+        files = list(arguments.out.glob("*.restart"))
+        if files:
+            check_variables(arguments)
+            reached = strain_reached(arguments.out)
+            if reached >= float(dict(arguments.variables).get("strain", "inf")):
+                print(f"run_shear.py: {arguments.out}: ended at strain {reached:g} before, nothing to do")
+                return
+        (arguments.out / "variables.txt").write_text("".join(f"{name}={value}\n" for name, value in arguments.variables))
+        status, output = attempt(arguments, resume=bool(files))
+        if status and len(files) == 1 and NONE_WHOLE in output:
+            print(f"run_shear.py: {arguments.out}: the first restart file was not whole yet, starting again", file=sys.stderr)
+            status, output = attempt(arguments, resume=False)
+    except (OSError, ValueError) as error:
+        sys.exit(f"run_shear.py: {arguments.out}: {error}")
+    if status:
+        reason = [line for line in output.splitlines() if line.startswith("ERROR")] or output.splitlines()[-1:]
+        how = f"killed by signal {-status}" if status < 0 else f"exit status {status}"
+        sys.exit(f"run_shear.py: {arguments.out}: {how}: {' '.join(reason)}")
+
+
+if __name__ == "__main__":
+    main()

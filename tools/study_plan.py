@@ -1,0 +1,101 @@
+"""The runs of a study: reads its configuration (examples/study/config.yaml) and tells every run's name, variables and cost."""
+from dataclasses import dataclass
+from itertools import product
+
+from cost_model import memory_of, seconds_of
+
+LISTS = ("alpha", "mu", "I", "N", "seed", "e")
+NUMBERS = {"strain": 16.0, "steady": 6.0, "part": 0.125, "ranks": 1, "speed": 1.0}
+OTHERS = {"measure": "all", "exceptions": (), "output": "study-output", "program": "build/release/bin/grainscope", "partial": 0}
+WHOLE = ("N", "seed", "ranks")
+MAY_BE_ZERO = ("mu", "steady")
+
+
+class PlanError(Exception):
+    """A configuration that is not what it should be; the message names the keyword, the requirement and the value."""
+
+
+@dataclass
+class PlannedRun:
+    name: str
+    variables: dict     # of the deck
+    ranks: int
+    seconds: float      # wall time that the cost model expects, on all ranks
+    memory: float       # bytes, all ranks
+
+
+def figures_of(measure):
+    """File names of the figures that runs with this `measure` can give: the paper's numbers, and two that it tells in words."""
+    basic = ["fig02", "fig03", "fig04", "fig07", "fig08", "fig14"]
+    more = ["fig05", "fig06", "fig09", "fig10", "fig11", "fig12", "fig15", "fig16", "fig17", "fig18", "memory", "layering"]
+    return [f"{name}.png" for name in basic + (more if measure == "all" else [])]
+
+
+def checked(name, value):
+    """The value of a keyword, if it is a number that the keyword may have."""
+    requirement = ("a whole number" if name in WHOLE else "a number") + (" of at least 0" if name in MAY_BE_ZERO else " above 0")
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or value < 0 or (value == 0 and name not in MAY_BE_ZERO) \
+            or (name in WHOLE and value != int(value)) or value != value or value == float("inf"):
+        raise PlanError(f"{name} must be {requirement}, got {value!r}")
+    return int(value) if name in WHOLE else value
+
+
+def checked_list(name, values):
+    if not isinstance(values, (list, tuple)) or not values:
+        raise PlanError(f"{name} must be a list of at least one number, got {values!r}")
+    found = [checked(name, value) for value in values]
+    if len(set(found)) < len(found):
+        raise PlanError(f"{name} must not name a value twice, got {values!r}")
+    return found
+
+
+def checked_exception(number, exception):
+    """The conditions and the values of an entry of `exceptions`."""
+    if not isinstance(exception, dict) or set(exception) != {"where", "use"} or not all(isinstance(part, dict) for part in exception.values()):
+        raise PlanError(f"exceptions: entry {number} must be {{where: {{...}}, use: {{...}}}}, got {exception!r}")
+    for name in exception["where"]:
+        if name not in LISTS:
+            raise PlanError(f"exceptions: entry {number}: where must name {', '.join(LISTS)}, got '{name}'")
+    allowed = ("N", "e", "strain", "steady", "part", "ranks")
+    for name, value in exception["use"].items():
+        if name not in allowed:
+            raise PlanError(f"exceptions: entry {number}: use must name {', '.join(allowed)}, got '{name}'")
+        checked(name, value)
+    return exception["where"], exception["use"]
+
+
+def planned_run(values, measure):
+    if values["steady"] >= values["strain"]:
+        raise PlanError(f"steady must be less than strain = {values['strain']:g}, got {values['steady']:g}, for "
+                        + ", ".join(f"{name} = {values[name]:g}" for name in LISTS))
+    name = "_".join(f"{name}{values[name]:.10g}" for name in LISTS if name != "e") + (f"_e{values['e']:g}" if values["e"] != 0.1 else "")
+    variables = {name: f"{values[name]:.10g}" for name in (*LISTS, "strain", "steady", "part")}
+    seconds = seconds_of(values["alpha"], values["I"], values["N"], values["strain"], values["ranks"], values["speed"])
+    return PlannedRun(name, {**variables, "measure": measure}, values["ranks"], seconds, memory_of(values["N"], values["ranks"]))
+
+
+def plan(config):
+    """The runs of a configuration by name, in the order of the lists."""
+    unknown = sorted(set(config) - set(LISTS) - set(NUMBERS) - set(OTHERS))
+    if unknown:
+        raise PlanError(f"keywords must be among {', '.join([*LISTS, *NUMBERS, *OTHERS])}, got '{unknown[0]}'")
+    missing = [name for name in LISTS[:4] if name not in config]
+    if missing:
+        raise PlanError(f"{missing[0]} must be a list of at least one number, got nothing")
+    lists = [checked_list(name, config.get(name, {"seed": [15485863], "e": [0.1]}.get(name))) for name in LISTS]
+    numbers = {name: checked(name, config.get(name, default)) for name, default in NUMBERS.items()}
+    measure = config.get("measure", OTHERS["measure"])
+    if measure not in ("basic", "all"):
+        raise PlanError(f"measure must be basic or all, got {measure!r}")
+    exceptions = [checked_exception(number, exception) for number, exception in enumerate(config.get("exceptions") or (), 1)]
+
+    runs = {}
+    for combination in product(*lists):
+        values = {**numbers, **dict(zip(LISTS, combination))}
+        axes = dict(values)
+        for where, use in exceptions:
+            if all(axes[name] == value for name, value in where.items()):
+                values.update(use)
+        run = planned_run(values, measure)
+        runs[run.name] = run
+    return runs

@@ -1,0 +1,184 @@
+#!/usr/bin/python3
+"""Collects runs of examples/simple_shear into tables: table.csv has a row for each run, the files in curves/ their profiles, and
+columns.csv tells the unit and meaning of every column. The figures, the fits and the comparison of a study are made from these alone."""
+import argparse
+import csv
+from pathlib import Path
+import sys
+
+import numpy as np
+
+from shear_measures import ALWAYS, CURVES, MEASURED, SERIES, SteadyRun, steady_run
+from shear_output import InputError, read_run, read_rows
+
+LONGEST = 100       # points of a curve that are kept, about
+TOLERANCE = 0.1     # of the inertial number reached, over its target; runs beyond it are flagged
+PARAMETERS = {"run": ("", "name of the run"), "alpha": ("-", "aspect ratio c/a"), "mu": ("-", "coefficient of friction"),
+              "I": ("-", "inertial number of the target pressure"), "N": ("-", "grains"), "seed": ("-", "of the initial places"),
+              "e": ("-", "coefficient of restitution"), "strain": ("-", "final shear strain"),
+              "steady": ("-", "strain from which averages are taken"), "d_eq": ("m", "diameter of the sphere of the nominal volume"),
+              "flagged": ("-", f"1 where I_reached is off I by more than {100 * TOLERANCE:g} %, else 0")}
+COST = {"steps": ("-", "time steps, without the 3000 that push the random start apart"),
+        "grain_step": ("s", "core time of one grain for one step, of the attempts that ended"),
+        "core_time": ("s", "core time of the attempts that ended"), "memory": ("B", "largest memory of a rank"),
+        "bytes": ("B", "size of all files of the run")}
+MEANS = {**SERIES, **ALWAYS, **MEASURED}
+
+
+def cost_of(run):
+    """Columns of COST; those of the core time are missing if tools/run_shear.py did not write them."""
+    costs = {"steps": run.parameters["steps"], "bytes": sum(path.stat().st_size for path in run.folder.rglob("*") if path.is_file())}
+    try:
+        _, _, rows = read_rows(run.folder / "cost.txt")
+    except InputError:
+        return costs
+    begin, end, _, _, cpu, memory = np.array(rows, dtype=float).T
+    steps = (end - begin).sum()
+    if steps > 0:
+        costs |= {"core_time": cpu.sum(), "grain_step": cpu.sum() / steps / run.parameters["N"]}
+    return costs | {"memory": memory.max()}
+
+
+def row_of(run, steady, start):
+    reached = steady["I_reached"][0]
+    row = {"run": run.name, **{name: run.parameters[name] for name in ("alpha", "mu", "I", "N", "seed", "e", "strain", "d_eq")}}
+    row["steady"] = run["strain"][run.steady(start)][0]
+    row["flagged"] = int(abs(reached / run.parameters["I"] - 1) > TOLERANCE)
+    for name, (mean, error) in steady.means.items():
+        row[name], row[f"{name}_error"] = mean, error
+    return row | cost_of(run)
+
+
+def header():
+    """Names of the columns of table.csv, with unit and meaning."""
+    for name, (unit, meaning) in {**PARAMETERS, **MEANS, **COST}.items():
+        yield name, unit, meaning
+        if name in MEANS:
+            yield f"{name}_error", unit, "its standard error"
+
+
+def all_headers():
+    """File, name, unit and meaning of every column."""
+    yield from (("table.csv", *column) for column in header())
+    for curve, columns in CURVES.items():
+        yield f"curves/{curve}.csv", "run", "", "name of the run"
+        yield from ((f"curves/{curve}.csv", name, unit, meaning) for name, (unit, meaning) in columns.items())
+
+
+def text(value):
+    return value if isinstance(value, str) else f"{value:.10g}"
+
+
+def write_csv(path, names, rows):
+    with Path(path).open("w", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(names)
+        table.writerows(rows)
+
+
+def write_tables(runs, output):
+    """Writes all files for (run, start of its averages) pairs; progress to a terminal."""
+    rows, curves = [], {name: [] for name in CURVES}
+    for number, (run, start) in enumerate(runs, 1):
+        steady = steady_run(run, start)
+        rows.append(row_of(run, steady, start))
+        for curve, columns in steady.curves.items():
+            points = np.array([columns[name] for name in CURVES[curve]]).T
+            thin = points[::max(1, len(points) // LONGEST)]
+            curves[curve] += [(run.name, *(f"{value:.5g}" for value in point)) for point in thin]
+        if sys.stderr.isatty():
+            print(f"\r{number} of {len(runs)} runs", end="" if number < len(runs) else "\n", file=sys.stderr)
+    names = [name for name, _, _ in header()]
+    (output / "curves").mkdir(parents=True, exist_ok=True)
+    write_csv(output / "table.csv", names, [[text(row.get(name, "")) for name in names] for row in rows])
+    write_csv(output / "columns.csv", ["file", "column", "unit", "meaning"], all_headers())
+    for curve, points in curves.items():
+        write_csv(output / "curves" / f"{curve}.csv", ["run", *CURVES[curve]], points)
+
+
+def read_csv(path):
+    try:
+        with Path(path).open(newline="") as file:
+            return list(csv.DictReader(file))
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror}") from None
+
+
+def read_curves(folder):
+    """Curves of each run by name, as write_tables wrote them."""
+    found = {}
+    for curve, names in CURVES.items():
+        points = {}
+        for row in read_csv(folder / f"{curve}.csv"):
+            points.setdefault(row["run"], []).append([float(row[name]) for name in names])
+        for run, values in points.items():
+            found.setdefault(run, {})[curve] = dict(zip(names, np.array(values).T))
+    return found
+
+
+def read_study(folder):
+    """The steady runs of a folder with table.csv and curves."""
+    folder = Path(folder)
+    curves, runs = read_curves(folder / "curves"), []
+    for row in read_csv(folder / "table.csv"):
+        values = {name: float(value) for name, value in row.items() if name != "run" and value}
+        parameters = {name: values[name] for name in (*PARAMETERS, *COST) if name in values}
+        means = {name: (values[name], values[f"{name}_error"]) for name in MEANS if name in values}
+        runs.append(SteadyRun(row["run"], parameters, means, curves.get(row["run"], {})))
+    if not runs:
+        raise InputError(f"{folder / 'table.csv'}: it holds no run")
+    return runs
+
+
+def mean_curve(runs, name, column):
+    """Mean over the runs of a column of a curve, at the places of the first run's."""
+    over = next(iter(CURVES[name]))
+    return np.mean([np.interp(runs[0].curves[name][over], run.curves[name][over], run.curves[name][column]) for run in runs], axis=0)
+
+
+def mean_over(runs):
+    """One run in place of several that differ in their seeds: means of the means and curves; the error from the runs' own, or from their
+    spread where that is larger."""
+    if len(runs) == 1:
+        return runs[0]
+    means = {}
+    for name in runs[0].means:
+        values, errors = np.array([run.means[name] for run in runs if name in run.means]).T
+        means[name] = values.mean(), max(np.sqrt((errors**2).sum()) / len(values), values.std(ddof=1) / np.sqrt(len(values)))
+    curves = {name: {column: mean_curve(runs, name, column) for column in columns} for name, columns in runs[0].curves.items()}
+    return SteadyRun(f"{runs[0].name} and {len(runs) - 1} more", {**runs[0].parameters, "seeds": len(runs)}, means, curves)
+
+
+def over_seeds(runs):
+    """The runs with those that differ only in their seeds taken together."""
+    groups = {}
+    for run in runs:
+        groups.setdefault(tuple(run.parameters[name] for name in ("alpha", "mu", "I", "N", "e")), []).append(run)
+    return [mean_over(group) for group in groups.values()]
+
+
+def largest(runs):
+    """Of runs that differ only in their number of grains, the largest."""
+    best = {}
+    for run in runs:
+        key = tuple(run.parameters[name] for name in ("alpha", "mu", "I", "e"))
+        if key not in best or run.parameters["N"] > best[key].parameters["N"]:
+            best[key] = run
+    return list(best.values())
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("run", nargs="+", help="output folder of a run, or folder:strain with the strain from which averages are taken "
+                                               "(default: 6, or 4 below I = 0.01, at most half the run)")
+    parser.add_argument("--output", default=".", type=Path, metavar="FOLDER", help="where the tables go (default: here)")
+    arguments = parser.parse_args()
+    try:
+        pairs = [(folder, float(start) if start else None) for folder, _, start in (word.partition(":") for word in arguments.run)]
+        write_tables([(read_run(folder), start) for folder, start in pairs], arguments.output)
+    except (InputError, OSError, ValueError) as error:
+        sys.exit(f"study_table.py: {error}")
+
+
+if __name__ == "__main__":
+    main()
