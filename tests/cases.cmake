@@ -184,3 +184,15 @@ add_cases(lifetimes cases/lifetimes.py LABEL long RANKS 2 SECONDS 600 CASES comp
 add_cases(soak cases/soak.py LABEL case RANKS 1 2 CASES spheroids-over-1e4-steps)
 add_cases(soak cases/soak.py LABEL long RANKS 1 2 SECONDS 2000 CASES spheroids-over-1e5-steps)
 add_cases(soak cases/soak.py LABEL long RANKS 1 SECONDS 5400 CASES spheroids-over-1e6-steps spheres-over-1e6-steps)
+add_cases(study cases/study_config.py LABEL case RANKS 1 CASES
+  runs-of-lists exceptions numbers-that-yaml-takes-for-words example-is-valid steps-of-deck unknown-word empty-list no-list word-for-number
+  yes-for-number negative-friction half-a-grain not-finite twice steady-beyond-strain exception-steady measure exception-shape exception-where
+  exception-use exception-value ranks)
+add_cases(study-fits cases/study_fits.py LABEL case RANKS 1 CASES
+  friction-law fraction-law power-law without-errors decay refused crossing level-set laws-of-grid laws-of-shape seeds-and-sizes agreement
+  published-of-grid)
+add_cases(study cases/study_runs.py LABEL case RANKS 1 2 CASES killed-run-continues longer-strain-continues)
+add_cases(study cases/study_runs.py LABEL case RANKS 1 CASES
+  first-restart-cut no-restart-whole other-variables-refused reason-is-told means-of-files table-holds-everything)
+add_cases(study cases/study_workflow.py LABEL case RANKS 1 SECONDS 600 CASES
+  failing-runs-do-not-stop-others study-goes-on basic-measures bad-configuration)

@@ -33,6 +33,11 @@ def figures_of(measure):
 
 def checked(name, value):
     """The value of a keyword, if it is a number that the keyword may have."""
+    if isinstance(value, str):  # YAML takes 1e-3 for a word, and only 1.0e-3 for a number
+        try:
+            value = float(value)
+        except ValueError:
+            pass
     requirement = ("a whole number" if name in WHOLE else "a number") + (" of at least 0" if name in MAY_BE_ZERO else " above 0")
     if isinstance(value, bool) or not isinstance(value, (int, float)) or value < 0 or (value == 0 and name not in MAY_BE_ZERO) \
             or (name in WHOLE and value != int(value)) or value != value or value == float("inf"):
@@ -57,11 +62,10 @@ def checked_exception(number, exception):
         if name not in LISTS:
             raise PlanError(f"exceptions: entry {number}: where must name {', '.join(LISTS)}, got '{name}'")
     allowed = ("N", "e", "strain", "steady", "part", "ranks")
-    for name, value in exception["use"].items():
+    for name in exception["use"]:
         if name not in allowed:
             raise PlanError(f"exceptions: entry {number}: use must name {', '.join(allowed)}, got '{name}'")
-        checked(name, value)
-    return exception["where"], exception["use"]
+    return tuple({name: checked(name, value) for name, value in exception[part].items()} for part in ("where", "use"))
 
 
 def planned_run(values, measure):

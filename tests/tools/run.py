@@ -29,7 +29,8 @@ def binary():
 ALONE = {"OMPI_MCA_ess_singleton_isolated": "1", "OMPI_MCA_pml": "ob1", "OMPI_MCA_btl": "self"}
 
 
-def _environment(ranks):
+def environment(ranks):
+    """Environment of a run on so many ranks."""
     env = dict(os.environ, OMP_NUM_THREADS="1", OMPI_MCA_btl_vader_single_copy_mechanism="none",
                OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_mpi_yield_when_idle="1")
     if ranks == 1:
@@ -133,7 +134,7 @@ class Started:
         (self.folder / "in.deck").write_text(_deck_text(deck))
         command = [*_command(ranks, binary()), "-in", "in.deck", "-log", "log.liggghts"]
         self._output = open(self.folder / "output", "w")
-        self._process = subprocess.Popen(command, cwd=self.folder, env=_environment(ranks), stdout=self._output, stderr=subprocess.STDOUT,
+        self._process = subprocess.Popen(command, cwd=self.folder, env=environment(ranks), stdout=self._output, stderr=subprocess.STDOUT,
                                          stdin=subprocess.DEVNULL, start_new_session=True, restore_signals=False)
 
     def kill(self):
@@ -188,7 +189,7 @@ def attempt(deck, ranks=1, folder=None, arguments=(), time_limit=TIME_LIMIT, pro
     (folder / "in.deck").write_text(_deck_text(deck))
     command = [*_command(ranks, program or binary()), "-in", "in.deck", "-log", "log.liggghts", *arguments]
     try:
-        done = subprocess.run(command, cwd=folder, env=_environment(ranks), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+        done = subprocess.run(command, cwd=folder, env=environment(ranks), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                               stdin=subprocess.DEVNULL, timeout=time_limit * TIME_SCALE, text=True, errors="replace")
     except subprocess.TimeoutExpired:
         raise Failure(f"{' '.join(command)} in {folder} did not end within {time_limit * TIME_SCALE} s")

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A study's configuration: the runs that it means, and what is refused, with which words."""
+import os
+from pathlib import Path
+
+import yaml
+
+from case import main, require, require_close
+from cost_model import steps_per_strain
+from run import run
+from study_plan import PlanError, plan
+
+SOURCE = Path(os.environ["GRAINSCOPE_SOURCE"])
+SMALL = {"alpha": [1, 2], "mu": [0, 0.4], "I": [0.1, 0.01], "N": [300], "strain": 10, "steady": 5}
+
+
+def runs_of_lists(ranks):
+    runs = plan({**SMALL, "seed": [15485863, 15485867]})
+    require(len(runs) == 16, f"{len(runs)} runs, expected 2 x 2 x 2 x 2")
+    first = next(iter(runs.values()))
+    require(first.name == "alpha1_mu0_I0.1_N300_seed15485863", f"name {first.name}")
+    require(first.variables == {"alpha": "1", "mu": "0", "I": "0.1", "N": "300", "seed": "15485863", "e": "0.1", "strain": "10",
+                                "steady": "5", "part": "0.125", "measure": "all"}, f"variables {first.variables}")
+    require(len({run.name for run in plan({**SMALL, "e": [0.1, 0.9]}).values()}) == 16, "runs that differ in e need names of their own")
+
+
+def exceptions(ranks):
+    runs = plan({**SMALL, "exceptions": [{"where": {"I": 0.01}, "use": {"strain": 4, "steady": 2}},
+                                         {"where": {"I": 0.01, "alpha": 2}, "use": {"N": 350, "strain": 3}}]})
+    found = {(float(run.variables["alpha"]), float(run.variables["I"])): tuple(float(run.variables[name]) for name in ("N", "strain", "steady"))
+             for run in runs.values()}
+    require(found == {(1, 0.1): (300, 10, 5), (2, 0.1): (300, 10, 5), (1, 0.01): (300, 4, 2), (2, 0.01): (350, 3, 2)}, f"found {found}")
+
+
+def numbers_that_yaml_takes_for_words(ranks):
+    config = {**SMALL, "alpha": [1], "I": [0.1], "mu": yaml.safe_load("[1e-3]")}
+    run, = plan({**config, "exceptions": [{"where": {"mu": "1e-3"}, "use": {"N": "5e2"}}]}).values()
+    require((run.variables["mu"], run.variables["N"]) == ("0.001", "500"), f"variables {run.variables}")
+
+
+def example_is_valid(ranks):
+    runs = plan(yaml.safe_load((SOURCE / "examples/study/config.yaml").read_text()))
+    require(len(runs) >= 120, f"{len(runs)} runs")
+
+
+def refused(words, **config):
+    def case(ranks):
+        try:
+            plan({**SMALL, **config})
+        except PlanError as error:
+            for word in words:
+                require(word in str(error), f"the message lacks {word!r}: {error}")
+            return
+        require(False, f"{config} was taken")
+    return case
+
+
+def steps_of_deck(ranks):
+    """The cost model's time step is the deck's."""
+    deck = (SOURCE / "examples/simple_shear/in.simple_shear").read_text()
+    for alpha, inertial in ((0.5, 0.1), (1.5, 0.01)):
+        short = 200 / steps_per_strain(alpha, inertial)
+        variables = {"N": 150, "alpha": alpha, "I": inertial, "strain": short, "out": "out"}
+        result = run(deck, arguments=[word for name, value in variables.items() for word in ("-var", name, str(value))])
+        row = result.file("out/parameters.txt").read_text().splitlines()[-1].split()
+        rate, dt = float(row[8]), float(row[11])
+        require_close(steps_per_strain(alpha, inertial), 1 / (rate * dt), 1e-6, f"steps for a strain of 1, alpha = {alpha}, I = {inertial}")
+
+
+REFUSED = {"unknown-word": refused(("keywords must be among", "got 'alhpa'"), alhpa=[1]),
+           "empty-list": refused(("mu must be a list of at least one number", "got []"), mu=[]),
+           "no-list": refused(("I must be a list of at least one number", "got 0.1"), I=0.1),
+           "word-for-number": refused(("alpha must be a number above 0", "got 'long'"), alpha=["long"]),
+           "yes-for-number": refused(("alpha must be a number above 0", "got True"), alpha=[True]),
+           "negative-friction": refused(("mu must be a number of at least 0", "got -0.1"), mu=[-0.1]),
+           "half-a-grain": refused(("N must be a whole number above 0", "got 300.5"), N=[300.5]),
+           "not-finite": refused(("alpha must be a number above 0", "got nan"), alpha=[float("nan")]),
+           "twice": refused(("mu must not name a value twice", "[0.1, 0.1]"), mu=[0.1, 0.1]),
+           "steady-beyond-strain": refused(("steady must be less than strain = 10", "got 12", "mu = 0.4"), steady=12, mu=[0.4]),
+           "exception-steady": refused(("steady must be less than strain = 4", "got 5", "I = 0.01"),
+                                       exceptions=[{"where": {"I": 0.01}, "use": {"strain": 4}}]),
+           "measure": refused(("measure must be basic or all", "got 'everything'"), measure="everything"),
+           "exception-shape": refused(("exceptions: entry 1 must be", "got {'I': 0.1}"), exceptions=[{"I": 0.1}]),
+           "exception-where": refused(("entry 1: where must name alpha", "got 'strain'"), exceptions=[{"where": {"strain": 3}, "use": {}}]),
+           "exception-use": refused(("entry 2: use must name N", "got 'alpha'"),
+                                    exceptions=[{"where": {}, "use": {}}, {"where": {}, "use": {"alpha": 3}}]),
+           "exception-value": refused(("N must be a whole number above 0", "got -1"), exceptions=[{"where": {}, "use": {"N": -1}}]),
+           "ranks": refused(("ranks must be a whole number above 0", "got 0"), ranks=0)}
+
+main({"runs-of-lists": runs_of_lists, "exceptions": exceptions,
+      "numbers-that-yaml-takes-for-words": numbers_that_yaml_takes_for_words, "example-is-valid": example_is_valid,
+      "steps-of-deck": steps_of_deck,
+      **REFUSED})

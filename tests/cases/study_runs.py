@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Runs of a study by tools/run_shear.py: killed, prolonged, damaged, refused; and what tools/study_table.py makes of them."""
+import os
+from pathlib import Path
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+from case import main, require, require_close, require_equal
+from run import Failure, environment
+from shear_measures import steady_run
+from shear_output import mean_and_error, read_blocks, read_run, read_table
+import study_table
+
+SOURCE = Path(os.environ["GRAINSCOPE_SOURCE"])
+SMALL = {"N": 150, "alpha": 1, "mu": 0.4, "I": 0.1, "measure": "all", "strain": 0.6, "steady": 0.2, "part": 0.1}
+ROWS = ("series.txt", "micro.txt", "displacement.txt")
+TABLES = ("surface.txt", "direction.txt", "correlation.txt", "layering.txt", "memory.txt")
+
+
+def folder(name):
+    return Path(os.environ["GRAINSCOPE_SCRATCH"]) / name
+
+
+def start(name, ranks=1, **variables):
+    words = [f"{key}={value}" for key, value in {**SMALL, **variables}.items()]
+    command = [sys.executable, SOURCE / "tools" / "run_shear.py", folder(name), *words, "--binary", os.environ["GRAINSCOPE_BINARY"],
+               "--ranks", str(ranks)]
+    return subprocess.Popen([*map(str, command)], env=environment(ranks), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                            start_new_session=True)
+
+
+def run_to_end(name, ranks=1, **variables):
+    """Exit status, and what was printed."""
+    process = start(name, ranks, **variables)
+    try:
+        output, _ = process.communicate(timeout=200)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        raise Failure(f"{name} did not end in 200 s") from None
+    return process.returncode, output
+
+
+def ended(name, ranks=1, **variables):
+    status, output = run_to_end(name, ranks, **variables)
+    require(status == 0, f"{name} ended with {status}: {output}")
+    return folder(name)
+
+
+def killed(name, ranks=1, **variables):
+    """A run that is killed, all ranks at once, as soon as it has written its second restart file."""
+    process = start(name, ranks, **variables)
+    until = time.monotonic() + 100
+    while not (folder(name) / "odd.restart").exists():
+        require(process.poll() is None, f"{name} ended before it could be killed")
+        require(time.monotonic() < until, f"{name} wrote no second restart file in 100 s")
+        time.sleep(0.01)
+    os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+    return folder(name)
+
+
+def attempts_of(out):
+    """The steps at which the attempts began."""
+    return [int(line.split()[-1]) for line in (out / "parameters.txt").read_text().splitlines() if not line.startswith("#")]
+
+
+def same_tables(one, other):
+    for read, names in ((lambda *args: read_table(*args)[0], ROWS), (read_blocks, TABLES)):
+        for name in names:
+            found, expected = read(one, name), read(other, name)
+            require(list(found) == list(expected), f"{name}: other columns")
+            for column in expected:
+                require_equal(found[column], expected[column], f"{name}, {column}")
+
+
+def killed_run_continues(ranks):
+    whole, broken = ended("whole", ranks), killed("broken", ranks)
+    require(not (broken / "final.restart").exists(), "the run ended before it was killed")
+    ended("broken", ranks)
+    begins = attempts_of(broken)
+    require(len(begins) == 2 and begins[1] > 0, f"attempts began at {begins}, expected 0 and a later step")
+    same_tables(broken, whole)
+
+
+def longer_strain_continues(ranks):
+    whole = ended("whole", ranks)
+    ended("longer", ranks, strain=0.4)
+    longer = ended("longer", ranks)
+    require(attempts_of(longer)[1] > 0, "the second attempt began again")
+    same_tables(longer, whole)
+    status, output = run_to_end("longer", ranks, strain=0.4)
+    require(status == 0 and "nothing to do" in output, f"the strain was reached, but: {output}")
+    same_tables(longer, whole)
+
+
+def first_restart_cut(ranks):
+    out = ended("cut", ranks, strain=0.3, steady=0.1)
+    for name in ("final.restart", "odd.restart"):
+        (out / name).unlink()
+    whole = (out / "even.restart").read_bytes()
+    (out / "even.restart").write_bytes(whole[:len(whole) // 2])
+    (out / "cost.txt").unlink()
+    status, output = run_to_end("cut", ranks, strain=0.3, steady=0.1)
+    require(status == 0 and "starting again" in output, f"ended with {status}: {output}")
+    require(attempts_of(out) == [0], "the run did not start again")
+
+
+def no_restart_whole(ranks):
+    """Of several files none is whole: not for the tool to throw away what there is."""
+    out = ended("damaged", ranks, strain=0.3, steady=0.1)
+    series = (out / "series.txt").read_bytes()
+    for path in out.glob("*.restart"):
+        path.write_bytes(path.read_bytes()[:1000])
+    status, output = run_to_end("damaged", ranks)
+    require(status == 1 and "was cut short" in output, f"ended with {status}: {output}")
+    require((out / "series.txt").read_bytes() == series, "series.txt was touched")
+
+
+def other_variables_refused(ranks):
+    ended("other", ranks, strain=0.3, steady=0.1)
+    status, output = run_to_end("other", ranks, mu=0.5)
+    require(status == 1 and "mu must stay what the run began with, 0.4, got 0.5" in output, f"ended with {status}: {output}")
+
+
+def reason_is_told(ranks):
+    status, output = run_to_end("bad", ranks, part=0.7)
+    require(status == 1 and "part must be more than 0 and at most strain" in output, f"ended with {status}: {output}")
+    status, output = run_to_end("flat", ranks, N=20, alpha=3)
+    require(status == 1 and "ERROR" in output and "periodic box" in output, f"ended with {status}: {output}")
+
+
+def means_of_files(ranks):
+    """The table against the files, read by hand."""
+    out = ended("means", ranks, strain=1.4)
+    run, begin = read_run(out), 0.3
+    steady = steady_run(run, begin)
+    series = np.loadtxt(out / "series.txt")
+    mean, error = mean_and_error(series[series[:, 1] > begin + 1e-3, 4])
+    require_close(steady["mu_eff"], (mean, error), 1e-12, "mu_eff")
+    micro = np.loadtxt(out / "micro.txt")
+    header = [word.split("[")[0] for word in (out / "micro.txt").read_text().splitlines()[1][2:].split()]
+    rows = micro[micro[:, 1] > begin + 0.1 - 1e-3]
+    require(len(rows) == 11, f"{len(rows)} parts, expected 11")
+    require_close(steady["lever"][0], rows[:, header.index("lever")].mean(), 1e-12, "lever")
+    pressure = -(rows[:, header.index("n_yy")] + rows[:, header.index("t_yy")])
+    require_close(steady["n_xy"][0], (rows[:, header.index("n_xy")] / pressure).mean(), 1e-12, "n_xy")
+    require_close(steady["n_yy"][0] + steady["t_yy"][0], -1, 1e-12, "sigma_yy over P")
+    displacement = np.loadtxt(out / "displacement.txt")
+    whole = steady_run(run, 0.2)
+    slope = displacement[-1, 6] / run.parameters["d_eq"] ** 2
+    require_close(whole["D_y"][0], slope, 1e-4, "D_y, against the compute's own")   # the file has six digits
+    require_close(run.parameters["steps"], displacement[-1, 0], 0, "last step")
+
+
+def table_holds_everything(ranks):
+    """What is read back from the tables is what was measured; runs off their inertial number are flagged."""
+    runs = [read_run(ended(f"run{seed}", ranks, seed=seed, strain=0.8)) for seed in (15485863, 15485867)]
+    for run, pressure in zip(runs, (1.15, 0.76)):
+        run.columns["P"] = run.columns["P"] * pressure / run.columns["P"][run.steady(0.2)].mean()
+    study_table.write_tables([(run, 0.2) for run in runs], folder("tables"))
+    found = study_table.read_study(folder("tables"))
+    for run, steady in zip(runs, found):
+        expected = steady_run(run, 0.2)
+        require(steady.means.keys() == expected.means.keys(), "other means")
+        for name, pair in expected.means.items():
+            require_close(steady[name], pair, 1e-9, name, max(1e-300, *map(abs, pair)))
+        for curve, columns in expected.curves.items():
+            for name, values in columns.items():
+                require_close(steady.curves[curve][name], values, 1e-4, f"{curve}, {name}", max(1e-12, np.abs(values).max()))
+    require([run.parameters["flagged"] for run in found] == [0, 1], "only the second run is more than 10 % off its I, and must be flagged")
+    require(found[0].parameters["core_time"] > 0 and found[0].parameters["memory"] > 1e6, "no cost")
+    one, = study_table.over_seeds(found)
+    values = [run["phi"][0] for run in found]
+    require_close(one["phi"][0], np.mean(values), 1e-12, "mean over seeds")
+    require(one["phi"][1] >= np.std(values, ddof=1) / np.sqrt(2) * 0.999999, "the error is less than the spread over the seeds tells")
+    header = {(row["file"], row["column"]): row for row in study_table.read_csv(folder("tables") / "columns.csv")}
+    for name in ("table.csv", "curves/surface.csv"):
+        for column in (folder("tables") / name).read_text().splitlines()[0].split(","):
+            require((name, column) in header, f"columns.csv does not tell of {column} in {name}")
+
+
+main({"killed-run-continues": killed_run_continues, "longer-strain-continues": longer_strain_continues,
+      "first-restart-cut": first_restart_cut, "no-restart-whole": no_restart_whole, "other-variables-refused": other_variables_refused,
+      "reason-is-told": reason_is_told, "means-of-files": means_of_files, "table-holds-everything": table_holds_everything})

@@ -1,0 +1,49 @@
+#!/usr/bin/python3
+"""Cost of a study's runs, as they were measured, and of the paper's whole grid by the cost model: Markdown tables."""
+import argparse
+import sys
+
+import numpy as np
+
+from cost_model import PAPER, classical_cost_of_grid, cost_of_grid
+from shear_output import InputError
+from study_table import read_study
+
+
+def measured(runs):
+    """A row for each shape and size: core time of a grain's step at the lowest and highest solid fraction, memory and files of a run."""
+    rows = ["| alpha | N | runs | phi | core us per grain and step | memory per rank [MB] | files per run [MB] |", "|---|---|---|---|---|---|---|"]
+    for alpha, grains in sorted({(run.alpha, run.parameters["N"]) for run in runs}):
+        line = sorted((run for run in runs if run.alpha == alpha and run.parameters["N"] == grains and "grain_step" in run.parameters),
+                      key=lambda run: run["phi"][0])
+        if not line:
+            continue
+        phi, time, memory, files = np.array([[run["phi"][0], 1e6 * run.parameters["grain_step"], run.parameters["memory"] / 1e6,
+                                              run.parameters["bytes"] / 1e6] for run in line]).T
+        quarter = max(1, len(line) // 4)
+        rows.append(f"| {alpha:g} | {grains:g} | {len(line)} | {phi[0]:.2f} to {phi[-1]:.2f} | {np.median(time):.2f} "
+                    f"({np.median(time[:quarter]):.2f} to {np.median(time[-quarter:]):.2f}) | {memory.max():.0f} | {np.median(files):.1f} |")
+    return rows
+
+
+def predicted():
+    """The paper's grid, by the model, and the classical way."""
+    ways = {"grainscope": cost_of_grid(**PAPER), "dumps, read afterwards": classical_cost_of_grid(**PAPER)}
+    return [f"| the paper's grid: {ways['grainscope'].runs} runs, N = {PAPER['grains']}, strain {PAPER['strain']} | core-hours | GB written |", "|---|---|---|",
+            *(f"| {way} | {cost.core_hours:.0f} | {cost.gigabytes:.0f} |" for way, cost in ways.items())]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("study", help="folder of table.csv and curves")
+    arguments = parser.parse_args()
+    try:
+        runs = read_study(arguments.study)
+    except InputError as error:
+        sys.exit(f"cost_study.py: {error}")
+    hours = sum(run.parameters.get("core_time", 0.0) for run in runs) / 3600
+    print(*measured(runs), "", f"{len(runs)} runs, {hours:.2f} core-hours in the attempts that ended.", "", *predicted(), sep="\n")
+
+
+if __name__ == "__main__":
+    main()
