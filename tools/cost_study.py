@@ -1,11 +1,12 @@
 #!/usr/bin/python3
-"""Cost of a study's runs, as they were measured, and of the paper's whole grid by the cost model: Markdown tables."""
+"""Cost of a study's runs, as they were measured, and of the paper's whole grid and of a million grains by the cost
+model: Markdown tables."""
 import argparse
 import sys
 
 import numpy as np
 
-from cost_model import PAPER, classical_cost_of_grid, cost_of_grid
+from cost_model import PAPER, classical_cost_of_grid, cost_of_grid, memory_of, seconds_of, step_seconds
 from shear_output import InputError
 from study_table import read_study
 
@@ -33,6 +34,17 @@ def predicted():
             *(f"| {way} | {cost.core_hours:.0f} | {cost.gigabytes:.0f} |" for way, cost in ways.items())]
 
 
+def scaled(grains=1_000_000, alpha=1.5, inertial=0.1, strain=16):
+    """A large run on more and more ranks, by the model."""
+    rows = [f"| {grains:,} grains, alpha = {alpha:g}, I = {inertial:g}, strain {strain:g}: ranks | ms per step | hours | core-hours | GB per rank |",
+            "|---|---|---|---|---|"]
+    for ranks in (1, 16, 64, 256, 1024):
+        hours = seconds_of(alpha, inertial, grains, strain, ranks) / 3600
+        rows.append(f"| {ranks} | {1e3 * step_seconds(alpha, grains, ranks):.3g} | {hours:.3g} | {hours * ranks:.3g} | "
+                    f"{memory_of(grains, ranks) / ranks / 1e9:.2g} |")
+    return rows
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("study", help="folder of table.csv and curves")
@@ -42,7 +54,7 @@ def main():
     except InputError as error:
         sys.exit(f"cost_study.py: {error}")
     hours = sum(run.parameters.get("core_time", 0.0) for run in runs) / 3600
-    print(*measured(runs), "", f"{len(runs)} runs, {hours:.2f} core-hours in the attempts that ended.", "", *predicted(), sep="\n")
+    print(*measured(runs), "", f"{len(runs)} runs, {hours:.2f} core-hours in the attempts that ended.", "", *predicted(), "", *scaled(), sep="\n")
 
 
 if __name__ == "__main__":

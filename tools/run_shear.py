@@ -22,13 +22,22 @@ def command(arguments, resume):
     return [*launcher, arguments.binary, "-in", str(DECK), "-log", "none", *options]
 
 
+def plain(value):
+    """A number, if it is one, so that 0.1 is .1."""
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        return value
+
+
 def check_variables(arguments):
     """Refuses to take up a run with other variables than it began with; only the strain and the start of the averages may change."""
     path = arguments.out / "variables.txt"
-    begun = dict(line.split("=", 1) for line in path.read_text().splitlines()) if path.exists() else {}
-    asked = dict(arguments.variables)
+    if not path.exists():   # begun by hand
+        return
+    begun, asked = dict(line.split("=", 1) for line in path.read_text().splitlines()), dict(arguments.variables)
     for name in sorted((begun.keys() | asked.keys()) - set(MAY_CHANGE)):
-        if begun.get(name) != asked.get(name):
+        if plain(begun.get(name)) != plain(asked.get(name)):
             sys.exit(f"run_shear.py: {arguments.out}: {name} must stay what the run began with, {begun.get(name, 'the default')}, "
                      f"got {asked.get(name, 'the default')}; use another folder, or remove this one to start again")
 
