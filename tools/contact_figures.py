@@ -34,13 +34,13 @@ def correlations(measures, path):
         style = line_style(m, shown)
         left.plot(r, c, color=style["color"], marker=shape_marker(m.alpha), markersize=4, linestyle="none",
                   label=label_of(m, shown))
-        length = m["l_vy"][0]
+        length = m.means.get("l_vy", (0.0, 0.0))[0]
         if length > 0:
             line = np.linspace(0, r.max(), 100)
             left.plot(line, np.exp(-line / length), linewidth=0.9, color=style["color"], linestyle="--")
     left.axhline(0, color="0.6", linewidth=0.8)
     left.set(xlabel=r"$r\,/\,d_{eq}$", ylabel=r"$\tilde{C}(r)$", ylim=(-0.25, 1.02), xlim=(0, None))
-    curves_by_shape(right, legible(measures, inertial=0.1), lambda m: m["l_vy"])
+    curves_by_shape(right, legible(measures, inertial=0.1), lambda m: m.means.get("l_vy"))
     right.set(xlabel=r"shape ratio $r_g$", ylabel=r"$\ell\,/\,d_{eq}$", ylim=(0, None))
     right.legend(fontsize=8, loc="best")
     figure.legend(*left.get_legend_handles_labels(), loc="center left", bbox_to_anchor=(1.0, 0.5))

@@ -74,15 +74,18 @@ def fit_fraction_law(inertial, phi, errors):
 
 
 def fit_decay(distance, correlation):
-    """Length l of exp(-x/l) over the points above 0.05, and its error; 0 when there are none, no error when there is one."""
+    """Length l of exp(-x/l) over the points above 0.05, and its error: 0 and 0 when there are none; nan where they determine no length."""
     distance, correlation = np.asarray(distance), np.asarray(correlation)
     above = correlation > 0.05
     if not above.any():
         return 0.0, 0.0
     x = distance[above]
-    lengths, errors = fit(lambda x, length: np.exp(-x / length), x, correlation[above], np.zeros(len(x)),
-                          [[factor * x.max()] for factor in (0.03, 0.3, 3.0)], [1e-3 * x.max()], [1e3 * x.max()])
-    return lengths[0], errors[0]
+    try:
+        (length,), (error,) = fit(lambda x, length: np.exp(-x / length), x, correlation[above], np.zeros(len(x)),
+                                  [[factor * x.max()] for factor in (0.03, 0.3, 3.0)], [1e-3 * x.max()], [1e3 * x.max()])
+    except FitError:
+        return np.nan, np.nan
+    return length, error
 
 
 def crossing(x, ratios, errors):

@@ -5,42 +5,46 @@ import numpy as np
 
 from figure_style import (friction_colour, friction_label, log_scale, points, save, shape_colour, shape_legend, shape_marker, shape_ratio,
                           values_of)
-from grid_fits import crossovers, critical_values, sizes
+from grid_fits import critical_values, crossovers, kinds, sizes
 
 
 def note(figure, text):
     figure.text(0.5, 0.5, text, ha="center", va="center", color="0.4")
 
 
-def regimes(measures, path):
-    """Fig. 3: where friction and normal damping dissipate equally, over friction and inertial number, a curve per shape; inset: where it is
-    at mu = 0.01, over the shape."""
-    figure, axis = plt.subplots(figsize=(6.2, 4.6), constrained_layout=True)
-    found = crossovers(measures)
-    for alpha in values_of(measures, "alpha"):
-        for rise in (True, False):
-            branch = sorted((c for c in found if c.alpha == alpha and c.sliding_above == rise), key=lambda c: (c.mu, c.I))
-            if not branch:
-                continue
-            mu, inertial = np.array([(c.mu, c.I) for c in branch]).T
+def draw_branches(axis, found, alpha, **style):
+    """The two branches of the level set of one shape."""
+    for rise in (True, False):
+        branch = sorted((c for c in found if c.alpha == alpha and c.sliding_above == rise), key=lambda c: (c.I, c.mu))
+        if branch:
             error = np.array([(c.mu_error, c.I_error) for c in branch]).T
-            axis.errorbar(mu, inertial, xerr=error[0], yerr=error[1], color=shape_colour(alpha), marker=shape_marker(alpha), markersize=4,
-                          linewidth=1.2, elinewidth=0.8)
+            axis.errorbar([c.mu for c in branch], [c.I for c in branch], xerr=error[0], yerr=error[1], color=shape_colour(alpha), **style)
+
+
+def regimes(measures, path):
+    """Fig. 3: where friction and normal damping dissipate equally, over friction and inertial number, a curve per shape; dotted: by the powers of
+    Eq. 4, which lose part of the friction at high mu; dashed: I ~ mu^2. Inset: I_c at mu = 0.01 over the shape."""
+    figure, axis = plt.subplots(figsize=(6.2, 4.6), constrained_layout=True)
+    found = {kind: crossovers(measures, kind) for kind in kinds(measures)}
+    for alpha in values_of(measures, "alpha"):
+        draw_branches(axis, found["W"], alpha, marker=shape_marker(alpha), markersize=4, linewidth=1.2, elinewidth=0.8)
+        draw_branches(axis, found.get("instant", []), alpha, linestyle=":", linewidth=0.9, elinewidth=0)
     axis.set(xlabel=r"friction coefficient $\mu_p$", ylabel=r"inertial number $I$")
-    frictions = [mu for mu in values_of(measures, "mu") if mu > 0]
-    if not found:
+    if not found["W"]:
         note(figure, "friction and normal damping are nowhere equal among these runs")
     else:
-        line = np.geomspace(3e-3, 0.1, 10)
-        middle = [c for c in found if c.sliding_above and c.alpha == min(values_of(measures, "alpha"), key=lambda alpha: abs(np.log(alpha)))]
+        roundest = min(values_of(measures, "alpha"), key=lambda alpha: abs(np.log(alpha)))
+        middle = [c for c in found["W"] if c.sliding_above and c.alpha == roundest]
         if middle:
             factor = np.exp(np.mean([np.log(c.I / c.mu**2) for c in middle]))
+            line = np.array([min(c.mu for c in middle), max(c.mu for c in middle)])
             axis.plot(line, factor * line**2, color="black", linestyle="--", linewidth=0.9)
+        frictions = [mu for mu in values_of(measures, "mu") if mu > 0]
         axis.set(xscale="log", yscale="log", xlim=(0.7 * min(frictions), 1.4 * max(frictions)),
-                 ylim=(0.7 * min(m.inertial for m in measures), 1.4 * max(m.inertial for m in measures)))
-        for place, regime in ((0.06, "normal\ndissipation"), (0.56, "sliding"), (0.93, "rolling")):
-            axis.text(place, 0.9, regime, transform=axis.transAxes, ha="center", va="top", fontsize=9, color="0.4")
-        inset(axis, [c for c in found if c.sliding_above and abs(np.log(c.mu / 0.01)) < 1e-6])
+                 ylim=(0.7 * min(m.inertial for m in measures), 1.6 * max(m.inertial for m in measures)))
+        for place, regime in ((0.08, "normal\ndissipation"), (0.56, "sliding"), (0.95, "rolling")):
+            axis.text(place, 0.97, regime, transform=axis.transAxes, ha="center", va="top", fontsize=9, color="0.4")
+        inset(axis, [c for c in found["W"] if c.sliding_above and c.I_error > 0 and abs(np.log(c.mu / 0.01)) < 1e-6])
     shape_legend(figure, measures)
     save(figure, path)
 

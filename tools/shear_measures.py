@@ -161,13 +161,14 @@ class Blocks:
         return table["r"].mean(axis=0)[filled] / self.diameter, sums[filled] / pairs[filled] / self.micro[f"{component}2"].mean()
 
     def correlation_length(self, component, table):
-        """l of exp(-r/l), and its error: that of the fit, or from the spread over the parts if that is larger."""
+        """l of exp(-r/l), and its error: that of the fit, or from the spread over the parts that tell a length, if that is larger."""
         length, error = fit_decay(*self.correlation(component, table))
         single = []
         for r, sums, pairs, square in zip(table["r"], table[component], table["pairs"], self.micro[f"{component}2"]):
             filled = pairs > 0
             single.append(fit_decay(r[filled] / self.diameter, sums[filled] / pairs[filled] / square)[0])
-        return length, max(error, mean_and_error(single)[1])
+        single = np.array(single)
+        return length, max(error, mean_and_error(single[np.isfinite(single)])[1])
 
     def memory(self):
         table = read_blocks(self.run.folder, "memory.txt")
@@ -239,5 +240,5 @@ def steady_run(run, start=None):
     curves = {}
     if run.measured_all:
         more, curves = measured_all(run, start)
-        means |= more
+        means |= {name: pair for name, pair in more.items() if np.isfinite(pair).all()}
     return SteadyRun(run.name, dict(run.parameters), means, curves)

@@ -20,7 +20,7 @@ MEASURED = [("velocity fluctuation / rate d", lambda m: m["lever"]), ("spin fluc
             ("rotational / transl. energy", lambda m: m["E_rot/E_tr"]), ("N1 / P", lambda m: m["N1"]),
             ("N2 / P", lambda m: m["N2"]),
             ("shear stress / P, tangential", lambda m: m["t_xy"]), ("fabric deviator", lambda m: m["fabric_deviator"]),
-            ("correlation length / d", lambda m: m["l_vy"]),
+            ("correlation length / d", lambda m: m.means.get("l_vy", (np.nan, 0.0))),
             ("diffusion / rate d2, gradient", lambda m: m["D_y"]), ("diffusion / rate d2, vorticity", lambda m: m["D_z"]),
             ("grains with < 2 contacts [%]", lambda m: m["idle"])]
 

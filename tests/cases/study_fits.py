@@ -55,6 +55,7 @@ def decay(ranks):
         require_close(found, length, 1e-5, f"length {length}")
         require(error < 1e-4 * length, f"error {error} of exact points")
     require(fit_decay(x, -np.ones(15)) == (0.0, 0.0), "nothing above 0.05 must give 0")
+    require(np.isnan(fit_decay(x, np.full(15, 1.2))).all(), "a correlation that does not decay has no length")
     # below 0.05 nothing counts
     require_close(fit_decay(x, np.where(np.exp(-x) > 0.05, np.exp(-x), -0.3))[0], 1.0, 1e-5, "length with an anticorrelated tail")
 
