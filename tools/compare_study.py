@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Compares a study's table with what the paper published: comparison.csv and comparison.md, a row for each published number. A number agrees
-when it is within the tolerance (how well the paper's own can be read) and twice the standard error; a bound, when it holds within twice the
-error. Whether it agrees is told, nothing is fitted to it."""
+when it is within the tolerance (how well the paper's own can be read) and twice the standard error, a bound when it holds by more than twice the
+error; undecided where the error is too large to tell. Nothing is fitted to agree."""
 import argparse
 from pathlib import Path
 import sys
@@ -15,13 +15,15 @@ from study_table import over_seeds, read_study, text, write_csv
 NAMES = ["quantity", "value", "error", "published", "tolerance", "agrees", "source"]
 
 
-def agrees(published, value, error):
+def verdict(published, value, error):
+    """yes, NO, or undecided: a bound within twice the error, a number whose doubled error is beyond its tolerance and half of it."""
     away = value - published.value
-    if published.relation == "<":
-        return away < 2 * error
-    if published.relation == ">":
-        return away > -2 * error
-    return abs(away) <= np.hypot(published.tolerance, 2 * error)
+    if published.relation != "=":
+        beyond = away if published.relation == ">" else -away
+        return "undecided" if abs(beyond) < 2 * error else "yes" if beyond > 0 else "NO"
+    if abs(away) > np.hypot(published.tolerance, 2 * error):
+        return "NO"
+    return "undecided" if 2 * error > max(published.tolerance, 0.5 * abs(published.value)) else "yes"
 
 
 def compare(runs):
@@ -35,14 +37,14 @@ def compare(runs):
         value, error = found
         sign = "" if published.relation == "=" else f"{published.relation} "
         rows.append([published.quantity, f"{value:.4g}", f"{error:.2g}", f"{sign}{published.value:g}",
-                     text(published.tolerance), "yes" if agrees(published, value, error) else "NO", published.source])
+                     text(published.tolerance), verdict(published, value, error), published.source])
     return rows, untold
 
 
 def markdown(rows, untold):
     lines = ["| " + " | ".join(row) + " |" for row in [NAMES, ["---"] * len(NAMES), *rows]]
-    counted = sum(row[5] == "yes" for row in rows)
-    lines += ["", f"{counted} of {len(rows)} agree."] + ([f"These runs do not tell: {'; '.join(untold)}."] if untold else [])
+    counted = {word: sum(row[5] == word for row in rows) for word in ("yes", "NO", "undecided")}
+    lines += ["", f"{counted['yes']} of {len(rows)} agree, {counted['NO']} do not, {counted['undecided']} are undecided."] + ([f"These runs do not tell: {'; '.join(untold)}."] if untold else [])
     return "\n".join(lines) + "\n"
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from case import main, require, require_close
-from compare_study import agrees
+from compare_study import verdict
 from fits import FitError, crossing, fit_decay, fit_fraction_law, fit_friction_law, fraction_law, friction_law, power_law
 from grid_fits import FEWEST, all_fits, crossovers, laws_of_shape, sizes
 from paper_values import PUBLISHED, Published
@@ -152,10 +152,11 @@ def seeds_and_sizes(ranks):
 def agreement(ranks):
     def published(relation):
         return Published("", relation, 1.0, 0.1, "", None)
-    for relation, value, error, expected in (("=", 1.09, 0, True), ("=", 1.11, 0, False), ("=", 1.2, 0.1, True), ("=", 1.4, 0.1, False),
-                                             ("<", 0.9, 0, True), ("<", 1.1, 0, False), ("<", 1.1, 0.06, True), (">", 0.9, 0.04, False),
-                                             (">", 0.9, 0.06, True), (">", 2, 0, True)):
-        require(bool(agrees(published(relation), value, error)) == expected, f"{value} +- {error} {relation} 1: expected {expected}")
+    for relation, value, error, expected in (("=", 1.09, 0, "yes"), ("=", 1.11, 0, "NO"), ("=", 1.2, 0.1, "yes"), ("=", 1.4, 0.1, "NO"),
+                                             ("=", 1.2, 0.3, "undecided"), ("<", 0.9, 0, "yes"), ("<", 1.1, 0, "NO"), ("<", 0.9, 0.06, "undecided"),
+                                             ("<", 1.1, 0.06, "undecided"), (">", 0.9, 0.04, "NO"), (">", 1.1, 0.06, "undecided"), (">", 2, 0, "yes")):
+        found = verdict(published(relation), value, error)
+        require(found == expected, f"{value} +- {error} {relation} 1: {found}, expected {expected}")
 
 
 def published_of_grid(ranks):
