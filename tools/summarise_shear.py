@@ -75,7 +75,7 @@ def main():
             tables = [table + measured(run, arguments.start) for table, run in zip(tables, runs)]
     except InputError as error:
         sys.exit(f"summarise_shear.py: {error}")
-    print(" " * 32 + "".join(f"{run.name:>23}" for run in runs))
+    print(" " * 32 + "".join(f" {run.name:>22}" for run in runs))
     for cells in zip(*tables):
         print(f"{cells[0][0]:<32}" + "".join(f" {text:>22}" for _, text in cells))
 
