@@ -196,3 +196,4 @@ add_cases(study cases/study_runs.py LABEL case RANKS 1 CASES
   first-restart-cut no-restart-whole other-variables-refused reason-is-told means-of-files table-holds-everything)
 add_cases(study cases/study_workflow.py LABEL case RANKS 1 SECONDS 600 CASES
   failing-runs-do-not-stop-others study-goes-on basic-measures bad-configuration)
+add_cases(study cases/study_slurm.py LABEL long RANKS 1 SECONDS 900 CASES slurm-grid)
