@@ -91,6 +91,9 @@ def plan(config):
     measure = config.get("measure", OTHERS["measure"])
     if measure not in ("basic", "all"):
         raise PlanError(f"measure must be basic or all, got {measure!r}")
+    output = str(config.get("output", OTHERS["output"]))
+    if not output or any(letter.isspace() for letter in output):
+        raise PlanError(f"output must be the name of a folder without spaces, got {output!r}")
     exceptions = [checked_exception(number, exception) for number, exception in enumerate(config.get("exceptions") or (), 1)]
 
     runs = {}

@@ -85,6 +85,7 @@ REFUSED = {"unknown-word": refused(("keywords must be among", "got 'alhpa'"), al
            "exception-use": refused(("entry 2: use must name N", "got 'alpha'"),
                                     exceptions=[{"where": {}, "use": {}}, {"where": {}, "use": {"alpha": 3}}]),
            "exception-value": refused(("N must be a whole number above 0", "got -1"), exceptions=[{"where": {}, "use": {"N": -1}}]),
+           "output": refused(("output must be the name of a folder without spaces", "'my study'"), output="my study"),
            "ranks": refused(("ranks must be a whole number above 0", "got 0"), ranks=0)}
 
 main({"runs-of-lists": runs_of_lists, "exceptions": exceptions,
