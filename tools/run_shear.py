@@ -3,6 +3,7 @@
 smaller strain. Screen output goes to screen.txt there, one attempt after the other, the variables to variables.txt, and what each attempt
 that ended cost to cost.txt. Ends with an error, and the reason that the run gave, if the run failed."""
 import argparse
+import fcntl
 import os
 from pathlib import Path
 import subprocess
@@ -11,6 +12,7 @@ import time
 
 DECK = Path(__file__).resolve().parents[1] / "examples" / "simple_shear" / "in.simple_shear"
 NONE_WHOLE = "ERROR: read_restart: '"
+STOPPED = 3
 MAY_CHANGE = ("strain", "steady")
 COST = "# from[step] to[step] ranks wall[s] cpu[s] memory[B]\n"
 
@@ -52,6 +54,10 @@ def strain_reached(out):
     return float(parameters[5]) if cost and parameters and parameters[-2:] == cost[1::-1] else 0.0
 
 
+def time_of(path):
+    return path.stat().st_mtime_ns if path.exists() else None
+
+
 def write_cost(arguments, wall, usage):
     """Adds the attempt that ended to cost.txt: the cpu time of all ranks, and the memory of the largest."""
     steps, begun = last_row(arguments.out / "parameters.txt")[-2:]
@@ -62,15 +68,29 @@ def write_cost(arguments, wall, usage):
         table.write(f"{header}{begun} {steps} {arguments.ranks} {wall:.2f} {cpu:.2f} {1024 * usage.ru_maxrss}\n")
 
 
-def attempt(arguments, resume):
-    """Exit status of one attempt, and what it printed."""
-    screen = arguments.out / "screen.txt"
+def lock(out):
+    """A file that is locked for as long as this process, or the run that it begins, is there."""
+    file = (out / "lock").open("w")
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        sys.exit(f"run_shear.py: {out}: another attempt writes to this folder")
+    return file
+
+
+def attempt(arguments, resume, locked):
+    """Exit status of one attempt, and what it printed. A run that a signal ends is content with itself, but writes no final.restart."""
+    screen, final = arguments.out / "screen.txt", arguments.out / "final.restart"
+    earlier = time_of(final)
     begin = time.monotonic()
     with screen.open("ab") as output:
         end_of_earlier = output.tell()
-        run = subprocess.Popen(command(arguments, resume), stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT)
+        run = subprocess.Popen(command(arguments, resume), stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
+                               pass_fds=[locked.fileno()])
         _, status, usage = os.wait4(run.pid, 0)
         run.returncode = os.waitstatus_to_exitcode(status)
+    if run.returncode == 0 and time_of(final) == earlier:
+        return STOPPED, "it was stopped by a signal before its end"
     if run.returncode == 0:
         write_cost(arguments, time.monotonic() - begin, usage)
     with screen.open("rb") as text:
@@ -94,6 +114,7 @@ def main():
     arguments = parser.parse_args()
     try:
         arguments.out.mkdir(parents=True, exist_ok=True)
+        locked = lock(arguments.out)
         files = list(arguments.out.glob("*.restart"))
         if files:
             check_variables(arguments)
@@ -102,10 +123,10 @@ def main():
                 print(f"run_shear.py: {arguments.out}: ended at strain {reached:g} before, nothing to do")
                 return
         (arguments.out / "variables.txt").write_text("".join(f"{name}={value}\n" for name, value in arguments.variables))
-        status, output = attempt(arguments, resume=bool(files))
+        status, output = attempt(arguments, bool(files), locked)
         if status and len(files) == 1 and NONE_WHOLE in output:
             print(f"run_shear.py: {arguments.out}: the first restart file was not whole yet, starting again", file=sys.stderr)
-            status, output = attempt(arguments, resume=False)
+            status, output = attempt(arguments, False, locked)
     except (OSError, ValueError) as error:
         sys.exit(f"run_shear.py: {arguments.out}: {error}")
     if status:

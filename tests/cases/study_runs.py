@@ -53,14 +53,19 @@ def ended(name, ranks=1, **variables):
 def killed(name, ranks=1, **variables):
     """A run that is killed, all ranks at once, as soon as it has written its second restart file."""
     process = start(name, ranks, **variables)
+    wait_for_restart(name, process)
+    os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+    return folder(name)
+
+
+def wait_for_restart(name, process):
+    """Until the run has written its second restart file."""
     until = time.monotonic() + 100
     while not (folder(name) / "odd.restart").exists():
         require(process.poll() is None, f"{name} ended before it could be killed")
         require(time.monotonic() < until, f"{name} wrote no second restart file in 100 s")
         time.sleep(0.01)
-    os.killpg(process.pid, signal.SIGKILL)
-    process.wait()
-    return folder(name)
 
 
 def attempts_of(out):
@@ -75,6 +80,30 @@ def same_tables(one, other):
             require(list(found) == list(expected), f"{name}: other columns")
             for column in expected:
                 require_equal(found[column], expected[column], f"{name}, {column}")
+
+
+def stopped_run_has_not_ended(ranks):
+    """SIGTERM ends a run in order, with exit code 0: for all that it is not at its end, and goes on."""
+    whole, process = ended("whole", ranks), start("stopped", ranks)
+    wait_for_restart("stopped", process)
+    program = [path.parent.name for path in Path("/proc").glob("[0-9]*/cmdline")
+               if f"-var\0out\0{folder('stopped')}\0".encode() in path.read_bytes()]
+    require(len(program) == 1, f"not one program that writes to {folder('stopped')}: {program}")
+    os.kill(int(program[0]), signal.SIGTERM)
+    output, _ = process.communicate(timeout=100)
+    require(process.returncode == 1 and "stopped by a signal" in output, f"ended with {process.returncode}: {output}")
+    stopped = ended("stopped", ranks)
+    require(len(attempts_of(stopped)) == 2, "the second attempt did not go on")
+    same_tables(stopped, whole)
+
+
+def one_at_a_time(ranks):
+    process = start("busy", ranks, strain=20)
+    wait_for_restart("busy", process)
+    status, output = run_to_end("busy", ranks, strain=20)
+    os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+    require(status == 1 and "another attempt writes to this folder" in output, f"ended with {status}: {output}")
 
 
 def killed_run_continues(ranks):
@@ -183,6 +212,6 @@ def table_holds_everything(ranks):
             require((name, column) in header, f"columns.csv does not tell of {column} in {name}")
 
 
-main({"killed-run-continues": killed_run_continues, "longer-strain-continues": longer_strain_continues,
+main({"one-at-a-time": one_at_a_time, "stopped-run-has-not-ended": stopped_run_has_not_ended, "killed-run-continues": killed_run_continues, "longer-strain-continues": longer_strain_continues,
       "first-restart-cut": first_restart_cut, "no-restart-whole": no_restart_whole, "other-variables-refused": other_variables_refused,
       "reason-is-told": reason_is_told, "means-of-files": means_of_files, "table-holds-everything": table_holds_everything})

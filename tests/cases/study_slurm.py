@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Runs of examples/study as jobs of a SLURM of this machine alone (scripts/local-slurm): a grid of four, one on two ranks; then a run that
-is killed half-way and one with bad input beside a good one; then a study that is interrupted. As root, in about a minute."""
+is killed half-way and one with bad input beside a good one; then a study that is interrupted. As root, in about two minutes."""
 from contextlib import contextmanager
 from dataclasses import dataclass
 import json
