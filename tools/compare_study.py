@@ -44,7 +44,9 @@ def compare(runs):
 def markdown(rows, untold):
     lines = ["| " + " | ".join(row) + " |" for row in [NAMES, ["---"] * len(NAMES), *rows]]
     counted = {word: sum(row[5] == word for row in rows) for word in ("yes", "NO", "undecided")}
-    lines += ["", f"{counted['yes']} of {len(rows)} agree, {counted['NO']} do not, {counted['undecided']} are undecided."] + ([f"These runs do not tell: {'; '.join(untold)}."] if untold else [])
+    lines += ["", f"{counted['yes']} of {len(rows)} agree, {counted['NO']} do not, {counted['undecided']} are undecided."]
+    if untold:
+        lines.append(f"These runs do not tell: {'; '.join(untold)}.")
     return "\n".join(lines) + "\n"
 
 

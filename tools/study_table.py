@@ -11,7 +11,7 @@ import numpy as np
 from shear_measures import ALWAYS, CURVES, MEASURED, SERIES, SteadyRun, steady_run
 from shear_output import InputError, read_run, read_rows
 
-LONGEST = 100       # points of a curve that are kept, about
+LONGEST = 40        # points of a curve that are kept, up to twice as many
 TOLERANCE = 0.1     # of the inertial number reached, over its target; runs beyond it are flagged
 PARAMETERS = {"run": ("", "name of the run"), "alpha": ("-", "aspect ratio c/a"), "mu": ("-", "coefficient of friction"),
               "I": ("-", "inertial number of the target pressure"), "N": ("-", "grains"), "seed": ("-", "of the initial places"),
@@ -85,7 +85,7 @@ def write_tables(runs, output):
         for curve, columns in steady.curves.items():
             points = np.array([columns[name] for name in CURVES[curve]]).T
             thin = points[::max(1, len(points) // LONGEST)]
-            curves[curve] += [(run.name, *(f"{value:.5g}" for value in point)) for point in thin]
+            curves[curve] += [(run.name, *(f"{value:.4g}" for value in point)) for point in thin]
         if sys.stderr.isatty():
             print(f"\r{number} of {len(runs)} runs", end="" if number < len(runs) else "\n", file=sys.stderr)
     names = [name for name, _, _ in header()]

@@ -199,7 +199,7 @@ def table_holds_everything(ranks):
             require_close(steady[name], pair, 1e-9, name, max(1e-300, *map(abs, pair)))
         for curve, columns in expected.curves.items():
             for name, values in columns.items():
-                require_close(steady.curves[curve][name], values, 1e-4, f"{curve}, {name}", max(1e-12, np.abs(values).max()))
+                require_close(steady.curves[curve][name], values, 5e-4, f"{curve}, {name}, of four digits", max(1e-12, np.abs(values).max()))
     require([run.parameters["flagged"] for run in found] == [0, 1], "only the second run is more than 10 % off its I, and must be flagged")
     require(found[0].parameters["core_time"] > 0 and found[0].parameters["memory"] > 1e6, "no cost")
     one, = study_table.over_seeds(found)
@@ -212,6 +212,7 @@ def table_holds_everything(ranks):
             require((name, column) in header, f"columns.csv does not tell of {column} in {name}")
 
 
-main({"one-at-a-time": one_at_a_time, "stopped-run-has-not-ended": stopped_run_has_not_ended, "killed-run-continues": killed_run_continues, "longer-strain-continues": longer_strain_continues,
+main({"one-at-a-time": one_at_a_time, "stopped-run-has-not-ended": stopped_run_has_not_ended,
+      "killed-run-continues": killed_run_continues, "longer-strain-continues": longer_strain_continues,
       "first-restart-cut": first_restart_cut, "no-restart-whole": no_restart_whole, "other-variables-refused": other_variables_refused,
       "reason-is-told": reason_is_told, "means-of-files": means_of_files, "table-holds-everything": table_holds_everything})

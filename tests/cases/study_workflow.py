@@ -39,7 +39,8 @@ def failing_runs_do_not_stop_others(ranks):
     status, output = snakemake()
     require(status != 0, "two runs must fail, and the workflow with them")
     for mu in ("0.4", "1"):
-        require((run_folders()[f"alpha1_mu{mu}_I0.1_N150_seed15485863"] / "ended_at_0.5").exists(), f"the good run of mu = {mu} did not end:\n{output}")
+        good = run_folders()[f"alpha1_mu{mu}_I0.1_N150_seed15485863"]
+        require((good / "ended_at_0.5").exists(), f"the good run of mu = {mu} did not end:\n{output}")
         require(f"study: alpha1_mu{mu}_I0.1_N20_seed15485863 did not end" in output, f"the failed run is not reported:\n{output}")
     require("periodic box must be at least" in output, f"the reason is not told:\n{output}")
     require("--config partial=1" in output, f"the way on is not told:\n{output}")
