@@ -88,6 +88,10 @@ def write_tables(runs, output):
             curves[curve] += [(run.name, *(f"{value:.4g}" for value in point)) for point in thin]
         if sys.stderr.isatty():
             print(f"\r{number} of {len(runs)} runs", end="" if number < len(runs) else "\n", file=sys.stderr)
+    for row in rows:
+        if row["flagged"]:
+            print(f"study_table.py: {row['run']}: the inertial number is {row['I_reached']:.4g}, more than {100 * TOLERANCE:g} % off its target",
+                  file=sys.stderr)
     names = [name for name, _, _ in header()]
     (output / "curves").mkdir(parents=True, exist_ok=True)
     write_csv(output / "table.csv", names, [[text(row.get(name, "")) for name in names] for row in rows])
