@@ -120,15 +120,23 @@ def read_curves(folder):
     return found
 
 
+def steady_runs(folder):
+    """The rows of table.csv, with their curves."""
+    curves = read_curves(folder / "curves")
+    for row in read_csv(folder / "table.csv"):
+        values = {name: float(value) for name, value in row.items() if name != "run" and value}
+        parameters = {name: values[name] for name in PARAMETERS if name != "run"} | {name: values[name] for name in COST if name in values}
+        means = {name: (values[name], values[f"{name}_error"]) for name in MEANS if name in values}
+        yield SteadyRun(row["run"], parameters, means, curves.get(row["run"], {}))
+
+
 def read_study(folder):
     """The steady runs of a folder with table.csv and curves."""
     folder = Path(folder)
-    curves, runs = read_curves(folder / "curves"), []
-    for row in read_csv(folder / "table.csv"):
-        values = {name: float(value) for name, value in row.items() if name != "run" and value}
-        parameters = {name: values[name] for name in (*PARAMETERS, *COST) if name in values}
-        means = {name: (values[name], values[f"{name}_error"]) for name in MEANS if name in values}
-        runs.append(SteadyRun(row["run"], parameters, means, curves.get(row["run"], {})))
+    try:
+        runs = list(steady_runs(folder))
+    except (KeyError, TypeError, ValueError) as error:
+        raise InputError(f"{folder}: its tables are not as study_table.py writes them: {error!r}") from None
     if not runs:
         raise InputError(f"{folder / 'table.csv'}: it holds no run")
     return runs
