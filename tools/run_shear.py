@@ -69,12 +69,14 @@ def write_cost(arguments, wall, usage):
 
 
 def lock(out):
-    """A file that is locked for as long as this process, or the run that it begins, is there."""
+    """A file that is locked for as long as this process, or the run that it begins, is there. Waits for an earlier attempt that still runs,
+    as one does whose Snakemake was killed."""
     file = (out / "lock").open("w")
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
-        sys.exit(f"run_shear.py: {out}: another attempt writes to this folder")
+        print(f"run_shear.py: {out}: another attempt writes to this folder, waiting for its end", file=sys.stderr, flush=True)
+        fcntl.flock(file, fcntl.LOCK_EX)
     return file
 
 
