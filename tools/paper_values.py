@@ -23,12 +23,24 @@ class Published:
 
 
 def nearest_inertia(runs, inertial):
-    return min({run.I for run in runs}, key=lambda found: abs(np.log(found / inertial)))
+    """The inertial number of the runs that is nearest, within a factor of 1.5; nan when there is none."""
+    nearest = min({run.I for run in runs}, key=lambda found: abs(np.log(found / inertial)), default=np.nan)
+    return nearest if abs(np.log(nearest / inertial)) < np.log(1.5) else np.nan
 
 
-def one(runs, name, **wanted):
-    """(mean, error) of a run, at the inertial number nearest to 0.01 unless another is wanted."""
-    wanted = {"I": nearest_inertia(runs, wanted.pop("I", 0.01)), **wanted}
+def friction_of(runs, mu):
+    """The friction coefficient that stands for this one: for 0 the least, if it is at most 0.001; nan when there is none."""
+    if mu > 0:
+        return mu
+    least = min((run.mu for run in runs), default=np.nan)
+    return least if least <= 0.001 else np.nan
+
+
+def one(runs, name, inertial=0.01, **wanted):
+    """(mean, error) of the run with these parameters at the inertial number nearest to this one."""
+    wanted["I"] = nearest_inertia(runs, inertial)
+    if "mu" in wanted:
+        wanted["mu"] = friction_of(runs, wanted["mu"])
     return next((run[name] for run in runs if name in run.means and all(run.parameters[key] == value for key, value in wanted.items())), None)
 
 
@@ -41,8 +53,7 @@ def fitted(laws, fit, parameter, **wanted):
 def exponent(name, alpha, mu, smallest=None):
     """Exponent of name ~ I^x over all inertial numbers (three at least), or the smallest two."""
     def measure(runs):
-        mu_of_run = min({run.mu for run in runs}) if mu == 0 else mu
-        line = select(runs, "I", alpha=alpha, mu=mu_of_run)[:smallest]
+        line = select(runs, "I", alpha=alpha, mu=friction_of(runs, mu))[:smallest]
         if len(line) < (smallest or 3) or any(name not in run.means for run in line):
             return None
         (_, found), (_, error) = power_law([run.inertial for run in line], *np.transpose([run[name] for run in line]))
@@ -62,9 +73,7 @@ def exponents():
 
 def shape_slope(name, side, mu):
     def measure(runs):
-        inertial = nearest_inertia(runs, 0.01)
-        mu_of_run = min({run.mu for run in runs}) if mu == 0 else mu
-        chosen = [run for run in runs if run.mu == mu_of_run and run.I == inertial]
+        chosen = [run for run in runs if run.mu == friction_of(runs, mu) and run.I == nearest_inertia(runs, 0.01)]
         return fitted(laws_of_shape(chosen), f"{name} ~ M^x, {side}", "x")
     return measure
 
@@ -107,16 +116,15 @@ def correlation_length(runs):
 
 
 def friction_of_longest(runs):
-    """The friction coefficient whose correlation length at I = 0.1, averaged over the shapes, is largest."""
-    chosen = [run for run in runs if run.I == nearest_inertia(runs, 0.1) and "l_vy" in run.means]
+    """log10 of the friction coefficient, of three at least, whose correlation length at I = 0.1, averaged over the shapes, is largest."""
+    chosen = [run for run in runs if run.I == nearest_inertia(runs, 0.1) and run.mu > 0 and "l_vy" in run.means]
     means = {mu: np.mean([run["l_vy"][0] for run in chosen if run.mu == mu]) for mu in {run.mu for run in chosen}}
-    return (max(means, key=means.get), 0.0) if means else None
+    return (np.log10(max(means, key=means.get)), 0.0) if len(means) > 2 else None
 
 
 def critical(name, alpha, mu):
     def measure(runs):
-        mu_of_run = min({run.mu for run in runs}) if mu == 0 else mu
-        chosen = [run for run in runs if run.alpha == alpha and run.mu == mu_of_run]
+        chosen = [run for run in runs if run.alpha == alpha and run.mu == friction_of(runs, mu)]
         return next((pair for _, _, pair in critical_values(chosen, name)), None)
     return measure
 
@@ -173,7 +181,7 @@ PUBLISHED = [
     Published("P_t ~ M^x, mu = 0.1, I ~ 0.01, flat", "=", -0.33, 0.05, "Fig. 4", shape_slope("W_t", "flat", 0.1)),
     Published("friction's share of the loss, flattest shape, mu = 0.4, I ~ 0.01", ">", 0.95, 0, "Sec. III B, \"virtually all\"", friction_share),
     Published("E_rot/E_tr, alpha = 1.5, mu -> 0, I ~ 0.01", ">", 1, 0, "Fig. 5c",
-              lambda runs: one(runs, "E_rot/E_tr", alpha=1.5, mu=min({run.mu for run in runs}))),
+              lambda runs: one(runs, "E_rot/E_tr", alpha=1.5, mu=0)),
     Published("E_rot/E_tr of spheres, mu = 10, I ~ 0.01", "=", 1, 0.1, "Fig. 5c", lambda runs: one(runs, "E_rot/E_tr", alpha=1, mu=ROLLING)),
     *exponents(),
     Published("mu_c of spheres, mu -> 0", "=", 0.10, 0.01, "Peyneau & Roux 2008", critical("mu_c", 1, 0)),
@@ -183,7 +191,7 @@ PUBLISHED = [
     Published("mu_c at mu = 10 over that at mu = 1, alpha = 0.5", "<", 1, 0, "Fig. 8",
               lambda runs: ratio(critical("mu_c", 0.5, ROLLING)(runs), critical("mu_c", 0.5, 1)(runs))),
     Published("largest l/L_y at I = 0.1", "<", 0.16, 0, "Sec. III D", correlation_length),
-    Published("mu of the largest l at I = 0.1", "=", 0.4, 0.61, "Fig. 9b, 0.1 to 1", friction_of_longest),
+    Published("log10 of the mu of the largest l at I = 0.1", "=", -0.5, 0.5, "Fig. 9b, mu = 0.1 to 1", friction_of_longest),
     Published("angle of the fabric of spheres to the flow [deg], mu = 0.4, I ~ 0.01", "=", -45, 5, "Fig. 10", fabric_angle),
     Published("largest change of mu with N", "<", 0.02, 0, "Fig. 14, N = 2000 to 4000", size_effect),
     Published("largest N2/P", "<", 0, 0, "Fig. 15", extreme("N2", max)),
