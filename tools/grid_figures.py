@@ -42,8 +42,9 @@ def regimes(measures, path):
         frictions = [mu for mu in values_of(measures, "mu") if mu > 0]
         axis.set(xscale="log", yscale="log", xlim=(0.7 * min(frictions), 1.4 * max(frictions)),
                  ylim=(0.7 * min(m.inertial for m in measures), 1.6 * max(m.inertial for m in measures)))
-        for place, regime in ((0.08, "normal\ndissipation"), (0.56, "sliding"), (0.95, "rolling")):
-            axis.text(place, 0.97, regime, transform=axis.transAxes, ha="center", va="top", fontsize=9, color="0.4")
+        if len({c.sliding_above for c in found["W"]}) == 2:
+            for place, regime in ((0.08, "normal\ndissipation"), (0.56, "sliding"), (0.95, "rolling")):
+                axis.text(place, 0.97, regime, transform=axis.transAxes, ha="center", va="top", fontsize=9, color="0.4")
         inset(axis, [c for c in found["W"] if c.sliding_above and c.I_error > 0 and abs(np.log(c.mu / 0.01)) < 1e-6])
     shape_legend(figure, measures)
     save(figure, path)
