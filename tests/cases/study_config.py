@@ -2,6 +2,7 @@
 """A study's configuration: the runs that it means, and what is refused, with which words."""
 import os
 from pathlib import Path
+import textwrap
 
 import yaml
 
@@ -41,6 +42,15 @@ def numbers_that_yaml_takes_for_words(ranks):
 def example_is_valid(ranks):
     runs = plan(yaml.safe_load((SOURCE / "examples/study/config.yaml").read_text()))
     require(len(runs) >= 120, f"{len(runs)} runs")
+
+
+def howto_has_the_grid_of_the_paper(ranks):
+    page = (SOURCE / "doc/howto_study.md").read_text()
+    block = page[page.index("    alpha: [0.33"):].split("\n\n")[0]
+    runs = plan(yaml.safe_load(textwrap.dedent(block)))
+    require(len(runs) == 637, f"{len(runs)} runs, the paper has 637")
+    steady = {(run.variables["I"], run.variables["steady"]) for run in runs.values()}
+    require(len(steady) == 7 and ("0.001", "4") in steady and ("0.01", "6") in steady, f"averages from {sorted(steady)}")
 
 
 def refused(words, **config):
@@ -90,5 +100,5 @@ REFUSED = {"unknown-word": refused(("keywords must be among", "got 'alhpa'"), al
 
 main({"runs-of-lists": runs_of_lists, "exceptions": exceptions,
       "numbers-that-yaml-takes-for-words": numbers_that_yaml_takes_for_words, "example-is-valid": example_is_valid,
-      "steps-of-deck": steps_of_deck,
+      "howto-has-the-grid-of-the-paper": howto_has_the_grid_of_the_paper, "steps-of-deck": steps_of_deck,
       **REFUSED})
