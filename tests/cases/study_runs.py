@@ -10,7 +10,7 @@ import time
 import numpy as np
 
 from case import main, require, require_close, require_equal
-from run import Failure, environment
+from run import TIME_SCALE, Failure, environment
 from shear_measures import steady_run
 from shear_output import mean_and_error, read_blocks, read_run, read_table
 import study_table
@@ -37,10 +37,10 @@ def run_to_end(name, ranks=1, **variables):
     """Exit status, and what was printed."""
     process = start(name, ranks, **variables)
     try:
-        output, _ = process.communicate(timeout=200)
+        output, _ = process.communicate(timeout=200 * TIME_SCALE)
     except subprocess.TimeoutExpired:
         os.killpg(process.pid, signal.SIGKILL)
-        raise Failure(f"{name} did not end in 200 s") from None
+        raise Failure(f"{name} did not end in {200 * TIME_SCALE:g} s") from None
     return process.returncode, output
 
 
@@ -61,10 +61,10 @@ def killed(name, ranks=1, **variables):
 
 def wait_for_restart(name, process):
     """Until the run has written its second restart file."""
-    until = time.monotonic() + 100
+    until = time.monotonic() + 100 * TIME_SCALE
     while not (folder(name) / "odd.restart").exists():
         require(process.poll() is None, f"{name} ended before it could be killed")
-        require(time.monotonic() < until, f"{name} wrote no second restart file in 100 s")
+        require(time.monotonic() < until, f"{name} wrote no second restart file in {100 * TIME_SCALE:g} s")
         time.sleep(0.01)
 
 
@@ -90,7 +90,7 @@ def stopped_run_has_not_ended(ranks):
                if f"-var\0out\0{folder('stopped')}\0".encode() in path.read_bytes()]
     require(len(program) == 1, f"not one program that writes to {folder('stopped')}: {program}")
     os.kill(int(program[0]), signal.SIGTERM)
-    output, _ = process.communicate(timeout=100)
+    output, _ = process.communicate(timeout=100 * TIME_SCALE)
     require(process.returncode == 1 and "stopped by a signal" in output, f"ended with {process.returncode}: {output}")
     stopped = ended("stopped", ranks)
     require(len(attempts_of(stopped)) == 2, "the second attempt did not go on")

@@ -9,7 +9,7 @@ import sys
 import yaml
 
 from case import main, require
-from run import environment
+from run import TIME_SCALE, environment
 from study_table import read_csv
 
 SOURCE = Path(os.environ["GRAINSCOPE_SOURCE"])
@@ -27,7 +27,7 @@ def snakemake(*words, **changes):
     (folder() / "study.yaml").write_text(yaml.safe_dump(config))
     command = ["snakemake", "-s", SOURCE / "examples/study/Snakefile", "--configfile", "study.yaml", "--directory", folder(), "-c2", "-k", *words]
     done = subprocess.run([*map(str, command)], env=environment(1), cwd=folder(), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                          timeout=280)
+                          timeout=280 * TIME_SCALE)
     return done.returncode, done.stdout
 
 
