@@ -2,7 +2,8 @@
 import warnings
 
 import numpy as np
-from scipy.optimize import OptimizeWarning, curve_fit
+from scipy.interpolate import PchipInterpolator
+from scipy.optimize import OptimizeWarning, brentq, curve_fit
 
 
 class FitError(Exception):
@@ -89,15 +90,16 @@ def fit_decay(distance, correlation):
 
 
 def crossing(x, ratios, errors):
-    """Where ln(ratio) changes sign along x, by straight lines between neighbours: list of (x, its error, +1 where the ratio rises)."""
+    """Where ln(ratio) changes sign along x, by a monotone cubic through all points: list of (x, its error, +1 where the ratio rises). The error is
+    what the points' errors make, and how far a straight line between the two neighbours would put it, in quadrature."""
+    x, y, dy = np.asarray(x), np.log(ratios), np.asarray(errors) / np.asarray(ratios)
     found = []
-    y, dy = np.log(ratios), np.asarray(errors) / np.asarray(ratios)
-    for k in range(len(x) - 1):
-        if (y[k] > 0) == (y[k + 1] > 0):
-            continue
-        rise = y[k + 1] - y[k]
+    for k in np.flatnonzero((y[:-1] > 0) != (y[1:] > 0)):
+        rise, step = y[k + 1] - y[k], x[k + 1] - x[k]
         share = -y[k] / rise
-        step = x[k + 1] - x[k]
+        straight = x[k] + share * step
+        curved = brentq(PchipInterpolator(x, y), x[k], x[k + 1])
         # d(share)/dy_k = -(1 - share)/rise, d(share)/dy_(k+1) = -share/rise
-        found.append((x[k] + share * step, abs(step / rise) * np.hypot((1 - share) * dy[k], share * dy[k + 1]), 1 if rise > 0 else -1))
+        noise = abs(step / rise) * np.hypot((1 - share) * dy[k], share * dy[k + 1])
+        found.append((curved, np.hypot(noise, curved - straight), 1 if rise > 0 else -1))
     return found

@@ -57,7 +57,7 @@ def kinds(runs):
 
 
 def crossovers(runs, kind="W"):
-    """Points with P_t = P_n, between neighbouring runs of the grid, by straight lines in the logarithms: those between neighbours in mu at
+    """Points with P_t = P_n, between neighbouring runs of the grid, by interpolation in the logarithms: those between neighbours in mu at
     each I, and between neighbours in I at each mu."""
     found = []
     for alpha in values(runs, "alpha"):
