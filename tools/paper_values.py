@@ -101,6 +101,10 @@ def ratio(first, second):
     return value, abs(value) * np.hypot(first[1] / first[0], second[1] / second[0])
 
 
+def ratio_of_shapes(name, alpha, other, mu):
+    return lambda runs: ratio(one(runs, name, alpha=alpha, mu=mu), one(runs, name, alpha=other, mu=mu))
+
+
 def crossover_ratio(alpha, other):
     return lambda runs: ratio(crossover_at(runs, alpha, 0.01), crossover_at(runs, other, 0.01))
 
@@ -184,6 +188,13 @@ PUBLISHED = [
               lambda runs: one(runs, "E_rot/E_tr", alpha=1.5, mu=0)),
     Published("E_rot/E_tr of spheres, mu = 10, I ~ 0.01", "=", 1, 0.1, "Fig. 5c", lambda runs: one(runs, "E_rot/E_tr", alpha=1, mu=ROLLING)),
     *exponents(),
+    Published("velocity fluctuation, alpha = 0.5 over 1.5, mu -> 0, I ~ 0.01", "=", 1, 0.1, "Fig. 6, \"collapse\"",
+              ratio_of_shapes("lever", 0.5, 1.5, 0)),
+    *(Published(f"spin fluctuation, alpha = {far:g} over {near:g}, mu -> 0, I ~ 0.01", "<", 1, 0, "Fig. 6",
+                ratio_of_shapes("spin_fluctuation", far, near, 0)) for far, near in ((0.5, 0.67), (2, 1.5))),
+    Published("mu_eff, alpha = 0.5 over 2, mu -> 0, I ~ 0.01", "<", 1, 0, "Sec. III C", ratio_of_shapes("mu_eff", 0.5, 2, 0)),
+    *(Published(f"S2, alpha = {flat:g} over {long:g}, mu -> 0, I ~ 0.01", ">", 1, 0, "Sec. III C", ratio_of_shapes("S2", flat, long, 0))
+      for flat, long in ((0.67, 1.5), (0.5, 2))),
     Published("mu_c of spheres, mu -> 0", "=", 0.10, 0.01, "Peyneau & Roux 2008", critical("mu_c", 1, 0)),
     Published("phi_c of spheres, mu -> 0", "=", 0.64, 0.005, "Peyneau & Roux 2008", critical("phi_c", 1, 0)),
     Published("largest Z of spheres", "<", 6, 0, "Fig. 7", extreme("Z", max, lambda alpha: alpha == 1)),
@@ -193,7 +204,10 @@ PUBLISHED = [
     Published("largest l/L_y at I = 0.1", "<", 0.16, 0, "Sec. III D", correlation_length),
     Published("log10 of the mu of the largest l at I = 0.1", "=", -0.5, 0.5, "Fig. 9b, mu = 0.1 to 1", friction_of_longest),
     Published("angle of the fabric of spheres to the flow [deg], mu = 0.4, I ~ 0.01", "=", -45, 5, "Fig. 10", fabric_angle),
+    *(Published(f"deviator of the fabric, alpha = {flat:g} over {long:g}, mu = 0.4, I ~ 0.01", ">", 1, 0, "Fig. 10",
+                ratio_of_shapes("fabric_deviator", flat, long, SLIDING)) for flat, long in ((0.67, 1.5), (0.5, 2))),
     Published("largest change of mu with N", "<", 0.02, 0, "Fig. 14, N = 2000 to 4000", size_effect),
     Published("largest N2/P", "<", 0, 0, "Fig. 15", extreme("N2", max)),
+    Published("D_z, alpha = 0.5 over 2, mu -> 0, I ~ 0.01", ">", 1, 0, "App. E", ratio_of_shapes("D_z", 0.5, 2, 0)),
     Published("D_y ~ I^x, mu -> 0, alpha = 1", "=", -1 / 8, 0.03, "App. E", exponent("D_y", 1, 0)),
 ]

@@ -172,7 +172,7 @@ def published_of_grid(ranks):
     grid = made_grid() + [made_run(alpha, mu, inertial) for alpha in (0.5, 1, 1.5, 2) for mu in (0.4,) for inertial in (0.01, 0.03, 0.06, 0.1)]
     found = {p.quantity: p.measure(grid) for p in PUBLISHED}
     untold = [name for name, pair in found.items() if pair is None]
-    absent = ("E_rot/E_tr", "l/L_y", "log10 of the mu", "fabric", "change of mu with N", "I_c at mu = 0.01", "rolling")
+    absent = ("E_rot/E_tr", "l/L_y", "log10 of the mu", "fabric", "S2", "change of mu with N", "I_c at mu = 0.01", "rolling")
     require(all(any(word in name for word in absent) for name in untold), f"not told: {untold}")
     require_close(found["I_c ~ mu^p, alpha = 1"][0], 2, 0.01, "p")
     require_close(found["spin -2<omega_z>/rate of spheres, mu = 0.4"], (1, 1e-4), 1e-12, "spin")
