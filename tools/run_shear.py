@@ -45,7 +45,9 @@ def check_variables(arguments):
 
 
 def last_row(path):
-    return path.read_text().splitlines()[-1].split() if path.exists() else []
+    """Words of a file's last line; none of a file that is missing or empty."""
+    lines = path.read_text().splitlines() if path.exists() else []
+    return lines[-1].split() if lines else []
 
 
 def strain_reached(out):
@@ -55,6 +57,7 @@ def strain_reached(out):
 
 
 def time_of(path):
+    """When a file was last written to, or None."""
     return path.stat().st_mtime_ns if path.exists() else None
 
 
