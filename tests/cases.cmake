@@ -194,7 +194,7 @@ add_cases(study-fits cases/study_fits.py LABEL case RANKS 1 CASES
   published-of-grid)
 add_cases(study cases/study_runs.py LABEL case RANKS 1 2 CASES killed-run-continues longer-strain-continues)
 add_cases(study cases/study_runs.py LABEL case RANKS 1 CASES
-  one-at-a-time stopped-run-has-not-ended first-restart-cut no-restart-whole other-variables-refused reason-is-told means-of-files table-holds-everything)
+  one-at-a-time stopped-run-has-not-ended first-restart-cut no-restart-whole other-variables-refused part-must-be-named reason-is-told means-of-files table-holds-everything)
 add_cases(study cases/study_workflow.py LABEL case RANKS 1 SECONDS 600 CASES
   failing-runs-do-not-stop-others study-goes-on basic-measures bad-configuration)
 add_cases(study cases/study_slurm.py LABEL long RANKS 1 SECONDS 900 CASES slurm-grid)

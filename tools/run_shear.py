@@ -38,6 +38,9 @@ def check_variables(arguments):
     if not path.exists():   # begun by hand
         return
     begun, asked = dict(line.split("=", 1) for line in path.read_text().splitlines()), dict(arguments.variables)
+    if "part" not in asked and plain(begun.get("strain")) != plain(asked.get("strain")):
+        sys.exit(f"run_shear.py: {arguments.out}: part must be named from the first attempt on for strain to change, from "
+                 f"{begun.get('strain', 'the default')} to {asked.get('strain', 'the default')} here: its default depends on strain")
     for name in sorted((begun.keys() | asked.keys()) - set(MAY_CHANGE)):
         if plain(begun.get(name)) != plain(asked.get(name)):
             sys.exit(f"run_shear.py: {arguments.out}: {name} must stay what the run began with, {begun.get(name, 'the default')}, "

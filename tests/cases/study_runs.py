@@ -157,6 +157,16 @@ def other_variables_refused(ranks):
     require(status == 1 and "mu must stay what the run began with, 0.4, got 0.5" in output, f"ended with {status}: {output}")
 
 
+def part_must_be_named(ranks):
+    """Its default is a share of the strain, so that a larger strain would cut the run into other parts."""
+    words = ["N=150", "alpha=1", "--binary", os.environ["GRAINSCOPE_BINARY"]]
+    for strain, expected in ((0.3, 0), (0.4, 1)):
+        done = subprocess.run([sys.executable, SOURCE / "tools" / "run_shear.py", folder("parts"), f"strain={strain}", *words], env=environment(1),
+                              capture_output=True, text=True)
+        require(done.returncode == expected, f"strain {strain} ended with {done.returncode}: {done.stderr}")
+    require("part must be named" in done.stderr and "from 0.3 to 0.4" in done.stderr, f"it said {done.stderr}")
+
+
 def reason_is_told(ranks):
     status, output = run_to_end("bad", ranks, part=0.7)
     require(status == 1 and "part must be more than 0 and at most strain" in output, f"ended with {status}: {output}")
@@ -217,4 +227,5 @@ def table_holds_everything(ranks):
 main({"one-at-a-time": one_at_a_time, "stopped-run-has-not-ended": stopped_run_has_not_ended,
       "killed-run-continues": killed_run_continues, "longer-strain-continues": longer_strain_continues,
       "first-restart-cut": first_restart_cut, "no-restart-whole": no_restart_whole, "other-variables-refused": other_variables_refused,
-      "reason-is-told": reason_is_told, "means-of-files": means_of_files, "table-holds-everything": table_holds_everything})
+      "part-must-be-named": part_must_be_named, "reason-is-told": reason_is_told, "means-of-files": means_of_files,
+      "table-holds-everything": table_holds_everything})
