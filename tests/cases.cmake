@@ -190,7 +190,7 @@ add_cases(study cases/study_config.py LABEL case RANKS 1 CASES
   yes-for-number negative-friction half-a-grain not-finite twice steady-beyond-strain exception-steady measure exception-shape exception-where
   exception-use exception-value output ranks)
 add_cases(study-fits cases/study_fits.py LABEL case RANKS 1 CASES
-  friction-law fraction-law power-law without-errors decay refused crossing level-set laws-of-grid laws-of-shape seeds-and-sizes agreement
+  friction-law fraction-law power-law without-errors decay refused curves-that-do-not-bend crossing level-set laws-of-grid laws-of-shape seeds-and-sizes agreement
   published-of-grid)
 add_cases(study cases/study_runs.py LABEL case RANKS 1 2 CASES killed-run-continues longer-strain-continues)
 add_cases(study cases/study_runs.py LABEL case RANKS 1 CASES

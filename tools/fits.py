@@ -10,6 +10,10 @@ class FitError(Exception):
     """Points that do not determine what is asked of them; the message says why."""
 
 
+class LimitError(FitError):
+    """The best curve is at a limit of its parameters."""
+
+
 def fit(model, x, y, errors, starts, low, high):
     """Parameters of y = model(x, *parameters) within (low, high), and their standard errors: those that the points' errors make, larger
     where the points scatter about the curve by more than that. The best of the fits from several starts counts; one at a limit does not."""
@@ -33,7 +37,7 @@ def fit(model, x, y, errors, starts, low, high):
     if not np.isfinite(best):
         raise FitError("the points determine no curve")
     if any(np.isclose(found, limit, rtol=1e-4, atol=1e-12).any() for limit in (low, high)):
-        raise FitError("the best curve is at a limit of its parameters")
+        raise LimitError("the best curve is at a limit of its parameters")
     scatter = best / spare if spare else 0.0
     return found, np.sqrt(variances * (max(1.0, scatter) if weighted else scatter))
 
@@ -52,15 +56,25 @@ def power_law(x, y, errors):
     return (np.exp(intercept), exponent), (np.exp(intercept) * error[0], error[1])
 
 
+def fit_or_line(*arguments):
+    """fit(), or where the points do not tell how the curve bends, the value at 0 of a straight line; the other parameters are nan then."""
+    try:
+        return fit(*arguments)
+    except LimitError:
+        _, x, y, errors, _, low, _ = arguments
+        (value, _), (error, _) = straight_line(x, y, errors)
+        return (np.array([first] + [np.nan] * (len(low) - 1)) for first in (value, error))
+
+
 def friction_law(inertial, mu_c, c_mu, I_0):
     """Eq. 5 of Bilotto et al. (2025): mu(I) = mu_c + c_mu/(1 + I_0/I)."""
     return mu_c + c_mu / (1 + I_0 / inertial)
 
 
 def fit_friction_law(inertial, mu, errors):
-    """(mu_c, c_mu, I_0), and their errors."""
+    """(mu_c, c_mu, I_0), and their errors; mu_c alone where the points do not tell how mu(I) bends."""
     starts = [(np.min(mu), 0.5, I_0) for I_0 in (0.03, 0.3, 3.0)]
-    return fit(friction_law, inertial, mu, errors, starts, [0, 0, 1e-4], [2, 20, 30])
+    return fit_or_line(friction_law, inertial, mu, errors, starts, [0, 0, 1e-4], [2, 20, 30])
 
 
 def fraction_law(inertial, phi_c, c_phi, beta):
@@ -69,9 +83,9 @@ def fraction_law(inertial, phi_c, c_phi, beta):
 
 
 def fit_fraction_law(inertial, phi, errors):
-    """(phi_c, c_phi, beta), and their errors."""
+    """(phi_c, c_phi, beta), and their errors; phi_c alone where the points do not tell how phi(I) bends."""
     starts = [(np.max(phi), 0.2, beta) for beta in (0.4, 1.0, 1.8)]
-    return fit(fraction_law, inertial, phi, errors, starts, [0, 0, 0.05], [1, 50, 3])
+    return fit_or_line(fraction_law, inertial, phi, errors, starts, [0, 0, 0.05], [1, 50, 3])
 
 
 def fit_decay(distance, correlation):

@@ -62,12 +62,13 @@ def inset(axis, slice_of):
 
 
 def critical(measures, path):
-    """Fig. 8: critical friction and solid fraction of the fits of Eqs. 5 and 6, over the aspect ratio; fits that determine their value within
-    a fifth of it."""
+    """Fig. 8: critical friction and solid fraction of the fits of Eqs. 5 and 6, over the aspect ratio; fits that tell mu_c within a
+    fifth, phi_c within a twentieth of it."""
     figure, axes = plt.subplots(1, 2, figsize=(8.2, 3.4), constrained_layout=True)
     drawn = False
-    for axis, name, label in zip(axes, ("mu_c", "phi_c"), (r"critical friction $\mu_c$", r"critical solid fraction $\phi_c$")):
-        fitted = [(alpha, mu, pair) for alpha, mu, pair in critical_values(measures, name) if pair[1] < 0.2 * pair[0]]
+    panels = (("mu_c", r"critical friction $\mu_c$", 0.2), ("phi_c", r"critical solid fraction $\phi_c$", 0.05))
+    for axis, (name, label, known) in zip(axes, panels):
+        fitted = [(alpha, mu, pair) for alpha, mu, pair in critical_values(measures, name) if pair[1] < known * pair[0]]
         for mu in values_of(measures, "mu"):
             chosen = [(alpha, pair) for alpha, at, pair in fitted if at == mu]
             if chosen:

@@ -92,7 +92,7 @@ def try_fit(fit, names, function, points, **where):
         found, found_errors = function(np.array(x), y, errors)
     except FitError:
         return []
-    return [Fitted(fit, name, value, error, len(x), **where) for name, value, error in zip(names, found, found_errors)]
+    return [Fitted(fit, name, value, error, len(x), **where) for name, value, error in zip(names, found, found_errors) if np.isfinite(value)]
 
 
 def laws_of_inertia(runs):

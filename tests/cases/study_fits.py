@@ -62,13 +62,26 @@ def decay(ranks):
 
 def refused(ranks):
     for what, call in {"two points for three parameters": lambda: fit_friction_law([0.1, 0.2], [0.3, 0.4], [0.1, 0.1]),
-                       "a negative value": lambda: power_law([1, 2, 3], [1, -1, 1], [1, 1, 1]),
-                       "no dependence on I": lambda: fit_fraction_law(INERTIA, np.full(7, 0.6), np.full(7, 0.01))}.items():
+                       "a negative value": lambda: power_law([1, 2, 3], [1, -1, 1], [1, 1, 1])}.items():
         try:
             found = call()
         except FitError:
             continue
         require(False, f"{what} gave {found}")
+
+
+def curves_that_do_not_bend(ranks):
+    """A straight line in I tells mu_c and phi_c, with the errors of a straight line, but no I_0 and no beta."""
+    random = np.random.default_rng(4)
+    for fit_law, value, slope in ((fit_friction_law, 0.3, 1.0), (fit_fraction_law, 0.6, -0.001)):
+        found, pulls = [], []
+        for _ in range(REPEATS):
+            values, errors = fit_law(INERTIA, value + slope * INERTIA + NOISE * random.standard_normal(7), np.full(7, NOISE))
+            if np.isnan(values[1:]).all():
+                found.append(values[0])
+                pulls.append((values[0] - value) / errors[0])
+        require(len(found) > REPEATS / 10, f"a curve that does not bend was bent in {REPEATS - len(found)} of {REPEATS} cases")
+        require(abs(np.median(pulls)) < 1.5, f"the values at 0 are off by {np.median(pulls)} errors")
 
 
 def crossing_and_error(ranks):
@@ -182,6 +195,7 @@ def published_of_grid(ranks):
 main({"friction-law": known(fit_friction_law, friction_law, (0.3, 0.5, 0.1)),
       "fraction-law": known(fit_fraction_law, fraction_law, (0.64, 0.4, 0.7)),
       "power-law": known(power_law_as_fit, lambda x, factor, exponent: factor * x**exponent, (0.5, -0.2)), "without-errors": without_errors,
-      "decay": decay, "refused": refused, "crossing": crossing_and_error, "level-set": level_set, "laws-of-grid": laws_of_grid,
+      "decay": decay, "refused": refused,
+      "curves-that-do-not-bend": curves_that_do_not_bend, "crossing": crossing_and_error, "level-set": level_set, "laws-of-grid": laws_of_grid,
       "laws-of-shape": laws_of_made_shapes, "seeds-and-sizes": seeds_and_sizes, "agreement": agreement,
       "published-of-grid": published_of_grid})
