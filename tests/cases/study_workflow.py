@@ -26,6 +26,7 @@ def snakemake(*words, **changes):
     config = {**CONFIG, "program": os.environ["GRAINSCOPE_BINARY"], **changes}
     (folder() / "study.yaml").write_text(yaml.safe_dump(config))
     command = ["snakemake", "-s", SOURCE / "examples/study/Snakefile", "--configfile", "study.yaml", "--directory", folder(), "-c2", "-k", *words]
+    require(shutil.which("snakemake"), "snakemake is missing: scripts/install-packages snakemake")
     done = subprocess.run([*map(str, command)], env=environment(1), cwd=folder(), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                           timeout=280 * TIME_SCALE)
     return done.returncode, done.stdout
