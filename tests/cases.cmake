@@ -187,7 +187,7 @@ add_cases(soak cases/soak.py LABEL long RANKS 1 SECONDS 5400 CASES spheroids-ove
 add_cases(study cases/study_config.py LABEL case RANKS 1 CASES
   runs-of-lists exceptions numbers-that-yaml-takes-for-words example-is-valid howto-has-the-grid-of-the-paper steps-of-deck
   unknown-word empty-list no-list word-for-number
-  yes-for-number negative-friction half-a-grain not-finite twice steady-beyond-strain exception-steady measure exception-shape exception-where
+  yes-for-number negative-friction half-a-grain not-finite twice steady-beyond-strain exception-steady measure exception-shape exceptions-no-list exception-where
   exception-use exception-value output ranks)
 add_cases(study-fits cases/study_fits.py LABEL case RANKS 1 CASES
   friction-law fraction-law power-law without-errors decay refused curves-that-do-not-bend crossing level-set laws-of-grid laws-of-shape seeds-and-sizes agreement

@@ -16,14 +16,16 @@ NAMES = ["quantity", "value", "error", "published", "tolerance", "agrees", "sour
 
 
 def verdict(published, value, error):
-    """yes, NO, or undecided: a bound within twice the error, a number whose doubled error is beyond its tolerance and half of it."""
+    """yes, NO, or undecided: a bound within twice the error, a number whose doubled error is beyond its tolerance and a quarter of it."""
     away = value - published.value
+    if not np.isfinite([value, error]).all():
+        return "undecided"
     if published.relation != "=":
         beyond = away if published.relation == ">" else -away
         return "undecided" if abs(beyond) < 2 * error else "yes" if beyond > 0 else "NO"
     if abs(away) > np.hypot(published.tolerance, 2 * error):
         return "NO"
-    return "undecided" if 2 * error > max(published.tolerance, 0.5 * abs(published.value)) else "yes"
+    return "undecided" if 2 * error > max(published.tolerance, 0.25 * abs(published.value)) else "yes"
 
 
 def compare(runs):

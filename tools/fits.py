@@ -18,6 +18,8 @@ def fit(model, x, y, errors, starts, low, high):
     """Parameters of y = model(x, *parameters) within (low, high), and their standard errors: those that the points' errors make, larger
     where the points scatter about the curve by more than that. The best of the fits from several starts counts; one at a limit does not."""
     x, y, errors = (np.asarray(values, dtype=float) for values in (x, y, errors))
+    if not all(np.isfinite(values).all() for values in (x, y, errors)):
+        raise FitError("a point is not finite")
     spare = len(x) - len(low)
     if spare < 0:
         raise FitError(f"{len(low)} points are needed, there are {len(x)}")

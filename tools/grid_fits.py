@@ -121,7 +121,7 @@ def laws_of_shape(runs):
             line = select(runs, "alpha", mu=mu, I=inertial)
             for side, chosen in (("flat", [run for run in line if run.alpha <= 1 / ROUND + 1e-3]),
                                  ("long", [run for run in line if run.alpha >= ROUND])):
-                for name in ("W_n", "W_t"):
+                for name in (f"{kind}_{part}" for kind in kinds(runs) for part in "nt"):
                     points = [(max(run.alpha, 1 / run.alpha), run[name]) for run in chosen if run[name][0] > 0]
                     if len(points) >= 2:
                         found += try_fit(f"{name} ~ M^x, {side}", ("factor", "x"), power_law, points, mu=mu, I=inertial)
@@ -134,8 +134,10 @@ def laws_of_crossover(runs):
     for kind in kinds(runs):
         points = [point for point in crossovers(runs, kind) if point.sliding_above]
         for alpha in values(runs, "alpha"):
-            branch = [(c.mu, (c.I, np.hypot(c.I_error, 2 * c.I * c.mu_error / c.mu))) for c in points if c.alpha == alpha]
-            if len(branch) >= 2:
+            line = [c for c in points if c.alpha == alpha]
+            if len(line) >= 2:
+                slope = np.polyfit(np.log([c.mu for c in line]), np.log([c.I for c in line]), 1)[0]     # turns errors of mu into those of I
+                branch = [(c.mu, (c.I, np.hypot(c.I_error, slope * c.I * c.mu_error / c.mu))) for c in line]
                 found += try_fit(f"I_c ~ mu^p, {kind}", ("factor", "p"), power_law, branch, alpha=alpha)
     return found
 

@@ -5,8 +5,8 @@ from typing import Callable
 
 import numpy as np
 
-from fits import power_law
-from grid_fits import critical_values, crossovers, laws_of_crossover, laws_of_inertia, laws_of_shape, select, sizes
+from fits import FitError, power_law
+from grid_fits import critical_values, crossovers, kinds, laws_of_crossover, laws_of_inertia, laws_of_shape, select, sizes
 
 SLIDING, ROLLING = 0.4, 10
 
@@ -50,13 +50,21 @@ def fitted(laws, fit, parameter, **wanted):
                  and all(getattr(law, key) == value for key, value in wanted.items())), None)
 
 
+def powers(runs):
+    """The powers of Eq. 4, which the paper shows, where they were measured; else those over steps."""
+    return kinds(runs)[-1]
+
+
 def exponent(name, alpha, mu, smallest=None):
     """Exponent of name ~ I^x over all inertial numbers (three at least), or the smallest two."""
     def measure(runs):
         line = select(runs, "I", alpha=alpha, mu=friction_of(runs, mu))[:smallest]
         if len(line) < (smallest or 3) or any(name not in run.means for run in line):
             return None
-        (_, found), (_, error) = power_law([run.inertial for run in line], *np.transpose([run[name] for run in line]))
+        try:
+            (_, found), (_, error) = power_law([run.inertial for run in line], *np.transpose([run[name] for run in line]))
+        except FitError:
+            return None
         return found, error
     return measure
 
@@ -74,31 +82,31 @@ def exponents():
 def shape_slope(name, side, mu):
     def measure(runs):
         chosen = [run for run in runs if run.mu == friction_of(runs, mu) and run.I == nearest_inertia(runs, 0.01)]
-        return fitted(laws_of_shape(chosen), f"{name} ~ M^x, {side}", "x")
+        return fitted(laws_of_shape(chosen), f"{powers(runs)}_{name} ~ M^x, {side}", "x")
     return measure
 
 
 def crossover_exponent(alpha):
-    return lambda runs: fitted(laws_of_crossover([run for run in runs if run.alpha == alpha]), "I_c ~ mu^p, W", "p")
+    return lambda runs: fitted(laws_of_crossover([run for run in runs if run.alpha == alpha]), f"I_c ~ mu^p, {powers(runs)}", "p")
 
 
 def crossover_at(runs, alpha, mu):
-    return next(((c.I, c.I_error) for c in crossovers([run for run in runs if run.alpha == alpha])
+    return next(((c.I, c.I_error) for c in crossovers([run for run in runs if run.alpha == alpha], powers(runs))
                  if c.sliding_above and c.I_error > 0 and np.isclose(c.mu, mu)), None)
 
 
 def rolling_at(runs, alpha, inertial):
     inertial = nearest_inertia(runs, inertial)
     chosen = [run for run in runs if run.alpha == alpha and run.I == inertial]
-    return next(((c.mu, c.mu_error) for c in crossovers(chosen) if not c.sliding_above), None)
+    return next(((c.mu, c.mu_error) for c in crossovers(chosen, powers(runs)) if not c.sliding_above), None)
 
 
 def ratio(first, second):
-    """(value, error) of a quotient of two pairs."""
-    if first is None or second is None:
+    """(value, error) of a quotient of two pairs; None where there is none."""
+    if first is None or second is None or second[0] == 0:
         return None
     value = first[0] / second[0]
-    return value, abs(value) * np.hypot(first[1] / first[0], second[1] / second[0])
+    return value, np.hypot(first[1], value * second[1]) / abs(second[0])
 
 
 def ratio_of_shapes(name, alpha, other, mu):
@@ -152,7 +160,7 @@ def extreme(name, choose, shapes=lambda alpha: True):
 def friction_share(runs):
     """Share of friction in the loss of the flattest shape in the sliding regime."""
     flattest = min(run.alpha for run in runs)
-    normal, friction = one(runs, "W_n", alpha=flattest, mu=SLIDING), one(runs, "W_t", alpha=flattest, mu=SLIDING)
+    normal, friction = (one(runs, f"{powers(runs)}_{part}", alpha=flattest, mu=SLIDING) for part in "nt")
     if normal is None:
         return None
     share = friction[0] / (normal[0] + friction[0])
@@ -179,10 +187,10 @@ PUBLISHED = [
       for flat, long in ((0.67, 1.5), (0.5, 2))),
     *(Published(f"mu where rolling begins at I = 0.1, alpha = {one_:g} over {other:g}", ">", 1, 0, "Fig. 3", rolling_ratio(one_, other))
       for one_, other in ((1.5, 1), (0.67, 1.5), (0.5, 2))),
-    Published("P_n ~ M^x, mu -> 0, I ~ 0.01, long", "=", -0.90, 0.05, "Fig. 4", shape_slope("W_n", "long", 0)),
-    Published("P_n ~ M^x, mu -> 0, I ~ 0.01, flat", "=", -0.96, 0.05, "Fig. 4", shape_slope("W_n", "flat", 0)),
-    Published("P_t ~ M^x, mu = 0.1, I ~ 0.01, long", "=", -0.30, 0.05, "Fig. 4", shape_slope("W_t", "long", 0.1)),
-    Published("P_t ~ M^x, mu = 0.1, I ~ 0.01, flat", "=", -0.33, 0.05, "Fig. 4", shape_slope("W_t", "flat", 0.1)),
+    Published("P_n ~ M^x, mu -> 0, I ~ 0.01, long", "=", -0.90, 0.05, "Fig. 4", shape_slope("n", "long", 0)),
+    Published("P_n ~ M^x, mu -> 0, I ~ 0.01, flat", "=", -0.96, 0.05, "Fig. 4", shape_slope("n", "flat", 0)),
+    Published("P_t ~ M^x, mu = 0.1, I ~ 0.01, long", "=", -0.30, 0.05, "Fig. 4", shape_slope("t", "long", 0.1)),
+    Published("P_t ~ M^x, mu = 0.1, I ~ 0.01, flat", "=", -0.33, 0.05, "Fig. 4", shape_slope("t", "flat", 0.1)),
     Published("friction's share of the loss, flattest shape, mu = 0.4, I ~ 0.01", ">", 0.95, 0, "Sec. III B, \"virtually all\"", friction_share),
     Published("E_rot/E_tr, alpha = 1.5, mu -> 0, I ~ 0.01", ">", 1, 0, "Fig. 5c",
               lambda runs: one(runs, "E_rot/E_tr", alpha=1.5, mu=0)),

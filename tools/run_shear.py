@@ -47,6 +47,13 @@ def check_variables(arguments):
                      f"got {asked.get(name, 'the default')}; use another folder, or remove this one to start again")
 
 
+def write_variables(arguments):
+    """At once: a file that a kill left half-written would be taken for what the run began with."""
+    path = arguments.out / "variables.txt"
+    path.with_suffix(".new").write_text("".join(f"{name}={value}\n" for name, value in arguments.variables))
+    path.with_suffix(".new").replace(path)
+
+
 def last_row(path):
     """Words of a file's last line; none of a file that is missing or empty."""
     lines = path.read_text().splitlines() if path.exists() else []
@@ -130,7 +137,7 @@ def main():
             if reached >= float(dict(arguments.variables).get("strain", "inf")):
                 print(f"run_shear.py: {arguments.out}: ended at strain {reached:g} before, nothing to do")
                 return
-        (arguments.out / "variables.txt").write_text("".join(f"{name}={value}\n" for name, value in arguments.variables))
+        write_variables(arguments)
         status, output = attempt(arguments, bool(files), locked)
         if status and len(files) == 1 and NONE_WHOLE in output:
             print(f"run_shear.py: {arguments.out}: the first restart file was not whole yet, starting again", file=sys.stderr)

@@ -122,11 +122,12 @@ def joined(folder, name, length_of):
         place = 0
         while place < len(rows):
             try:
-                step, length = int(rows[place][0]), length_of(rows[place])
+                step = int(rows[place][0])
+                if step > end:
+                    break
+                length = length_of(rows[place])
             except (IndexError, ValueError):
                 raise InputError(f"{part / name}: row {place + 1} must begin with a step, got '{' '.join(rows[place])}'") from None
-            if step > end:
-                break
             if place + length > len(rows):
                 raise InputError(f"{part / name}: the table of step {step} is incomplete, {length - 1} rows are needed")
             if step > begin or begin == 0:

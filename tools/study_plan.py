@@ -4,8 +4,8 @@ from itertools import product
 
 from cost_model import memory_of, seconds_of
 
-LISTS = ("alpha", "mu", "I", "N", "seed", "e")
-NUMBERS = {"strain": 16.0, "steady": 6.0, "part": 0.125, "ranks": 1, "speed": 1.0}
+LISTS = ("alpha", "mu", "I", "N", "seed")
+NUMBERS = {"e": 0.1, "strain": 16.0, "steady": 6.0, "part": 0.125, "ranks": 1, "speed": 1.0}
 OTHERS = {"measure": "all", "exceptions": (), "output": "study-output", "program": "build/release/bin/grainscope", "partial": 0}
 WHOLE = ("N", "seed", "ranks")
 MAY_BE_ZERO = ("mu", "steady")
@@ -72,8 +72,8 @@ def planned_run(values, measure):
     if values["steady"] >= values["strain"]:
         raise PlanError(f"steady must be less than strain = {values['strain']:g}, got {values['steady']:g}, for "
                         + ", ".join(f"{name} = {values[name]:g}" for name in LISTS))
-    name = "_".join(f"{name}{values[name]:.10g}" for name in LISTS if name != "e") + (f"_e{values['e']:g}" if values["e"] != 0.1 else "")
-    variables = {name: f"{values[name]:.10g}" for name in (*LISTS, "strain", "steady", "part")}
+    name = "_".join(f"{name}{values[name]:.10g}" for name in LISTS) + (f"_e{values['e']:g}" if values["e"] != 0.1 else "")
+    variables = {name: f"{values[name]:.10g}" for name in (*LISTS, "e", "strain", "steady", "part")}
     seconds = seconds_of(values["alpha"], values["I"], values["N"], values["strain"], values["ranks"], values["speed"])
     return PlannedRun(name, {**variables, "measure": measure}, values["ranks"], seconds, memory_of(values["N"], values["ranks"]))
 
@@ -86,7 +86,7 @@ def plan(config):
     missing = [name for name in LISTS[:4] if name not in config]
     if missing:
         raise PlanError(f"{missing[0]} must be a list of at least one number, got nothing")
-    lists = [checked_list(name, config.get(name, {"seed": [15485863], "e": [0.1]}.get(name))) for name in LISTS]
+    lists = [checked_list(name, config.get(name, [15485863] if name == "seed" else None)) for name in LISTS]
     numbers = {name: checked(name, config.get(name, default)) for name, default in NUMBERS.items()}
     measure = config.get("measure", OTHERS["measure"])
     if measure not in ("basic", "all"):
@@ -94,7 +94,10 @@ def plan(config):
     output = str(config.get("output", OTHERS["output"]))
     if not output or any(letter.isspace() for letter in output):
         raise PlanError(f"output must be the name of a folder without spaces, got {output!r}")
-    exceptions = [checked_exception(number, exception) for number, exception in enumerate(config.get("exceptions") or (), 1)]
+    listed = config.get("exceptions") or []
+    if not isinstance(listed, (list, tuple)):
+        raise PlanError(f"exceptions must be a list of {{where: {{...}}, use: {{...}}}}, got {listed!r}")
+    exceptions = [checked_exception(number, exception) for number, exception in enumerate(listed, 1)]
 
     runs = {}
     for combination in product(*lists):

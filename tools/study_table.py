@@ -42,8 +42,8 @@ def cost_of(run):
 def row_of(run, steady, start):
     reached = steady["I_reached"][0]
     row = {"run": run.name, **{name: run.parameters[name] for name in ("alpha", "mu", "I", "N", "seed", "e", "strain", "d_eq")}}
-    row["steady"] = run["strain"][run.steady(start)][0]
-    row["flagged"] = int(abs(reached / run.parameters["I"] - 1) > TOLERANCE)
+    row["steady"] = run["strain"][run.steady(start)][0] if start is None else start
+    row["flagged"] = int(not abs(reached / run.parameters["I"] - 1) <= TOLERANCE)
     for name, (mean, error) in steady.means.items():
         row[name], row[f"{name}_error"] = mean, error
     return row | cost_of(run)
@@ -157,8 +157,10 @@ def mean_over(runs):
     for name in runs[0].means:
         values, errors = np.array([run.means[name] for run in runs if name in run.means]).T
         means[name] = values.mean(), max(np.sqrt((errors**2).sum()) / len(values), values.std(ddof=1) / np.sqrt(len(values)))
-    curves = {name: {column: mean_curve(runs, name, column) for column in columns} for name, columns in runs[0].curves.items()}
-    return SteadyRun(f"{runs[0].name} and {len(runs) - 1} more", {**runs[0].parameters, "seeds": len(runs)}, means, curves)
+    curves = {name: {column: mean_curve(runs, name, column) for column in columns} for name, columns in runs[0].curves.items()
+              if all(name in run.curves for run in runs)}
+    flagged = max(run.parameters.get("flagged", 0) for run in runs)
+    return SteadyRun(f"{runs[0].name} and {len(runs) - 1} more", {**runs[0].parameters, "seeds": len(runs), "flagged": flagged}, means, curves)
 
 
 def over_seeds(runs):

@@ -172,10 +172,10 @@ def seeds_and_sizes(ranks):
 def agreement(ranks):
     def published(relation):
         return Published("", relation, 1.0, 0.1, "", None)
-    for relation, value, error, expected in (("=", 1.09, 0, "yes"), ("=", 1.11, 0, "NO"), ("=", 1.2, 0.1, "yes"), ("=", 1.4, 0.1, "NO"),
+    for relation, value, error, expected in (("=", 1.09, 0, "yes"), ("=", 1.11, 0, "NO"), ("=", 1.2, 0.12, "yes"), ("=", 1.4, 0.1, "NO"),
                                              ("=", 1.2, 0.3, "undecided"), ("<", 0.9, 0, "yes"), ("<", 1.1, 0, "NO"), ("<", 0.9, 0.06, "undecided"),
                                              ("<", 1.1, 0.06, "undecided"), (">", 0.9, 0.04, "NO"), (">", 1.1, 0.06, "undecided"),
-                                             (">", 2, 0, "yes")):
+                                             (">", 2, 0, "yes"), ("=", np.nan, 0.1, "undecided"), ("<", 0.5, np.nan, "undecided")):
         found = verdict(published(relation), value, error)
         require(found == expected, f"{value} +- {error} {relation} 1: {found}, expected {expected}")
 
