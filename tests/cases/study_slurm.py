@@ -264,6 +264,7 @@ def interrupted():
 
 
 def slurm_grid(ranks):
+    signal.signal(signal.SIGINT, signal.default_int_handler)   # what a shell starts in the background ignores it, and so would Snakemake
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("stopped by SIGTERM"))
     with local_slurm(Path(os.environ["GRAINSCOPE_SCRATCH"]) / "slurm"):
         for part in (grid, killed_and_refused, interrupted):
