@@ -185,7 +185,7 @@ add_cases(soak cases/soak.py LABEL case RANKS 1 2 CASES spheroids-over-1e4-steps
 add_cases(soak cases/soak.py LABEL long RANKS 1 2 SECONDS 2000 CASES spheroids-over-1e5-steps)
 add_cases(soak cases/soak.py LABEL long RANKS 1 SECONDS 5400 CASES spheroids-over-1e6-steps spheres-over-1e6-steps)
 add_cases(study cases/study_config.py LABEL case RANKS 1 CASES
-  runs-of-lists exceptions numbers-that-yaml-takes-for-words example-is-valid howto-has-the-grid-of-the-paper steps-of-deck
+  runs-of-lists exceptions numbers-that-yaml-takes-for-words example-is-valid howto-has-the-grid-of-the-paper every-figure-is-asked-for steps-of-deck
   unknown-word empty-list no-list word-for-number
   yes-for-number negative-friction half-a-grain not-finite twice steady-beyond-strain exception-steady measure exception-shape exceptions-no-list exception-where
   exception-use exception-value output ranks)

@@ -2,15 +2,13 @@
 """Compares a study's table with what the paper published: comparison.csv and comparison.md, a row for each published number. A number agrees
 when it is within the tolerance (how well the paper's own can be read) and twice the standard error, a bound when it holds by more than twice the
 error; undecided where the error is too large to tell. Nothing is fitted to agree."""
-import argparse
-from pathlib import Path
 import sys
 
 import numpy as np
 
-from paper_values import PUBLISHED, size_effect
+from paper_values import PUBLISHED
 from shear_output import InputError
-from study_table import largest, over_seeds, read_study, text, write_csv
+from study_table import largest, over_seeds, read_study, study_parser, text, write_csv
 
 NAMES = ["quantity", "value", "error", "published", "tolerance", "agrees", "source"]
 
@@ -32,7 +30,7 @@ def compare(runs):
     """Rows of NAMES for the published numbers that the runs can tell, and the names of the others; of several systems the largest counts."""
     rows, untold = [], []
     for published in PUBLISHED:
-        found = published.measure(runs if published.measure is size_effect else largest(runs))
+        found = published.measure(runs if published.all_sizes else largest(runs))
         if found is None:
             untold.append(published.quantity)
             continue
@@ -53,10 +51,7 @@ def markdown(rows, untold):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("study", help="folder of table.csv and curves")
-    parser.add_argument("--output", default=".", type=Path, metavar="FOLDER", help="where the files go (default: here)")
-    arguments = parser.parse_args()
+    arguments = study_parser(__doc__).parse_args()
     try:
         rows, untold = compare(over_seeds(read_study(arguments.study)))
         arguments.output.mkdir(parents=True, exist_ok=True)

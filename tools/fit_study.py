@@ -1,14 +1,12 @@
 #!/usr/bin/python3
 """Fits to a study's table: fits.csv (Eqs. 5 and 6, power laws of Figs. 4 and 6 and of the diffusion, I_c ~ mu^p), each parameter with its
 standard error, and crossovers.csv (the points with P_t = P_n, Fig. 3)."""
-import argparse
 from dataclasses import asdict, fields
-from pathlib import Path
 import sys
 
 from grid_fits import Crossover, Fitted, all_fits, crossovers, kinds
 from shear_output import InputError
-from study_table import largest, over_seeds, read_study, text, write_csv
+from study_table import largest, over_seeds, read_study, study_parser, text, write_csv
 
 
 def names_of(record):
@@ -20,10 +18,7 @@ def cells(record):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("study", help="folder of table.csv and curves")
-    parser.add_argument("--output", default=".", type=Path, metavar="FOLDER", help="where the files go (default: here)")
-    arguments = parser.parse_args()
+    arguments = study_parser(__doc__).parse_args()
     try:
         runs = largest(over_seeds(read_study(arguments.study)))
         arguments.output.mkdir(parents=True, exist_ok=True)

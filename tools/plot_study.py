@@ -1,13 +1,11 @@
 #!/usr/bin/python3
 """Draws figures of the paper from a study's tables (those that tools/study_table.py writes); no run is needed."""
-import argparse
-from pathlib import Path
 import sys
 
 from paper_figures import FIGURES, GRID_FIGURES, sorted_runs
 from shear_output import InputError
 from study_plan import figures_of
-from study_table import largest, over_seeds, read_study
+from study_table import largest, over_seeds, read_study, study_parser
 
 ALL = {**FIGURES, **GRID_FIGURES}
 
@@ -19,10 +17,8 @@ def draw(runs, name, path):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("study", help="folder of table.csv and curves")
+    parser = study_parser(__doc__)
     parser.add_argument("figure", nargs="*", help=f"which: {', '.join(sorted(ALL))} (default: all that the runs can give)")
-    parser.add_argument("--output", default=".", type=Path, metavar="FOLDER", help="where the pictures go (default: here)")
     arguments = parser.parse_args()
     unknown = [name for name in arguments.figure if name not in ALL]
     if unknown:

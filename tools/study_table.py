@@ -181,6 +181,14 @@ def largest(runs):
     return list(best.values())
 
 
+def study_parser(description):
+    """Parser of a tool that reads a study's tables and writes files."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("study", help="folder of table.csv and curves")
+    parser.add_argument("--output", default=".", type=Path, metavar="FOLDER", help="where the files go (default: here)")
+    return parser
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("run", nargs="+", help="output folder of a run, or folder:strain with the strain from which averages are taken "

@@ -9,7 +9,8 @@ import yaml
 from case import main, require, require_close
 from cost_model import steps_per_strain
 from run import run
-from study_plan import PlanError, plan
+from plot_study import ALL
+from study_plan import PlanError, figures_of, plan
 
 SOURCE = Path(os.environ["GRAINSCOPE_SOURCE"])
 SMALL = {"alpha": [1, 2], "mu": [0, 0.4], "I": [0.1, 0.01], "N": [300], "strain": 10, "steady": 5}
@@ -42,6 +43,10 @@ def numbers_that_yaml_takes_for_words(ranks):
 def example_is_valid(ranks):
     runs = plan(yaml.safe_load((SOURCE / "examples/study/config.yaml").read_text()))
     require(len(runs) >= 120, f"{len(runs)} runs")
+
+
+def every_figure_is_asked_for(ranks):
+    require(set(figures_of("all")) == set(ALL), f"named {sorted(figures_of('all'))}, drawn {sorted(ALL)}")
 
 
 def howto_has_the_grid_of_the_paper(ranks):
@@ -101,5 +106,6 @@ REFUSED = {"unknown-word": refused(("keywords must be among", "got 'alhpa'"), al
 
 main({"runs-of-lists": runs_of_lists, "exceptions": exceptions,
       "numbers-that-yaml-takes-for-words": numbers_that_yaml_takes_for_words, "example-is-valid": example_is_valid,
+      "every-figure-is-asked-for": every_figure_is_asked_for,
       "howto-has-the-grid-of-the-paper": howto_has_the_grid_of_the_paper, "steps-of-deck": steps_of_deck,
       **REFUSED})
