@@ -129,10 +129,11 @@ def laws_of_shape(runs):
 
 
 def laws_of_crossover(runs):
-    """I_c ~ mu^p along the left branch of Fig. 3, for each shape and both definitions of the powers."""
+    """I_c ~ mu^p along the left branch of Fig. 3, for each shape and both definitions of the powers, through the points between neighbours in mu:
+    those between neighbours in I are made of the same runs."""
     found = []
     for kind in kinds(runs):
-        points = [point for point in crossovers(runs, kind) if point.sliding_above]
+        points = [point for point in crossovers(runs, kind) if point.sliding_above and point.mu_error > 0]
         for alpha in values(runs, "alpha"):
             line = [c for c in points if c.alpha == alpha]
             if len(line) >= 2:
