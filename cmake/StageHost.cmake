@@ -37,40 +37,11 @@ function(mend file old new why)
   set(HOST_MENDS ${HOST_MENDS} "${file}: ${why}" PARENT_SCOPE)
 endfunction()
 
-# (The text begins with its line: a comment that quotes the old code is none.)
-mend(utils.h "\n    return static_cast< std::ostringstream & >(( std::ostringstream() << std::dec << a ) ).str();"
-     "\n    std::ostringstream text; text << std::dec << a; return text.str();" "an ostringstream cast that does not compile")
-mend(finish.cpp "\n      if (neighbor->lists[m]->numneigh > 0)" "\n      if (neighbor->lists[m]->inum > 0)" "a pointer compared with 0")
-mend(domain.cpp "prd_lamda[0] = prd_lamda[1] = prd_lamda[2] = 0.0;" "prd_lamda[0] = prd_lamda[1] = prd_lamda[2] = 1.0;"
-     "prd_lamda of 0 loses atoms of triclinic boxes")
-mend(domain.cpp "prd_half_lamda[0] = prd_half_lamda[1] = prd_half_lamda[2] = 0.0;"
-     "prd_half_lamda[0] = prd_half_lamda[1] = prd_half_lamda[2] = 0.5;" "prd_half_lamda of 0, likewise")
-# The host does not look whether its output arrives. On one rank by error->all, because what error->one says may stay in a buffer.
-set(unwritten "{ int ranks; MPI_Comm_size(world,&ranks); const char *told = \"Output cannot be written: is the disk full?\";
-  if (ranks == 1) error->all(FLERR,told); else error->one(FLERR,told); }")
-set(close "\n  if (multifile) {\n    if (compressed) {\n      if (filewriter) pclose(fp);\n    } else {\n      if (filewriter) ")
-mend(dump.cpp "${close}fclose(fp);" "${close}if (ferror(fp) | fclose(fp)) ${unwritten}" "a dump that is not written is no error")
-mend(dump.cpp "\n  // if file per timestep, close" "\n  if (!multifile && filewriter && fp && ferror(fp)) ${unwritten}\n  // if file per timestep, close" "likewise")
-foreach(indent "      " "    ")
-  mend(write_restart.cpp "\n${indent}fclose(fp);\n" "\n${indent}if (ferror(fp) | fclose(fp)) ${unwritten}\n" "a restart file that is not written is no error")
+# One file for each kind of fault.
+file(GLOB mends CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/cmake/mends/*.cmake")
+foreach(file IN LISTS mends)
+  include("${file}")
 endforeach()
-foreach(name fix_ave_time fix_ave_histo fix_ave_spatial fix_ave_correlate fix_print)
-  mend(${name}.cpp "fflush(fp);" "if (fflush(fp) != 0 || ferror(fp)) ${unwritten}" "a table that is not written is no error")
-endforeach()
-# A box that has moved since the last neighbour list leaves grains outside: they go to the rank of their image, and are wrapped, velocities and all,
-# when the run begins.
-mend(read_restart.cpp "\n        if (coord[0] >= sublo[0] && coord[0] < subhi[0] &&" "
-        double inside[3];
-        for (int k = 0; k < 3; k++) {
-          const double lo = triclinic ? 0.0 : domain->boxlo[k], hi = triclinic ? 1.0 : domain->boxhi[k];
-          inside[k] = coord[k];
-          if (!domain->periodicity[k] || (coord[k] >= lo && coord[k] < hi)) continue;
-          inside[k] -= (hi - lo) * floor((coord[k] - lo) / (hi - lo));
-          if (inside[k] < lo || inside[k] >= hi) inside[k] = lo;
-        }
-        coord = inside;
-        if (coord[0] >= sublo[0] && coord[0] < subhi[0] &&"
-     "a restart file written during a run loses grains beyond a face of a moving box")
 
 foreach(name IN LISTS staged)
   if(name IN_LIST MENDED_FILES)
