@@ -10,12 +10,16 @@ import os
 import pathlib
 import resource
 import subprocess
+import sys
 import tempfile
 
 import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
+from open_mpi import session  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
 FIRST, BINS, TILT, LENGTH, SOLID = 2000, 19, 0.3, 0.08, 0.55
@@ -102,7 +106,8 @@ class Bench:
         command = [*launch, str(self.binary), "-in", str(HERE / "in.correlation"), "-log", "none", "-var", "data", str(points.file),
                    "-var", "correlation", correlation, "-var", "columns", " ".join(columns), "-var", "steps", str(steps)]
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        done = subprocess.run(command, cwd=self.folder, env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        with session(self.environment) as environment:
+            done = subprocess.run(command, cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         rows = [line.split() for line in done.stdout.splitlines()]
         values = np.array([row for row in rows if len(row) == len(columns) + 2 and row[0].isdigit()], dtype=float)

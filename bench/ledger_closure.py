@@ -4,10 +4,13 @@ table in percent of D_n + D_t, for the stretch under pressure control and the on
 the time step (G_dt) and the residual."""
 import argparse
 import itertools
-import os
 import pathlib
 import subprocess
+import sys
 import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
+from open_mpi import session  # noqa: E402
 
 DECK = pathlib.Path(__file__).resolve().parent / "in.closure"
 COLUMNS = ("W_shear", "W_box", "W_frame", "W_other", "D_n", "D_t", "G_k", "G_p", "G_n", "G_open", "G_dt", "U_n", "U_t", "K_tr", "K_rot", "residual")
@@ -21,8 +24,8 @@ def ledgers(binary, variables, ranks):
         command += ["-var", name, str(value)]
     if ranks > 1:
         command = ["mpirun", "--oversubscribe", "--bind-to", "none", "-np", str(ranks), *command]
-    with tempfile.TemporaryDirectory() as folder:
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, errors="replace", env=os.environ)
+    with tempfile.TemporaryDirectory() as folder, session() as environment:
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, errors="replace", env=environment)
     if done.returncode:
         raise SystemExit(f"the run failed: {' '.join(command)}\n{done.stdout[-2000:]}")
     rows = [line.split() for line in done.stdout.splitlines()]

@@ -14,10 +14,14 @@ import pathlib
 import re
 import statistics
 import subprocess
+import sys
 import tempfile
 import time
 
 import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
+from open_mpi import session  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
 TILE = 2000
@@ -102,9 +106,9 @@ class Bench:
 
     def execute(self, command):
         """Standard output and error together, the memory of the largest process in bytes, and the share of a processor that it had."""
-        with tempfile.TemporaryFile("w+") as text:
+        with tempfile.TemporaryFile("w+") as text, session(self.environment) as environment:
             start = time.monotonic()
-            process = subprocess.Popen(command, cwd=self.folder, env=self.environment, stdout=text, stderr=subprocess.STDOUT)
+            process = subprocess.Popen(command, cwd=self.folder, env=environment, stdout=text, stderr=subprocess.STDOUT)
             _, status, usage = os.wait4(process.pid, 0)
             share = (usage.ru_utime + usage.ru_stime) / (time.monotonic() - start)
             process.returncode = os.waitstatus_to_exitcode(status)

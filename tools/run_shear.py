@@ -10,6 +10,8 @@ import subprocess
 import sys
 import time
 
+from open_mpi import session
+
 DECK = Path(__file__).resolve().parents[1] / "examples" / "simple_shear" / "in.simple_shear"
 NONE_WHOLE = "ERROR: read_restart: '"
 STOPPED = 3
@@ -100,10 +102,11 @@ def attempt(arguments, resume, locked):
     begin = time.monotonic()
     with screen.open("ab") as output:
         end_of_earlier = output.tell()
-        run = subprocess.Popen(command(arguments, resume), stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
-                               pass_fds=[locked.fileno()])
-        _, status, usage = os.wait4(run.pid, 0)
-        run.returncode = os.waitstatus_to_exitcode(status)
+        with session(note=arguments.out / "session.txt") as environment:
+            run = subprocess.Popen(command(arguments, resume), stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
+                                   pass_fds=[locked.fileno()], env=environment)
+            _, status, usage = os.wait4(run.pid, 0)
+            run.returncode = os.waitstatus_to_exitcode(status)
     if run.returncode == 0 and time_of(final) == earlier:
         return STOPPED, "it was stopped by a signal before its end"
     if run.returncode == 0:

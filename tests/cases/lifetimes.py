@@ -63,7 +63,7 @@ def grown(kind, styles, times, ran, ranks):
     deck.body += [line for style in styles for line in rounds(kind, style, times, ran)]
     deck.body += [*(made("pair", "gran/insitu " + deck.model())[0] if kind == "pair" else []), shear(0.02),
                   *dump_grains(deck.packing, 50), "run 50"]
-    result, kilobytes = watched_run(deck, ranks, time_limit=250.0)
+    result, kilobytes = watched_run(deck, ranks)
     return {style: kilobytes[10 * k:10 * k + 10] for k, style in enumerate(styles)}, result.dump("grains.dump")
 
 

@@ -4,7 +4,6 @@ from dataclasses import replace
 import os
 import random
 import signal
-import time
 
 import numpy as np
 
@@ -12,7 +11,7 @@ from case import main, require, require_close, require_same_snapshots
 from catalogue import DISPLACEMENT, MEMORY, strain_lines
 from deck import Deck, dump_grains, shear, thermo
 from packing import dense_packing, tilted
-from run import Started, run, wait_for_steps
+from run import FLUSHED, Started, rows_so_far, run, wait_for_steps, wait_until
 from watch import Watched
 
 RATE = 0.05
@@ -116,8 +115,14 @@ def restart_is_exact(packing, surface="ellipsoid", extra="setup neutral ledger o
 def long_deck(packing, steps, every, ranks):
     deck = neutral(packing, processors=f"{ranks} 1 1")  # the host would choose a grid for the box that it finds
     lines, _ = everything_with_state(deck)
-    end = [*dump_grains(packing, steps), f"restart {every} {' '.join(FILES)}", "thermo 100", f"run {steps} upto"]
+    end = [*dump_grains(packing, steps), f"restart {every} {' '.join(FILES)}", "thermo 10", FLUSHED, f"run {steps} upto"]
     return replace(deck, body=[*lines, *end]), deck.restarted(" ".join(FILES), [*lines, *end])
+
+
+def kill_after(under_way, rows):
+    """At whatever it does just then, which may be writing a restart file."""
+    wait_until(lambda: under_way.ended() or rows_so_far(under_way) > rows, f"{rows} rows of thermo output")
+    under_way.kill()
 
 
 def killed_and_resumed(packing, times, steps=3000, every=150):
@@ -125,42 +130,35 @@ def killed_and_resumed(packing, times, steps=3000, every=150):
     bit, as a run that was left alone and wrote the same files."""
     def case(ranks):
         fresh, resumed = long_deck(packing, steps, every, ranks)
-        began = time.monotonic()
-        expected = run(fresh, ranks)
-        took = time.monotonic() - began
-        reference = expected.dump("grains.dump")[-1:]
+        reference = run(fresh, ranks).dump("grains.dump")[-1:]
         dice = random.Random(7)
         kills = resumptions = 0
-        while kills < times:
-            deck, folder = fresh, None
-            while True:
+        while kills < times or not resumptions:
+            deck, folder, result = fresh, None, None
+            while result is None:
                 under_way = Started(deck, ranks, folder)
                 folder = under_way.folder
-                if kills < times:
-                    time.sleep(dice.uniform(0.1, 0.9) * took)
-                    under_way.kill()
+                if kills < times or not resumptions:
+                    kill_after(under_way, dice.randrange(steps // 20))
                 result = under_way.end()
-                if result.code == 0:
-                    break
-                require(kills < times, f"the run ended with code {result.code}: {result.output[-1000:]}")
-                kills += 1
-                if any((folder / name).exists() for name in FILES) and "restart" in result.output:
-                    resumptions += deck is fresh or "taking" in result.output
-                    deck = resumed
-                if not any((folder / name).exists() for name in FILES):
-                    deck = fresh
+                resumptions += deck is resumed and rows_so_far(under_way) > 0
+                if result.code < 0 or result.code == 128 + signal.SIGKILL:
+                    kills += 1
+                    deck, result = resumed if any((folder / name).exists() for name in FILES) else fresh, None
+                elif result.code and "was cut short" in result.output and not all((folder / name).exists() for name in FILES):
+                    deck, result = fresh, None  # killed while it wrote its first restart file: there is no other
+            require(result.code == 0, f"the run ended with code {result.code}: {result.output[-1000:]}")
             require_same_snapshots(result.dump("grains.dump")[-1:], reference, f"after {kills} kills")
-        require(kills == times and resumptions > 0, f"{kills} kills, {resumptions} resumptions")
     return case
 
 
 def stopped_by(number, to_one_rank=False):
     """A cluster's time limit: all ranks stop in the same step, files end with a whole line, and the restart that is left goes on to the same state."""
     def case(ranks):
-        steps = 40000
+        steps = 100_000_000     # the signal is what ends it
         deck = neutral(SPHERES)
         lines, told = everything_with_state(deck)
-        body = [*lines, *thermo(100, *told), "fix means all ave/time 1 1 1 f_press[1] c_stress[1] file means.txt", f"run {steps} upto", "print 'went on'"]
+        body = [*lines, *thermo(100, *told), FLUSHED, "fix means all ave/time 1 1 1 f_press[1] c_stress[1] file means.txt", f"run {steps} upto", "print 'went on'"]
         body.insert(len(lines), "compute stress all stress/contact")
         under_way = Started(replace(deck, body=body), ranks)
         wait_for_steps(under_way)
@@ -169,7 +167,7 @@ def stopped_by(number, to_one_rank=False):
         else:
             for pid in under_way.ranks():  # as a cluster does; mpirun alone would wait a second and kill
                 os.kill(pid, number)
-        result = under_way.end(20.0)
+        result = under_way.end()
         require("ERROR" not in result.output, result.output[-2000:])
         require("went on" not in result.output, "the run was not stopped")
         left = list(result.folder.glob("restart_forced_liggghts_*.data"))
@@ -187,12 +185,12 @@ def stopped_by(number, to_one_rank=False):
 
 def stopped_between_short_runs(ranks):
     """A deck that loops over `run 1`: the last step of each is as good as any."""
-    deck = replace(neutral(SPHERES), body=["variable i loop 100000", "label again", "run 1 post no", "next i", "jump SELF again"])
+    deck = replace(neutral(SPHERES), body=[FLUSHED, "variable i loop 100000000", "label again", "run 1 post no", "next i", "jump SELF again"])
     under_way = Started(deck, ranks)
     wait_for_steps(under_way)
     for pid in under_way.ranks():
         os.kill(pid, signal.SIGTERM)
-    result = under_way.end(20.0)
+    result = under_way.end()
     require(result.code == 0 and len(list(result.folder.glob("restart_forced_liggghts_*.data"))) == 1, result.output[-1000:])
 
 

@@ -43,11 +43,11 @@ def soaked(packing, steps, chunk, every):
     return deck
 
 
-def soak(packing, steps, chunk, every, seconds):
+def soak(packing, steps, chunk, every):
     def case(ranks):
         length = steps // 5 if SANITIZED else steps
         deck = soaked(packing, length, chunk, every)
-        result, kilobytes = watched_run(deck, ranks, time_limit=seconds)
+        result, kilobytes = watched_run(deck, ranks)
         last = result.thermo()[-1]
         require(all(np.isfinite(v).all() for v in last.values()), "a measure is not finite")
         # Lists and the measures' bins have found their largest size in the first tenth.
@@ -67,10 +67,10 @@ SPHEROIDS = dense_packing(1.5, minimum=32)
 SPHERES = dense_packing(atom_style="sphere", minimum=32)
 
 CASES = {
-    "spheroids-over-1e4-steps": soak(SPHEROIDS, 10000, 500, 100, 250.0),
-    "spheroids-over-1e5-steps": soak(SPHEROIDS, 100000, 5000, 500, 1800.0),
-    "spheroids-over-1e6-steps": soak(SPHEROIDS, 1000000, 20000, 1000, 5400.0),
-    "spheres-over-1e6-steps": soak(SPHERES, 1000000, 20000, 1000, 5400.0),
+    "spheroids-over-1e4-steps": soak(SPHEROIDS, 10000, 500, 100),
+    "spheroids-over-1e5-steps": soak(SPHEROIDS, 100000, 5000, 500),
+    "spheroids-over-1e6-steps": soak(SPHEROIDS, 1000000, 20000, 1000),
+    "spheres-over-1e6-steps": soak(SPHERES, 1000000, 20000, 1000),
 }
 
 if __name__ == "__main__":

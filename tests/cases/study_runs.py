@@ -3,14 +3,14 @@
 import os
 from pathlib import Path
 import signal
+import shutil
 import subprocess
 import sys
-import time
 
 import numpy as np
 
 from case import main, require, require_close, require_equal
-from run import TIME_SCALE, Failure, environment
+from run import TIME_LIMIT, Failure, environment, kill_session, processes_of, wait_until
 from shear_measures import steady_run
 from shear_output import mean_and_error, read_blocks, read_run, read_table
 import study_table
@@ -35,12 +35,15 @@ def start(name, ranks=1, **variables):
 
 def run_to_end(name, ranks=1, **variables):
     """Exit status, and what was printed."""
-    process = start(name, ranks, **variables)
+    return end_of(start(name, ranks, **variables))
+
+
+def end_of(process):
     try:
-        output, _ = process.communicate(timeout=200 * TIME_SCALE)
+        output, _ = process.communicate(timeout=TIME_LIMIT)
     except subprocess.TimeoutExpired:
-        os.killpg(process.pid, signal.SIGKILL)
-        raise Failure(f"{name} did not end in {200 * TIME_SCALE:g} s") from None
+        kill_session(process.pid)
+        raise Failure(f"a run did not end in {TIME_LIMIT:g} s") from None
     return process.returncode, output
 
 
@@ -50,22 +53,30 @@ def ended(name, ranks=1, **variables):
     return folder(name)
 
 
+def stopped_half_way(name, ranks, stop, **variables):
+    """A run to which `stop(process)` is done as soon as it has written its second restart file; another, where it ended before that."""
+    while True:
+        process = start(name, ranks, **variables)
+        wait_until(lambda: process.poll() is not None or (folder(name) / "odd.restart").exists(), f"a second restart file of {name}")
+        result = stop(process)
+        if not (folder(name) / "final.restart").exists():
+            return result
+        shutil.rmtree(folder(name))
+
+
 def killed(name, ranks=1, **variables):
-    """A run that is killed, all ranks at once, as soon as it has written its second restart file."""
-    process = start(name, ranks, **variables)
-    wait_for_restart(name, process)
-    os.killpg(process.pid, signal.SIGKILL)
-    process.wait()
+    """All ranks at once."""
+    def kill(process):
+        kill_session(process.pid)
+        process.communicate()
+
+    stopped_half_way(name, ranks, kill, **variables)
     return folder(name)
 
 
-def wait_for_restart(name, process):
-    """Until the run has written its second restart file."""
-    until = time.monotonic() + 100 * TIME_SCALE
-    while not (folder(name) / "odd.restart").exists():
-        require(process.poll() is None, f"{name} ended before it could be killed")
-        require(time.monotonic() < until, f"{name} wrote no second restart file in {100 * TIME_SCALE:g} s")
-        time.sleep(0.01)
+def ranks_of(process):
+    program = Path(os.environ["GRAINSCOPE_BINARY"]).name[:15]
+    return [pid for pid, name in processes_of(process.pid) if name == program]
 
 
 def attempts_of(out):
@@ -84,14 +95,14 @@ def same_tables(one, other):
 
 def stopped_run_has_not_ended(ranks):
     """SIGTERM ends a run in order, with exit code 0: for all that it is not at its end, and goes on."""
-    whole, process = ended("whole", ranks), start("stopped", ranks)
-    wait_for_restart("stopped", process)
-    program = [path.parent.name for path in Path("/proc").glob("[0-9]*/cmdline")
-               if f"-var\0out\0{folder('stopped')}\0".encode() in path.read_bytes()]
-    require(len(program) == 1, f"not one program that writes to {folder('stopped')}: {program}")
-    os.kill(int(program[0]), signal.SIGTERM)
-    output, _ = process.communicate(timeout=100 * TIME_SCALE)
-    require(process.returncode == 1 and "stopped by a signal" in output, f"ended with {process.returncode}: {output}")
+    def terminate(process):
+        for pid in ranks_of(process):
+            os.kill(pid, signal.SIGTERM)
+        return end_of(process)
+
+    whole = ended("whole", ranks)
+    status, output = stopped_half_way("stopped", ranks, terminate)
+    require(status == 1 and "stopped by a signal" in output, f"ended with {status}: {output}")
     stopped = ended("stopped", ranks)
     require(len(attempts_of(stopped)) == 2, "the second attempt did not go on")
     same_tables(stopped, whole)
@@ -99,18 +110,28 @@ def stopped_run_has_not_ended(ranks):
 
 def one_at_a_time(ranks):
     """A second attempt waits for one that still runs, also when what began that was killed, and has nothing to do then."""
-    whole, first = ended("whole", ranks, strain=2), start("busy", ranks, strain=2)
-    wait_for_restart("busy", first)
-    os.kill(first.pid, signal.SIGKILL)
-    first.wait()
-    status, output = run_to_end("busy", ranks, strain=2)
-    require(status == 0 and "another attempt writes to this folder" in output, f"ended with {status}: {output}")
+    def pause_and_kill_what_began_it(process):
+        paused = ranks_of(process)
+        for pid in paused:
+            os.kill(pid, signal.SIGSTOP)
+        process.kill()
+        process.wait()
+        return paused
+
+    whole = ended("whole", ranks)
+    paused = stopped_half_way("busy", ranks, pause_and_kill_what_began_it)
+    second = start("busy", ranks)
+    said = second.stdout.readline()
+    for pid in paused:
+        os.kill(pid, signal.SIGCONT)
+    require("another attempt writes to this folder" in said, f"it said {said}")
+    status, output = end_of(second)
+    require(status == 0, f"ended with {status}: {output}")
     same_tables(folder("busy"), whole)
 
 
 def killed_run_continues(ranks):
     whole, broken = ended("whole", ranks), killed("broken", ranks)
-    require(not (broken / "final.restart").exists(), "the run ended before it was killed")
     ended("broken", ranks)
     begins = attempts_of(broken)
     require(len(begins) == 2 and begins[1] > 0, f"attempts began at {begins}, expected 0 and a later step")

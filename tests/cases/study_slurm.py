@@ -15,7 +15,7 @@ import tempfile
 import time
 
 from case import main, require
-from run import TIME_SCALE, Failure, binary
+from run import TIME_LIMIT, Failure, binary, wait_until
 from study_plan import plan
 
 SOURCE = Path(os.environ["GRAINSCOPE_SOURCE"])
@@ -25,17 +25,10 @@ LONG = 10           # strain of what is to be killed half-way
 FORGOTTEN = "99999" # the number of a job that there never was
 
 
-def output_of(*command, seconds=30):
-    done = subprocess.run(command, capture_output=True, text=True, timeout=seconds * TIME_SCALE)
+def output_of(*command):
+    done = subprocess.run(command, capture_output=True, text=True, timeout=TIME_LIMIT)
     require(done.returncode == 0, f"{' '.join(map(str, command))}: exit code {done.returncode}: {done.stderr}")
     return done.stdout
-
-
-def wait_until(condition, what, seconds=60):
-    end = time.monotonic() + seconds * TIME_SCALE
-    while not condition():
-        require(time.monotonic() < end, f"waited {seconds * TIME_SCALE:g} s in vain: {what}")
-        time.sleep(0.1)
 
 
 def free_port():
@@ -56,13 +49,13 @@ def local_slurm(folder):
     """SLURM for as long as the block lasts, whatever ends it. stop has a session of its own: a Ctrl-C is not for it."""
     os.environ["LOCAL_SLURM_PORT"] = str(free_port())
     try:
-        export = output_of(LOCAL_SLURM, "start", folder, seconds=120).split()[1]
+        export = output_of(LOCAL_SLURM, "start", folder).split()[1]
         os.environ["SLURM_CONF"] = export.partition("=")[2]
         print(output_of("sinfo"), flush=True)
         yield
     finally:
         if (folder / "slurm.conf").exists():
-            subprocess.run([LOCAL_SLURM, "stop", folder], check=True, start_new_session=True, timeout=120 * TIME_SCALE)
+            subprocess.run([LOCAL_SLURM, "stop", folder], check=True, start_new_session=True, timeout=TIME_LIMIT)
 
 
 def job(number):
@@ -138,12 +131,12 @@ class Study:
     def wait_for_restart_file(self, run):
         wait_until(lambda: any(self.folder_of(run).glob("*.restart")), f"a restart file of {run.name}; Snakemake's log: {self.log}")
 
-    def end(self, seconds=90):
+    def end(self):
         """Snakemake's exit code and log."""
         try:
-            code = self.snakemake.wait(seconds * TIME_SCALE)
+            code = self.snakemake.wait(TIME_LIMIT)
         except subprocess.TimeoutExpired:
-            raise Failure(f"Snakemake did not end within {seconds * TIME_SCALE:g} s; its log ends:\n{self.log.read_text()[-2500:]}")
+            raise Failure(f"Snakemake did not end within {TIME_LIMIT:g} s; its log ends:\n{self.log.read_text()[-2500:]}")
         return code, self.log.read_text()
 
     def kill(self):

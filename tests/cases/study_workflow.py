@@ -9,7 +9,7 @@ import sys
 import yaml
 
 from case import main, require
-from run import TIME_SCALE, environment
+from run import TIME_LIMIT, environment
 from study_table import read_csv
 
 SOURCE = Path(os.environ["GRAINSCOPE_SOURCE"])
@@ -28,7 +28,7 @@ def snakemake(*words, **changes):
     command = ["snakemake", "-s", SOURCE / "examples/study/Snakefile", "--configfile", "study.yaml", "--directory", folder(), "-c2", "-k", *words]
     require(shutil.which("snakemake"), "snakemake is missing: scripts/install-packages snakemake")
     done = subprocess.run([*map(str, command)], env=environment(1), cwd=folder(), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                          timeout=280 * TIME_SCALE)
+                          timeout=TIME_LIMIT)
     return done.returncode, done.stdout
 
 

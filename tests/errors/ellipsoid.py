@@ -32,7 +32,7 @@ def refused(*words, body=(), **choices):
 def taken(*body, **choices):
     """The other side of a limit."""
     def case(ranks):
-        result = attempt(deck(*body, **choices), ranks, time_limit=20.0)
+        result = attempt(deck(*body, **choices), ranks)
         require(result.code == 0, f"refused:\n{tail(result.output)}")
     return case
 

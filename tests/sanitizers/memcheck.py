@@ -11,12 +11,12 @@ import tempfile
 import xml.etree.ElementTree as ElementTree
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tests" / folder) for folder in ("tools", "cases", ".")]
+sys.path[:0] = [str(ROOT / "tests" / folder) for folder in ("tools", "cases", ".", "../tools")]
 
 from deck import Deck, dump_grains, thermo  # noqa: E402
 from lifetimes import COMPUTES, PAIRS, asked  # noqa: E402
 from packing import dense_packing  # noqa: E402
-from run import _environment, binary  # noqa: E402
+from run import binary, count_errors, environment  # noqa: E402
 
 VALGRIND = ["valgrind", "--leak-check=full", "--show-leak-kinds=definite", "--errors-for-leak-kinds=definite", "--num-callers=60",
             "--track-origins=yes", "--error-limit=no", f"--suppressions={ROOT / 'tests/sanitizers/valgrind.supp'}", "--xml=yes"]
@@ -102,9 +102,9 @@ def check(name, deck, mine, folder):
     (where / "in.deck").write_text(deck if isinstance(deck, str) else deck.text())
     suppressions = [f"--suppressions={OPEN_MPI}"] if OPEN_MPI.exists() else []
     command = [*VALGRIND, *suppressions, f"--xml-file={where / 'valgrind.xml'}", binary(), "-in", "in.deck", "-log", "log.liggghts"]
-    done = subprocess.run(command, cwd=where, env=_environment(), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+    done = subprocess.run(command, cwd=where, env=environment(1), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                           text=True, errors="replace")
-    if done.returncode != 0 or "ERROR" in done.stdout:
+    if done.returncode != 0 or count_errors(done.stdout):
         return [f"{name}: ended with code {done.returncode}: {done.stdout[-1500:]}"], Counter()
     found, others = [], Counter()
     for kind, frames, what in errors_of(where / "valgrind.xml"):

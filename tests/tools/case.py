@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Assertions that say what differs, and the entry point of every case script."""
 import os
+import resource
 import shutil
 import sys
 import tempfile
@@ -61,3 +62,5 @@ def main(cases):
         print(f"files: {scratch}")
         sys.exit(1)
     shutil.rmtree(scratch)
+    usage = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    print(f"processor time: {sum(u.ru_utime + u.ru_stime for u in usage):.1f} s")

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Resident memory of a run at places that its deck names."""
+"""Memory of a run at places that its deck names: what it has written to, in RAM or swapped out. Pages of its files, which come and go with
+what else runs on the machine, are not counted."""
+import ctypes
 import os
 from pathlib import Path
 import tempfile
@@ -12,7 +14,11 @@ from run import binary, run
 # The host's `shell` is run by the first rank: it looks at all ranks, whose process numbers the launcher has left.
 NOTE = """for p in pid.*; do
   read pid < $p
-  while read key value unit; do [ "$key" != VmRSS: ] || printf '%s ' $value; done < /proc/$pid/status
+  total=0
+  while read key value unit; do
+    case $key in RssAnon: | VmSwap:) total=$((total + value)) ;; esac
+  done < /proc/$pid/status
+  printf '%s ' $total
 done >> memory.txt
 echo >> memory.txt
 """
@@ -23,6 +29,8 @@ echo $$ > pid.${OMPI_COMM_WORLD_RANK:-0}
 exec '%s' "$@"
 """
 SANITIZED = "LSAN_OPTIONS" in os.environ
+# Pages of 2 MB, which the kernel gives when it has some to spare, would look like growth. What is started inherits this.
+NO_HUGE_PAGES = 41  # PR_SET_THP_DISABLE
 NOTED = "shell . ./note"  # the deck line
 
 
@@ -33,8 +41,11 @@ def watched_run(deck, ranks=1, **options):
     launcher = folder / "launcher"
     launcher.write_text(LAUNCHER % binary())
     launcher.chmod(0o755)
+    ctypes.CDLL(None).prctl(NO_HUGE_PAGES, 1, 0, 0, 0)
     result = run(deck, ranks, folder=folder, program=str(launcher), **options)
-    return result, np.loadtxt(folder / "memory.txt", ndmin=2)
+    kilobytes = np.loadtxt(folder / "memory.txt", ndmin=2)
+    require(bool((kilobytes > 0).all()), f"no memory was noted: {kilobytes.tolist()}")
+    return result, kilobytes
 
 
 def require_flat(kilobytes, allowed, what):

@@ -2,6 +2,7 @@
 """Runs a deck in a folder of its own and reads what it wrote."""
 import os
 from pathlib import Path
+import re
 import signal
 import subprocess
 import tempfile
@@ -9,9 +10,16 @@ import time
 
 import numpy as np
 
-TIME_LIMIT = 120.0
-TIME_SCALE = float(os.environ.get("GRAINSCOPE_TIME_SCALE", "1"))  # a build that looks over its own shoulder takes longer
+from open_mpi import Session
+
+# Seconds, against hangs alone: on a busy machine a run takes many times as long. tests/CMakeLists.txt sets it, more for what is long.
+TIME_LIMIT = float(os.environ.get("GRAINSCOPE_TIME_LIMIT", "1200"))
+PAUSE = 0.01    # between looks at what is waited for
 FINDINGS = ("ERROR: AddressSanitizer", "ERROR: LeakSanitizer", "runtime error: ", "AddressSanitizer:DEADLYSIGNAL")
+
+
+# Lines of Open MPI's own when a rank aborts, such as "[host:123] PMIX ERROR: UNREACHABLE in file ...".
+OTHERS_ERROR = re.compile(r"\[[^\]\s]+:\d+\] (?:\[\[\d+,\d+\],\d+\] )?(?:PMIX|PRTE|ORTE|OPAL|OMPI)[ _]ERROR[^\n]*")
 
 
 class Failure(Exception):
@@ -29,12 +37,14 @@ def binary():
 ALONE = {"OMPI_MCA_ess_singleton_isolated": "1", "OMPI_MCA_pml": "ob1", "OMPI_MCA_btl": "self"}
 
 
-def environment(ranks):
-    """Environment of a run on so many ranks."""
+def environment(ranks, session=None):
+    """Environment of a run on so many ranks, with the session directories of an open_mpi.Session."""
     env = dict(os.environ, OMP_NUM_THREADS="1", OMPI_MCA_btl_vader_single_copy_mechanism="none",
                OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_mpi_yield_when_idle="1")
     if ranks == 1:
         env.update(ALONE)
+    if session:
+        env.update(session.variables())
     if os.geteuid() == 0:
         env.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     return env
@@ -59,6 +69,11 @@ def require_clean(output):
     at = min((k for k in map(output.find, FINDINGS) if k >= 0), default=-1)
     if at >= 0:
         raise Failure(f"a sanitizer complains:\n{output[max(0, output.rfind(chr(10), 0, at)):at + 6000]}")
+
+
+def count_errors(output):
+    """How often LIGGGHTS or grainscope says ERROR; what Open MPI adds is not counted."""
+    return OTHERS_ERROR.sub("", output).count("ERROR")
 
 
 class Result:
@@ -125,81 +140,109 @@ def _deck_text(deck):
     return deck if isinstance(deck, str) else deck.text()
 
 
-class Started:
-    """A run under way, in a folder of its own, for tests that do not let it end in peace."""
+def processes_of(session):
+    """(process number, name) of what runs in a session, as its leader's number names it."""
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            pid, _, rest = stat.read_text(errors="replace").partition(" (")
+        except OSError:  # it has ended
+            continue
+        name, _, rest = rest.rpartition(") ")
+        state, _, _, its_session = rest.split()[:4]
+        if int(its_session) == session and state not in "ZX":
+            yield int(pid), name
 
-    def __init__(self, deck, ranks=1, folder=None):
-        self.folder = Path(folder or tempfile.mkdtemp(prefix="case-", dir=os.environ.get("GRAINSCOPE_SCRATCH")))
-        self.folder.mkdir(parents=True, exist_ok=True)
-        (self.folder / "in.deck").write_text(_deck_text(deck))
-        command = [*_command(ranks, binary()), "-in", "in.deck", "-log", "log.liggghts"]
-        self._output = open(self.folder / "output", "w")
-        self._process = subprocess.Popen(command, cwd=self.folder, env=environment(ranks), stdout=self._output, stderr=subprocess.STDOUT,
-                                         stdin=subprocess.DEVNULL, start_new_session=True, restore_signals=False)
 
-    def kill(self):
-        """SIGKILL to all ranks, and to mpirun."""
-        for pid in (*self.ranks(), self._process.pid):
+def kill_session(session):
+    """SIGKILL to all processes of a session, first the one that leads it, until none is left: each rank has a process group of its own."""
+    while left := [pid for pid, _ in processes_of(session)]:
+        for pid in sorted(left, key=lambda pid: pid != session):
             try:
                 os.kill(pid, signal.SIGKILL)
             except ProcessLookupError:
                 pass
+        time.sleep(PAUSE)
+
+
+def wait_until(condition, what):
+    until = time.monotonic() + TIME_LIMIT
+    while not condition():
+        if time.monotonic() > until:
+            raise Failure(f"waited {TIME_LIMIT:g} s in vain: {what}")
+        time.sleep(PAUSE)
+
+
+class Started:
+    """A run under way, in a folder of its own, for tests that do not let it end in peace. `program`: what to start in place of the binary.
+    Without `restore_signals` a file that may not grow is an error of writing, not a signal."""
+
+    def __init__(self, deck, ranks=1, folder=None, arguments=(), program=None, restore_signals=False):
+        self.folder = Path(folder or tempfile.mkdtemp(prefix="case-", dir=os.environ.get("GRAINSCOPE_SCRATCH")))
+        self.folder.mkdir(parents=True, exist_ok=True)
+        (self.folder / "in.deck").write_text(_deck_text(deck))
+        (self.folder / "log.liggghts").unlink(missing_ok=True)
+        self._command = [*_command(ranks, program or binary()), "-in", "in.deck", "-log", "log.liggghts", *arguments]
+        self._session = Session()
+        self._output = open(self.folder / "output", "w")
+        self._process = subprocess.Popen(self._command, cwd=self.folder, env=environment(ranks, self._session), stdout=self._output,
+                                         stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, start_new_session=True, restore_signals=restore_signals)
+
+    def kill(self):
+        """SIGKILL to all ranks, and to mpirun."""
+        kill_session(self._process.pid)
 
     def ranks(self):
         """The processes of the ranks, of which each may be sent a signal of its own."""
-        found = []
-        for stat in Path("/proc").glob("[0-9]*/stat"):
-            try:
-                pid, _, rest = stat.read_text().partition(" (")
-            except OSError:  # it has ended
-                continue
-            name, _, rest = rest.rpartition(") ")
-            if name == Path(binary()).name[:15] and int(rest.split()[1]) == self._process.pid:
-                found.append(int(pid))
-        return found or [self._process.pid]
+        program = Path(binary()).name[:15]
+        return sorted(pid for pid, name in processes_of(self._process.pid) if name == program)
 
     def ended(self):
         return self._process.poll() is not None
 
-    def end(self, time_limit=TIME_LIMIT):
+    def end(self):
         """Waits for it; its Result."""
         try:
-            code = self._process.wait(time_limit * TIME_SCALE)
-        except subprocess.TimeoutExpired:
+            code = self._process.wait(TIME_LIMIT)
+        except BaseException as reason:  # a Ctrl-C is not for the run, which has a session of its own
             self.kill()
-            raise Failure(f"the run in {self.folder} did not end within {time_limit * TIME_SCALE} s")
-        self._output.close()
+            if not isinstance(reason, subprocess.TimeoutExpired):
+                raise
+            raise Failure(f"{' '.join(self._command)} in {self.folder} did not end within {TIME_LIMIT:g} s") from None
+        finally:
+            self._session.remove()
+            self._output.close()
         return Result(self.folder, code, (self.folder / "output").read_text(errors="replace"))
 
 
-def wait_for_steps(started):
-    """Until it has begun its steps."""
+FLUSHED = "thermo_modify flush yes"
+
+
+def rows_so_far(started):
+    """Rows of thermo output in the log, which the deck must flush: FLUSHED."""
     log = started.folder / "log.liggghts"
-    while not log.exists() or "Step" not in log.read_text(errors="replace"):
+    _, _, told = (log.read_text(errors="replace") if log.exists() else "").partition("\nStep")
+    return sum(line.split()[0].isdigit() for line in told.splitlines() if line.split())
+
+
+def wait_for_steps(started, rows=2):
+    """Until it has written so many rows of thermo output: the first is that of the state before the first step."""
+    def begun():
         if started.ended():
-            raise Failure(f"the run in {started.folder} ended before its first step")
-        time.sleep(0.05)
-    time.sleep(0.3)
+            raise Failure(f"the run in {started.folder} ended before its first steps")
+        return rows_so_far(started) >= rows
+    wait_until(begun, f"{rows} rows of thermo output in {started.folder}")
 
 
-def attempt(deck, ranks=1, folder=None, arguments=(), time_limit=TIME_LIMIT, program=None):
-    """Runs a deck (a Deck or its text) and returns the Result, whatever its exit code. `program`: what to start in place of the binary."""
-    folder = Path(folder or tempfile.mkdtemp(prefix="case-", dir=os.environ.get("GRAINSCOPE_SCRATCH")))
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "in.deck").write_text(_deck_text(deck))
-    command = [*_command(ranks, program or binary()), "-in", "in.deck", "-log", "log.liggghts", *arguments]
-    try:
-        done = subprocess.run(command, cwd=folder, env=environment(ranks), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                              stdin=subprocess.DEVNULL, timeout=time_limit * TIME_SCALE, text=True, errors="replace")
-    except subprocess.TimeoutExpired:
-        raise Failure(f"{' '.join(command)} in {folder} did not end within {time_limit * TIME_SCALE} s")
-    require_clean(done.stdout)
-    return Result(folder, done.returncode, done.stdout)
+def attempt(deck, ranks=1, folder=None, arguments=(), program=None):
+    """Runs a deck (a Deck or its text) and returns the Result, whatever its exit code."""
+    result = Started(deck, ranks, folder, arguments, program, restore_signals=True).end()
+    require_clean(result.output)
+    return result
 
 
 def run(deck, ranks=1, **options):
     """Runs a deck that must succeed."""
     result = attempt(deck, ranks, **options)
-    if result.code != 0 or "ERROR" in result.output:
+    if result.code != 0 or count_errors(result.output):
         raise Failure(f"the run in {result.folder} ended with code {result.code}:\n{tail(result.output)}")
     return result

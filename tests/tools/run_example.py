@@ -66,8 +66,7 @@ def main(folder):
             shutil.copytree(folder, copy)
             deck = (copy / f"in.{folder.name}").read_text()
             print(f"{folder.name} on {ranks} rank(s)")
-            result = run(deck, ranks, folder=copy, arguments=list(arguments(expected.get("variables", {}))),
-                         time_limit=expected.get("time_limit", 120))
+            result = run(deck, ranks, folder=copy, arguments=list(arguments(expected.get("variables", {}))))
             good = all([check(result, value) for value in expected["values"]]) and good
     return good
 
