@@ -28,7 +28,7 @@ fix restitution all property/global coefficientRestitution peratomtypepair 1 0.5
 fix integrate all nve/sphere
 pair_coeff * *
 timestep 1e-5
-thermo 100
+thermo 1000
 """
 LOOPS, STARTS = 6, 500
 

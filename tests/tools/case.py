@@ -3,6 +3,7 @@
 import os
 import resource
 import shutil
+import signal
 import sys
 import tempfile
 import traceback
@@ -52,6 +53,7 @@ def main(cases):
     name, ranks = sys.argv[1], int(sys.argv[2])
     scratch = tempfile.mkdtemp(prefix="grainscope-")
     os.environ["GRAINSCOPE_SCRATCH"] = scratch
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit("stopped by SIGTERM"))   # what was started is ended first
     try:
         cases[name](ranks)
     except Failure as failure:

@@ -220,8 +220,8 @@ FLUSHED = "thermo_modify flush yes"
 def rows_so_far(started):
     """Rows of thermo output in the log, which the deck must flush: FLUSHED."""
     log = started.folder / "log.liggghts"
-    _, _, told = (log.read_text(errors="replace") if log.exists() else "").partition("\nStep")
-    return sum(line.split()[0].isdigit() for line in told.splitlines() if line.split())
+    *_, told = re.split(r"^ *Step .*$", log.read_text(errors="replace") if log.exists() else "", maxsplit=1, flags=re.M)
+    return len(re.findall(r"^ *\d+( |$)", told, flags=re.M))
 
 
 def wait_for_steps(started, rows=2):
