@@ -107,7 +107,8 @@ class Bench:
                    "-var", "correlation", correlation, "-var", "columns", " ".join(columns), "-var", "steps", str(steps)]
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         with session(self.environment) as environment:
-            done = subprocess.run(command, cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            done = subprocess.run(command, cwd=self.folder, env=environment, stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, text=True)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         rows = [line.split() for line in done.stdout.splitlines()]
         values = np.array([row for row in rows if len(row) == len(columns) + 2 and row[0].isdigit()], dtype=float)

@@ -6,170 +6,234 @@ add_cases(gran/insitu-bitwise-equal cases/pair_bitwise.py LABEL case STYLES gran
   tangential-off tangential-no-history rolling-cdt hooke tangential-damping-off gaussian-curvature limit-force
   uncompiled-combination boxy-grains)
 add_cases(gran/insitu-host cases/pair_host.py LABEL case STYLES gran/insitu RANKS 1 LONG_RANKS 2 CASES
-  pair-local-output-does-not-disturb restart-of-spheres-continues
-  clear-and-begin-again pair-style-again sinks-come-and-go virial-of-spheroids)
+  pair-local-output-does-not-disturb restart-of-spheres-continues clear-and-begin-again pair-style-again
+  sinks-come-and-go virial-of-spheroids)
 add_cases(gran/insitu-host cases/pair_host.py LABEL case STYLES gran/insitu RANKS 1 2 CASES
   restart-continues stale-springs-warned-once host-deck-with-walls)
 add_cases(gran/insitu-host cases/pair_host.py LABEL case STYLES gran/insitu CASES
-  stale-springs-cured-no-warning stale-springs-of-round-superquadrics no-stale-springs-of-spheroids no-stale-springs-of-ellipsoids
-  every-way-to-ask spin-of-frictionless-spheres no-springs-no-warning check-timestep-gran virial-of-plain-gran-is-wrong)
-add_cases(contact/local+gran/insitu-host cases/pair_host.py LABEL case STYLES contact/local gran/insitu RANKS 1 LONG_RANKS 2 CASES
+  stale-springs-cured-no-warning stale-springs-of-round-superquadrics no-stale-springs-of-spheroids
+  no-stale-springs-of-ellipsoids every-way-to-ask spin-of-frictionless-spheres no-springs-no-warning
+  check-timestep-gran virial-of-plain-gran-is-wrong)
+add_cases(contact/local+gran/insitu-host cases/pair_host.py LABEL case STYLES contact/local gran/insitu RANKS 1
+  LONG_RANKS 2 CASES
   contact-local-output-does-not-disturb)
-add_cases(gran/insitu+stress/contact-host-tally cases/ranks.py LABEL case STYLES gran/insitu stress/contact RANKS 1 LONG_RANKS 2 CASES
+add_cases(gran/insitu+stress/contact-host-tally cases/ranks.py LABEL case STYLES gran/insitu stress/contact RANKS 1
+  LONG_RANKS 2 CASES
   stress-atom-of-spheres stress-atom-of-spheroids)
 add_cases(gran/insitu-range cases/ranges.py LABEL case STYLES gran/insitu RANKS 1 LONG_RANKS 2 CASES
   time-step time-step-in-short-runs time-step-unseen quiet unstable-from-the-start)
 
 # stress/contact, dissipation, nematic, contact/local against the oracle and a contact law of its own
 set(first_measures stress/contact dissipation nematic contact/local)
-add_cases(stress/contact+dissipation+nematic-oracle cases/measures_against_oracle.py LABEL case STYLES ${first_measures} RANKS 1 2 CASES
+add_cases(stress/contact+dissipation+nematic-oracle cases/measures_against_oracle.py LABEL case STYLES
+  ${first_measures} RANKS 1 2 CASES
   spheroid-1.5)
-add_cases(stress/contact+dissipation+nematic-oracle cases/measures_against_oracle.py LABEL case STYLES ${first_measures} RANKS 1 LONG_RANKS 2 CASES
-  spheres spheres-in-the-open spheroid-1.5-in-the-open spheres-through-a-flip spheroids-through-a-flip walls-not-counted)
-add_cases(stress/contact+dissipation+nematic-oracle cases/measures_against_oracle.py LABEL case STYLES ${first_measures} CASES
-  spheroid-0.33-in-the-open spheroid-3-in-the-open polydisperse two-types frictionless no-history subgroup group-of-one)
-add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures} RANKS 2 LONG_RANKS 4 CASES spheroids)
-add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures} LONG_RANKS 2 4 CASES
+add_cases(stress/contact+dissipation+nematic-oracle cases/measures_against_oracle.py LABEL case STYLES
+  ${first_measures} RANKS 1 LONG_RANKS 2 CASES
+  spheres spheres-in-the-open spheroid-1.5-in-the-open spheres-through-a-flip spheroids-through-a-flip
+  walls-not-counted)
+add_cases(stress/contact+dissipation+nematic-oracle cases/measures_against_oracle.py LABEL case STYLES
+  ${first_measures} CASES
+  spheroid-0.33-in-the-open spheroid-3-in-the-open polydisperse two-types frictionless no-history subgroup
+  group-of-one)
+add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures} RANKS 2
+  LONG_RANKS 4 CASES
+  spheroids)
+add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures} LONG_RANKS 2 4
+  CASES
   spheres oblate-grains subgroup)
-add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures} RANKS 4 CASES empty-ranks empty-group)
-add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures} surface/ellipsoid LONG_RANKS 4 CASES
+add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures} RANKS 4 CASES
+  empty-ranks empty-group)
+add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures} surface/ellipsoid
+  LONG_RANKS 4 CASES
   ellipsoids-0.33 ellipsoids-polydisperse)
-add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures} surface/ellipsoid RANKS 2 LONG_RANKS 4 CASES
+add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures} surface/ellipsoid
+  RANKS 2 LONG_RANKS 4 CASES
   ellipsoids-1.5)
-add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures} surface/ellipsoid LONG_RANKS 2 4 CASES
+add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures} surface/ellipsoid
+  LONG_RANKS 2 4 CASES
   ellipsoids-3)
 add_cases(stress/contact-range cases/ranges.py LABEL case STYLES stress/contact RANKS 1 LONG_RANKS 2 CASES kappa)
 add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation CASES
   history-undamped no-history frictionless slippery limit-force)
-add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation RANKS 1 2 CASES history)
-add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation RANKS 1 LONG_RANKS 2 CASES two-types)
-add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation press/strain RANKS 1 LONG_RANKS 2 CASES
+add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation RANKS 1 2
+  CASES
+  history)
+add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation RANKS 1
+  LONG_RANKS 2 CASES
+  two-types)
+add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation press/strain
+  RANKS 1 LONG_RANKS 2 CASES
   under-pressure-control sheared-backward)
-add_cases(contact/local+surface/ellipsoid-rows cases/ellipsoid_rows.py LABEL case STYLES contact/local surface/ellipsoid CASES
+add_cases(contact/local+surface/ellipsoid-rows cases/ellipsoid_rows.py LABEL case STYLES contact/local
+  surface/ellipsoid CASES
   spheroid-0.33 spheroid-3 ellipsoid-0.33 ellipsoid-3)
-add_cases(contact/local+surface/ellipsoid-rows cases/ellipsoid_rows.py LABEL case STYLES contact/local surface/ellipsoid RANKS 1 LONG_RANKS 2 CASES
+add_cases(contact/local+surface/ellipsoid-rows cases/ellipsoid_rows.py LABEL case STYLES contact/local
+  surface/ellipsoid RANKS 1 LONG_RANKS 2 CASES
   spheroid-1.5)
-add_cases(contact/local+surface/ellipsoid-rows cases/ellipsoid_rows.py LABEL case STYLES contact/local surface/ellipsoid RANKS 2 CASES ellipsoid-1.5)
+add_cases(contact/local+surface/ellipsoid-rows cases/ellipsoid_rows.py LABEL case STYLES contact/local
+  surface/ellipsoid RANKS 2 CASES
+  ellipsoid-1.5)
 add_cases(nematic-order cases/nematic.py LABEL case STYLES nematic CASES
   two-of-four-along-z three-of-four-along-z all-aligned isotropic mean-angle mean-angle-is-of-lines oblate-angle
   spheres-have-no-order spheres-do-not-dilute longest-of-three-axes axis-along-body-x mean-spin)
 add_cases(nematic-order cases/nematic.py LABEL case STYLES nematic RANKS 2 LONG_RANKS 4 CASES three-of-four-along-z)
 add_cases(nematic-order cases/nematic.py LABEL case STYLES nematic LONG_RANKS 2 4 CASES two-of-four-along-z)
 add_cases(dissipation-collision cases/collisions.py LABEL case STYLES dissipation CASES
-  head-on-spheres-e-0.1 head-on-spheres-e-0.5 head-on-spheres-e-0.9 head-on-prolate-e-0.1 head-on-prolate-e-0.5 head-on-prolate-e-0.9
-  head-on-oblate-e-0.1 head-on-oblate-e-0.5 head-on-oblate-e-0.9 oblique-spheres oblique-prolate single-contact)
+  head-on-spheres-e-0.1 head-on-spheres-e-0.5 head-on-spheres-e-0.9 head-on-prolate-e-0.1 head-on-prolate-e-0.5
+  head-on-prolate-e-0.9 head-on-oblate-e-0.1 head-on-oblate-e-0.5 head-on-oblate-e-0.9 oblique-spheres oblique-prolate
+  single-contact)
 add_cases(dissipation-collision cases/collisions.py LABEL case STYLES dissipation RANKS 2 CASES oblique-prolate)
-add_cases(dissipation-collision cases/collisions.py LABEL case STYLES dissipation LONG_RANKS 2 CASES head-on-prolate-e-0.5)
+add_cases(dissipation-collision cases/collisions.py LABEL case STYLES dissipation LONG_RANKS 2 CASES
+  head-on-prolate-e-0.5)
 
 # fabric, contact/surface, contact/direction, contact/grain
 set(contact_measures fabric contact/surface contact/direction contact/grain)
-add_cases(fabric+contact/surface+contact/direction+contact/grain-oracle cases/contact_measures.py LABEL case STYLES ${contact_measures} CASES
-  spheres-mu-0 spheres-mu-10 spheres-polydisperse spheroid-0.33-in-the-open spheroid-0.67-in-the-open spheroid-1-in-the-open
-  spheroid-3-in-the-open spheroid-1.5-mu-0 spheroid-1.5-mu-10 spheroid-0.33 polydisperse two-types with-tangential-damping no-history
-  tilted-backward subgroup group-of-one axis-along-body-x walls-not-counted units-cgs)
-add_cases(fabric+contact/surface+contact/direction+contact/grain-oracle cases/contact_measures.py LABEL case STYLES ${contact_measures} RANKS 1 2 CASES
+add_cases(fabric+contact/surface+contact/direction+contact/grain-oracle cases/contact_measures.py LABEL case STYLES
+  ${contact_measures} CASES
+  spheres-mu-0 spheres-mu-10 spheres-polydisperse spheroid-0.33-in-the-open spheroid-0.67-in-the-open
+  spheroid-1-in-the-open spheroid-3-in-the-open spheroid-1.5-mu-0 spheroid-1.5-mu-10 spheroid-0.33 polydisperse
+  two-types with-tangential-damping no-history tilted-backward subgroup group-of-one axis-along-body-x
+  walls-not-counted units-cgs)
+add_cases(fabric+contact/surface+contact/direction+contact/grain-oracle cases/contact_measures.py LABEL case STYLES
+  ${contact_measures} RANKS 1 2 CASES
   spheroid-1.5)
-add_cases(fabric+contact/surface+contact/direction+contact/grain-oracle cases/contact_measures.py LABEL case STYLES ${contact_measures}
-  RANKS 1 LONG_RANKS 2 CASES spheres spheroid-1.5-in-the-open spheres-through-a-flip spheroids-through-a-flip under-pressure-control)
-add_cases(fabric+contact/surface+contact/direction+contact/grain-analytic cases/contact_analytic.py LABEL case STYLES ${contact_measures} CASES
-  three-of-four-along-z three-of-four-along-z-in-xz two-of-four-along-z one-of-four-less-along-x all-along-one angle-is-of-lines
-  area-of-prolate-polar area-of-prolate-parametric area-of-oblate-polar area-of-oblate-parametric area-of-sphere-polar
-  area-of-sphere-parametric area-about-another-axis area-about-another-axis-parametric every-bin-prolate-parametric every-bin-oblate-polar
-  pole-on-equator statistics-of-spheres)
-add_cases(fabric+contact/surface+contact/direction+contact/grain-analytic cases/contact_analytic.py LABEL case STYLES ${contact_measures}
-  RANKS 1 2 CASES cubic-lattice every-bin-prolate-polar opposite-bins-of-spheroids powers-add-up)
-add_cases(fabric+contact/surface+contact/direction+contact/grain-analytic cases/contact_analytic.py LABEL case STYLES ${contact_measures}
-  RANKS 1 LONG_RANKS 2 CASES every-bin-oblate-parametric opposite-bins powers-of-spheres-add-up)
+add_cases(fabric+contact/surface+contact/direction+contact/grain-oracle cases/contact_measures.py LABEL case STYLES
+  ${contact_measures} RANKS 1 LONG_RANKS 2 CASES
+  spheres spheroid-1.5-in-the-open spheres-through-a-flip spheroids-through-a-flip under-pressure-control)
+add_cases(fabric+contact/surface+contact/direction+contact/grain-analytic cases/contact_analytic.py LABEL case STYLES
+  ${contact_measures} CASES
+  three-of-four-along-z three-of-four-along-z-in-xz two-of-four-along-z one-of-four-less-along-x all-along-one
+  angle-is-of-lines area-of-prolate-polar area-of-prolate-parametric area-of-oblate-polar area-of-oblate-parametric
+  area-of-sphere-polar area-of-sphere-parametric area-about-another-axis area-about-another-axis-parametric
+  every-bin-prolate-parametric every-bin-oblate-polar pole-on-equator statistics-of-spheres)
+add_cases(fabric+contact/surface+contact/direction+contact/grain-analytic cases/contact_analytic.py LABEL case STYLES
+  ${contact_measures} RANKS 1 2 CASES
+  cubic-lattice every-bin-prolate-polar opposite-bins-of-spheroids powers-add-up)
+add_cases(fabric+contact/surface+contact/direction+contact/grain-analytic cases/contact_analytic.py LABEL case STYLES
+  ${contact_measures} RANKS 1 LONG_RANKS 2 CASES
+  every-bin-oblate-parametric opposite-bins powers-of-spheres-add-up)
 
 # fluctuation, layering, velocity/correlation, displacement/shear, velocity/memory
 set(motion_measures fluctuation layering velocity/correlation)
-add_cases(fluctuation+layering+velocity/correlation-oracle cases/motion_measures.py LABEL case STYLES ${motion_measures} CASES
-  spheres-at-rest spheres-polydisperse spheroid-0.33 spheroid-0.67 spheroid-1 spheroid-3 triaxial tilted-backward under-pressure-control
-  sheared-in-xz sheared-in-yz group-of-one)
-add_cases(fluctuation+layering+velocity/correlation-oracle cases/motion_measures.py LABEL case STYLES ${motion_measures} RANKS 1 2 CASES spheroid-1.5)
-add_cases(fluctuation+layering+velocity/correlation-oracle cases/motion_measures.py LABEL case STYLES ${motion_measures} RANKS 1 LONG_RANKS 2 CASES
+add_cases(fluctuation+layering+velocity/correlation-oracle cases/motion_measures.py LABEL case STYLES
+  ${motion_measures} CASES
+  spheres-at-rest spheres-polydisperse spheroid-0.33 spheroid-0.67 spheroid-1 spheroid-3 triaxial tilted-backward
+  under-pressure-control sheared-in-xz sheared-in-yz group-of-one)
+add_cases(fluctuation+layering+velocity/correlation-oracle cases/motion_measures.py LABEL case STYLES
+  ${motion_measures} RANKS 1 2 CASES
+  spheroid-1.5)
+add_cases(fluctuation+layering+velocity/correlation-oracle cases/motion_measures.py LABEL case STYLES
+  ${motion_measures} RANKS 1 LONG_RANKS 2 CASES
   spheres spheres-through-a-flip subgroup)
 set(motions fluctuation layering displacement/shear velocity/memory grain/record)
-add_cases(fluctuation+layering+displacement/shear+velocity/memory-analytic cases/motion_analytic.py LABEL case STYLES ${motions} CASES
-  rarely-asked affine-backward affine-without-stretch drifting-backward drifting-in-xz drifting-in-yz rigid lever starts-late)
-add_cases(fluctuation+layering+displacement/shear+velocity/memory-analytic cases/motion_analytic.py LABEL case STYLES ${motions} RANKS 1 2 CASES
+add_cases(fluctuation+layering+displacement/shear+velocity/memory-analytic cases/motion_analytic.py LABEL case STYLES
+  ${motions} CASES
+  rarely-asked affine-backward affine-without-stretch drifting-backward drifting-in-xz drifting-in-yz rigid lever
+  starts-late)
+add_cases(fluctuation+layering+displacement/shear+velocity/memory-analytic cases/motion_analytic.py LABEL case STYLES
+  ${motions} RANKS 1 2 CASES
   replaced-grains affine planes-of-grains remembers)
-add_cases(fluctuation+layering+displacement/shear+velocity/memory-analytic cases/motion_analytic.py LABEL case STYLES ${motions}
-  RANKS 1 LONG_RANKS 2 CASES
+add_cases(fluctuation+layering+displacement/shear+velocity/memory-analytic cases/motion_analytic.py LABEL case STYLES
+  ${motions} RANKS 1 LONG_RANKS 2 CASES
   rarely-asked-backward drifting drifting-under-press-strain energies random-walk later-grains remembers-later-grains)
 add_cases(fluctuation-range cases/ranges.py LABEL case STYLES fluctuation RANKS 1 LONG_RANKS 2 CASES profile)
 set(series displacement/shear velocity/memory grain/record)
 add_cases(displacement/shear+velocity/memory-oracle cases/series_measures.py LABEL case STYLES ${series} CASES
   spheroids backward backward-under-pressure-control)
-add_cases(displacement/shear+velocity/memory-oracle cases/series_measures.py LABEL case STYLES ${series} RANKS 1 2 CASES under-pressure-control)
-add_cases(displacement/shear+velocity/memory-oracle cases/series_measures.py LABEL case STYLES ${series} RANKS 1 LONG_RANKS 2 CASES
+add_cases(displacement/shear+velocity/memory-oracle cases/series_measures.py LABEL case STYLES ${series} RANKS 1 2
+  CASES
+  under-pressure-control)
+add_cases(displacement/shear+velocity/memory-oracle cases/series_measures.py LABEL case STYLES ${series} RANKS 1
+  LONG_RANKS 2 CASES
   spheres sheared-in-yz subgroup)
 add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation CASES
-  spheres-at-rest polydisperse spheroid-0.33 spheroid-3 tilted-backward sheared-in-xz sheared-in-yz group-of-one not-periodic decays)
-add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation RANKS 1 2 CASES
+  spheres-at-rest polydisperse spheroid-0.33 spheroid-3 tilted-backward sheared-in-xz sheared-in-yz group-of-one
+  not-periodic decays)
+add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation RANKS 1 2
+  CASES
   through-a-flip plane-wave-on-a-mesh)
-add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation RANKS 1 LONG_RANKS 2 CASES
+add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation RANKS 1
+  LONG_RANKS 2 CASES
   spheres under-pressure-control subgroup running plane-wave)
 
 # press/strain
 add_cases(press/strain-control cases/press_strain.py LABEL case STYLES press/strain CASES
-  shears-backward-as-fix-deform shears-in-xz shears-in-yz recursion-clipped recursion-clipped-by-rate recursion-every-time recursion-negative-rate
-  inputs-every-strain inputs-every-time inputs-every-step holds-the-target target-zero-expands target-follows-a-variable without-shear
-  momentum-kept)
-add_cases(press/strain-control cases/press_strain.py LABEL case STYLES press/strain RANKS 1 2 CASES shears-as-fix-deform restart-continues)
+  shears-backward-as-fix-deform shears-in-xz shears-in-yz recursion-clipped recursion-clipped-by-rate
+  recursion-every-time recursion-negative-rate inputs-every-strain inputs-every-time inputs-every-step
+  holds-the-target target-zero-expands target-follows-a-variable without-shear momentum-kept)
+add_cases(press/strain-control cases/press_strain.py LABEL case STYLES press/strain RANKS 1 2 CASES
+  shears-as-fix-deform restart-continues)
 add_cases(press/strain-control cases/press_strain.py LABEL case STYLES press/strain RANKS 1 LONG_RANKS 2 CASES
   recursion-every-strain automatic-gain at-the-target-nothing-moves momentum-removed kinetic-part-counts)
-add_cases(press/strain-control cases/press_strain.py LABEL case STYLES press/strain RANKS 2 LONG_RANKS 4 CASES same-on-ranks restart-on-other-ranks)
+add_cases(press/strain-control cases/press_strain.py LABEL case STYLES press/strain RANKS 2 LONG_RANKS 4 CASES
+  same-on-ranks restart-on-other-ranks)
 add_cases(press/strain-analytic cases/press_analytic.py LABEL case STYLES press/strain RANKS 1 LONG_RANKS 2 CASES
   automatic-gain-compresses automatic-gain-expands automatic-gain-of-hooke)
 add_cases(press/strain-analytic cases/press_analytic.py LABEL case STYLES press/strain RANKS 1 2 CASES given-gain)
 add_cases(press/strain-range cases/ranges.py LABEL case STYLES press/strain RANKS 1 LONG_RANKS 2 CASES clipping)
 
 # nve/spheroid
-add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid CASES flows-as-host-1.5 flows-as-host-0.5 boxy-grains)
+add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid CASES
+  flows-as-host-1.5 flows-as-host-0.5 boxy-grains)
 add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid RANKS 1 LONG_RANKS 2 CASES
   energy-kept some-grains first-group collision-of-prolate-grains collision-of-oblate-grains inserted-grains)
 add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid RANKS 1 2 CASES restart-continues)
-add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid RANKS 1 2 LONG_RANKS 4 CASES shears-as-host-1.5)
+add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid RANKS 1 2 LONG_RANKS 4 CASES
+  shears-as-host-1.5)
 add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid RANKS 1 LONG_RANKS 2 4 CASES
   free-flight free-flight-in-large-turns shears-as-host-0.5)
 
 # surface ellipsoid, contact/solver
 add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case STYLES surface/ellipsoid CASES
-  spheroid-0.33 spheroid-3 spheres polydisperse frozen-grains narrow-contact-distance gaussian-curvature mean-curvature
-  mean-curvature-of-mixed-shapes curvature-keywords-without-limit tangential-off tangential-no-history hooke rolling-cdt rolling-epsd2
-  limit-force-undamped moved-by-nve-spheroid mixed-shapes-and-types cohesion spheres-of-five-sizes frozen-spheres softened-spheres
-  rods-squeezed-by-the-box tumbling-rods-with-jumps tumbling-rods-shrink-wrapped pushed-rods shapes-set-between-runs)
-add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case STYLES surface/ellipsoid RANKS 1 2 CASES
+  spheroid-0.33 spheroid-3 spheres polydisperse frozen-grains narrow-contact-distance gaussian-curvature
+  mean-curvature mean-curvature-of-mixed-shapes curvature-keywords-without-limit tangential-off tangential-no-history
+  hooke rolling-cdt rolling-epsd2 limit-force-undamped moved-by-nve-spheroid mixed-shapes-and-types cohesion
+  spheres-of-five-sizes frozen-spheres softened-spheres rods-squeezed-by-the-box tumbling-rods-with-jumps
+  tumbling-rods-shrink-wrapped pushed-rods shapes-set-between-runs)
+add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case STYLES surface/ellipsoid RANKS 1 2
+  CASES
   spheroid-1.5 tumbling-rods-in-a-deforming-box)
-add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case STYLES surface/ellipsoid RANKS 1 LONG_RANKS 2 CASES
+add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case STYLES surface/ellipsoid RANKS 1
+  LONG_RANKS 2 CASES
   spheres-here-spheroids-there tumbling-rods tumbling-rods-between-walls between-runs)
-add_cases(surface/ellipsoid-host cases/pair_host.py LABEL case STYLES surface/ellipsoid gran/insitu RANKS 1 LONG_RANKS 2 CASES
+add_cases(surface/ellipsoid-host cases/pair_host.py LABEL case STYLES surface/ellipsoid gran/insitu RANKS 1 LONG_RANKS
+  2 CASES
   virial-of-ellipsoids restart-of-ellipsoids-continues pair-local-output-does-not-disturb-ellipsoids)
 add_cases(surface/ellipsoid-forces cases/ellipsoid_forces.py LABEL case STYLES surface/ellipsoid CASES
-  spheroid-0.33 spheroid-0.5 spheroid-3 spheres polydisperse gaussian-curvature mean-curvature limit-without-curvature-keywords
-  flows-on-from-the-other restart-of-prolate-grains restart-of-oblate-grains)
-add_cases(surface/ellipsoid-forces cases/ellipsoid_forces.py LABEL case STYLES surface/ellipsoid RANKS 1 LONG_RANKS 2 CASES
+  spheroid-0.33 spheroid-0.5 spheroid-3 spheres polydisperse gaussian-curvature mean-curvature
+  limit-without-curvature-keywords flows-on-from-the-other restart-of-prolate-grains restart-of-oblate-grains)
+add_cases(surface/ellipsoid-forces cases/ellipsoid_forces.py LABEL case STYLES surface/ellipsoid RANKS 1 LONG_RANKS 2
+  CASES
   spheroid-1.5 restart-before-a-flip)
-add_cases(surface/ellipsoid-forces cases/ellipsoid_forces.py LABEL case STYLES surface/ellipsoid RANKS 2 CASES start-survives-a-swap)
+add_cases(surface/ellipsoid-forces cases/ellipsoid_forces.py LABEL case STYLES surface/ellipsoid RANKS 2 CASES
+  start-survives-a-swap)
 add_cases(surface/ellipsoid-wall cases/ellipsoid_walls.py LABEL case STYLES surface/ellipsoid CASES
-  prolate-on-a-plane prolate-on-a-cylinder prolate-on-a-mesh oblate-on-a-plane oblate-on-a-cylinder oblate-on-a-mesh triaxial-on-a-plane
-  triaxial-on-a-cylinder triaxial-on-a-mesh sphere-on-a-plane gaussian-curvature-on-a-plane gaussian-curvature-on-a-mesh
-  mean-curvature-on-a-plane mean-curvature-on-a-mesh limit-alone-on-a-plane limit-alone-on-a-mesh)
-add_cases(surface/ellipsoid-wall cases/ellipsoid_walls.py LABEL case STYLES surface/ellipsoid RANKS 1 LONG_RANKS 2 CASES pile)
+  prolate-on-a-plane prolate-on-a-cylinder prolate-on-a-mesh oblate-on-a-plane oblate-on-a-cylinder oblate-on-a-mesh
+  triaxial-on-a-plane triaxial-on-a-cylinder triaxial-on-a-mesh sphere-on-a-plane gaussian-curvature-on-a-plane
+  gaussian-curvature-on-a-mesh mean-curvature-on-a-plane mean-curvature-on-a-mesh limit-alone-on-a-plane
+  limit-alone-on-a-mesh)
+add_cases(surface/ellipsoid-wall cases/ellipsoid_walls.py LABEL case STYLES surface/ellipsoid RANKS 1 LONG_RANKS 2
+  CASES
+  pile)
 add_cases(surface/ellipsoid-contact cases/ellipsoid_contacts.py LABEL case STYLES surface/ellipsoid CASES
-  poles-meet poles-meet-gaussian poles-meet-mean equators-meet-gaussian equators-meet-mean flat-faces-meet-gaussian flat-faces-meet-mean
-  unlike-grains-meet unlike-grains-meet-gaussian unlike-grains-meet-mean sphere-meets-pole-mean triaxial-meets-sphere-gaussian
-  triaxial-meets-sphere-mean spheres-meet spheres-meet-mean limit-caps-the-radius limit-below-one-caps-spheres spheres-collide
-  spheres-collide-head-on
-  spheres-collide-hooke-no-history spheres-collide-rolling spheres-part-at-e concentric-spheres concentric-spheroids concentric-triaxial
+  poles-meet poles-meet-gaussian poles-meet-mean equators-meet-gaussian equators-meet-mean flat-faces-meet-gaussian
+  flat-faces-meet-mean unlike-grains-meet unlike-grains-meet-gaussian unlike-grains-meet-mean sphere-meets-pole-mean
+  triaxial-meets-sphere-gaussian triaxial-meets-sphere-mean spheres-meet spheres-meet-mean limit-caps-the-radius
+  limit-below-one-caps-spheres spheres-collide spheres-collide-head-on spheres-collide-hooke-no-history
+  spheres-collide-rolling spheres-part-at-e concentric-spheres concentric-spheroids concentric-triaxial
   no-stale-springs no-stale-springs-of-poles host-keeps-springs host-keeps-springs-of-poles)
-add_cases(surface/ellipsoid-contact cases/ellipsoid_contacts.py LABEL case STYLES surface/ellipsoid RANKS 2 CASES concentric-between-ranks)
-add_cases(contact/solver-counts cases/contact_solver.py LABEL case STYLES contact/solver surface/ellipsoid RANKS 1 LONG_RANKS 2 4 CASES
+add_cases(surface/ellipsoid-contact cases/ellipsoid_contacts.py LABEL case STYLES surface/ellipsoid RANKS 2 CASES
+  concentric-between-ranks)
+add_cases(contact/solver-counts cases/contact_solver.py LABEL case STYLES contact/solver surface/ellipsoid RANKS 1
+  LONG_RANKS 2 4 CASES
   lists-and-contacts)
-add_cases(contact/solver-counts cases/contact_solver.py LABEL case STYLES contact/solver surface/ellipsoid RANKS 1 LONG_RANKS 2 CASES
+add_cases(contact/solver-counts cases/contact_solver.py LABEL case STYLES contact/solver surface/ellipsoid RANKS 1
+  LONG_RANKS 2 CASES
   add-up begins-with-the-pair-style does-not-disturb)
-add_cases(contact/solver-counts cases/contact_solver.py LABEL case STYLES contact/solver surface/ellipsoid RANKS 2 LONG_RANKS 4 CASES same-on-ranks)
+add_cases(contact/solver-counts cases/contact_solver.py LABEL case STYLES contact/solver surface/ellipsoid RANKS 2
+  LONG_RANKS 4 CASES
+  same-on-ranks)
 
 # energy/ledger
 set(ledger energy/ledger ledger/record dissipation)
@@ -179,13 +243,14 @@ add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger
 add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} RANKS 1 LONG_RANKS 2 CASES
   sheared-with-tangential-damping contacts-open-and-close through-a-flip under-pressure-control)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} CASES
-  two-spheres two-flat two-long-3 two-triaxial two-spheres-default two-long-1.5-superquadric order-spheres order-flat order-long-1.5 order-long-3
-  known-collision hooke no-history tangential-damping tangential-off limit-force curvature rolling-cdt rolling-epsd rolling-epsd2
-  rolling-superquadric sheared-0.33-mu-0 sheared-0.33-mu-0.4 sheared-0.33-mu-10 sheared-1.5-mu-0 sheared-1.5-mu-0.4 sheared-1.5-mu-10
-  sheared-3-mu-0 sheared-3-mu-0.4 sheared-3-mu-10 pressed-0.33 pressed-1 pressed-3 pressed-spheres pressed-dilute pressed-along-the-flow
-  sheared-1-mu-0 sheared-1-mu-0.4 sheared-1-mu-10 pressed-1.5-mu-0 pressed-1.5-mu-10 energy-of-hertz energy-of-hooke energy-with-curvature
-  restart-before-the-first-step asked-within-a-step overlap-of-nothing lists reopening-spheres reopening-stale-springs reopening-spheroids
-  step-mode-is-the-trapezium superquadric)
+  two-spheres two-flat two-long-3 two-triaxial two-spheres-default two-long-1.5-superquadric order-spheres order-flat
+  order-long-1.5 order-long-3 known-collision hooke no-history tangential-damping tangential-off limit-force curvature
+  rolling-cdt rolling-epsd rolling-epsd2 rolling-superquadric sheared-0.33-mu-0 sheared-0.33-mu-0.4 sheared-0.33-mu-10
+  sheared-1.5-mu-0 sheared-1.5-mu-0.4 sheared-1.5-mu-10 sheared-3-mu-0 sheared-3-mu-0.4 sheared-3-mu-10 pressed-0.33
+  pressed-1 pressed-3 pressed-spheres pressed-dilute pressed-along-the-flow sheared-1-mu-0 sheared-1-mu-0.4
+  sheared-1-mu-10 pressed-1.5-mu-0 pressed-1.5-mu-10 energy-of-hertz energy-of-hooke energy-with-curvature
+  restart-before-the-first-step asked-within-a-step overlap-of-nothing lists reopening-spheres reopening-stale-springs
+  reopening-spheroids step-mode-is-the-trapezium superquadric)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS 1 2 CASES flip restart-continues)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS 1 LONG_RANKS 2 CASES
   two-long-1.5 polydisperse-two-types wraps runs groups falling undisturbed rates-add-up)
@@ -194,56 +259,76 @@ add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} LONG_RANKS 2 4 CASES same-spheres)
 
 # read_restart, setup neutral, run/guard: runs that are split, killed, stopped, damaged
-add_cases(setup/memory-split cases/restarts.py LABEL case STYLES setup/memory gran/insitu RANKS 1 2 CASES split-spheroids)
+add_cases(setup/memory-split cases/restarts.py LABEL case STYLES setup/memory gran/insitu RANKS 1 2 CASES
+  split-spheroids)
 add_cases(setup/memory-split cases/restarts.py LABEL case STYLES setup/memory gran/insitu RANKS 1 LONG_RANKS 2 CASES
   split-through-a-flip measures-go-on)
 add_cases(setup/memory-split cases/restarts.py LABEL case STYLES setup/memory gran/insitu CASES
-  split-spheres split-superquadrics split-of-spheres-through-a-flip split-with-rolling split-without-history split-with-gravity split-by-the-host
-  split-after-no-step noticed-freezing noticed-velocities noticed-spins noticed-places noticed-box noticed-deletion noticed-time-step)
+  split-spheres split-superquadrics split-of-spheres-through-a-flip split-with-rolling split-without-history
+  split-with-gravity split-by-the-host split-after-no-step noticed-freezing noticed-velocities noticed-spins
+  noticed-places noticed-box noticed-deletion noticed-time-step)
 set(resumed read_restart run/guard setup/memory)
 add_cases(read_restart-goes-on cases/restarts.py LABEL case STYLES ${resumed} RANKS 1 2 CASES exact-spheroids)
 add_cases(read_restart-goes-on cases/restarts.py LABEL case STYLES ${resumed} LONG_RANKS 4 CASES exact-spheroids)
-add_cases(read_restart-goes-on cases/restarts.py LABEL case STYLES ${resumed} RANKS 1 LONG_RANKS 2 CASES exact-spheres killed-a-few-times)
-add_cases(read_restart-goes-on cases/restarts.py LABEL case STYLES ${resumed} CASES exact-superquadrics exact-by-the-host)
-add_cases(read_restart-goes-on cases/restarts.py LABEL long STYLES ${resumed} RANKS 1 2 CASES killed-spheres killed-spheroids)
-add_cases(read_restart-damage cases/damage.py LABEL case STYLES read_restart RANKS 1 LONG_RANKS 2 CASES restart-cut restart-flipped other-settings)
+add_cases(read_restart-goes-on cases/restarts.py LABEL case STYLES ${resumed} RANKS 1 LONG_RANKS 2 CASES
+  exact-spheres killed-a-few-times)
+add_cases(read_restart-goes-on cases/restarts.py LABEL case STYLES ${resumed} CASES
+  exact-superquadrics exact-by-the-host)
+add_cases(read_restart-goes-on cases/restarts.py LABEL long STYLES ${resumed} RANKS 1 2 CASES
+  killed-spheres killed-spheroids)
+add_cases(read_restart-damage cases/damage.py LABEL case STYLES read_restart RANKS 1 LONG_RANKS 2 CASES
+  restart-cut restart-flipped other-settings)
 add_cases(read_restart-damage cases/damage.py LABEL case STYLES read_restart RANKS 1 2 CASES newest-whole-one)
 add_cases(read_restart-damage cases/damage.py LABEL case STYLES read_restart CASES plain-gran-and-back)
-add_cases(read_restart-damage cases/damage.py LABEL long STYLES read_restart CASES restart-cut-often restart-flipped-often)
+add_cases(read_restart-damage cases/damage.py LABEL long STYLES read_restart CASES
+  restart-cut-often restart-flipped-often)
 add_cases(run/guard-stopped cases/restarts.py LABEL case STYLES run/guard RANKS 1 LONG_RANKS 2 4 CASES sigterm)
-add_cases(run/guard-stopped cases/restarts.py LABEL case STYLES run/guard RANKS 1 LONG_RANKS 2 CASES sigterm-between-short-runs)
-add_cases(run/guard-stopped cases/restarts.py LABEL case STYLES run/guard RANKS 2 LONG_RANKS 4 CASES sigterm-to-one-rank)
+add_cases(run/guard-stopped cases/restarts.py LABEL case STYLES run/guard RANKS 1 LONG_RANKS 2 CASES
+  sigterm-between-short-runs)
+add_cases(run/guard-stopped cases/restarts.py LABEL case STYLES run/guard RANKS 2 LONG_RANKS 4 CASES
+  sigterm-to-one-rank)
 add_cases(run/guard-stopped cases/restarts.py LABEL case STYLES run/guard LONG_RANKS 2 CASES sigint)
-add_cases(run/guard-damage cases/damage.py LABEL case STYLES run/guard RANKS 1 2 CASES velocity-nan lost-from-a-periodic-box)
-add_cases(run/guard-damage cases/damage.py LABEL case STYLES run/guard RANKS 1 LONG_RANKS 2 CASES force-inf too-long-a-step)
+add_cases(run/guard-damage cases/damage.py LABEL case STYLES run/guard RANKS 1 2 CASES
+  velocity-nan lost-from-a-periodic-box)
+add_cases(run/guard-damage cases/damage.py LABEL case STYLES run/guard RANKS 1 LONG_RANKS 2 CASES
+  force-inf too-long-a-step)
 add_cases(run/guard-damage cases/damage.py LABEL case STYLES run/guard CASES
-  may-leave-an-open-box lost-beside-an-open-face disk-full-snapshots disk-full-dump disk-full-table disk-full-log disk-full-restart)
+  may-leave-an-open-box lost-beside-an-open-face disk-full-snapshots disk-full-dump disk-full-table disk-full-log
+  disk-full-restart)
 
 # All styles at once: ranks, ways to ask, changes between runs, decompositions, orders of grains, builds, lifetimes
-add_cases(every-style-same cases/same_everywhere.py LABEL case STYLES ALL RANKS 2 LONG_RANKS 4 CASES spheroids ellipsoids)
+add_cases(every-style-same cases/same_everywhere.py LABEL case STYLES ALL RANKS 2 LONG_RANKS 4 CASES
+  spheroids ellipsoids)
 add_cases(every-style-same cases/same_everywhere.py LABEL case STYLES ALL LONG_RANKS 2 4 CASES spheres)
 add_cases(every-style-same cases/same_everywhere.py LABEL case STYLES ALL RANKS 4 CASES empty-ranks empty-group)
-add_cases(every-style-same cases/same_everywhere.py LABEL case STYLES ALL LONG_RANKS 4 CASES oblate-grains subgroup restart-on-other-ranks)
+add_cases(every-style-same cases/same_everywhere.py LABEL case STYLES ALL LONG_RANKS 4 CASES
+  oblate-grains subgroup restart-on-other-ranks)
 add_cases(every-style-same cases/same_everywhere.py LABEL case STYLES ALL CASES empty-group-of-spheres)
 add_cases(every-style-same cases/same_everywhere.py LABEL case STYLES ALL RANKS 1 2 CASES restart-continues)
 add_cases(every-style-same cases/same_everywhere.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 CASES
   does-not-disturb-spheres does-not-disturb-spheroids restart-refused restart-of-spheres-continues)
 add_cases(every-style-asked cases/asking.py LABEL case STYLES ALL CASES
-  as-pair-gran-local-spheres as-pair-gran-local-spheroids as-pair-gran-local-oblate dumped means variables orthogonal-box
-  as-pair-gran-local-ellipsoids as-pair-gran-local-oblate-ellipsoids)
-add_cases(every-style-asked cases/asking.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 CASES scalars vectors come-and-go)
+  as-pair-gran-local-spheres as-pair-gran-local-spheroids as-pair-gran-local-oblate dumped means variables
+  orthogonal-box as-pair-gran-local-ellipsoids as-pair-gran-local-oblate-ellipsoids)
+add_cases(every-style-asked cases/asking.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 CASES
+  scalars vectors come-and-go)
 add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL CASES
-  box-turned-triclinic grains-deleted-and-renumbered pair-style-twice-at-first compute-before-pair-style time-step-changed-between-runs
-  time-step-changed-every-ten-steps loss-while-the-time-step-changes)
+  box-turned-triclinic grains-deleted-and-renumbered pair-style-twice-at-first compute-before-pair-style
+  time-step-changed-between-runs time-step-changed-every-ten-steps loss-while-the-time-step-changes)
 add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL RANKS 1 2 CASES grains-lost)
 add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 CASES
-  box-turned-orthogonal grains-deleted clear-starts-afresh-with-ellipsoids pair-style-twice time-step-changed-in-mid-run box-scaled)
-add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 4 CASES grains-inserted clear-starts-afresh steps-numbered-anew)
+  box-turned-orthogonal grains-deleted clear-starts-afresh-with-ellipsoids pair-style-twice
+  time-step-changed-in-mid-run box-scaled)
+add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 4 CASES
+  grains-inserted clear-starts-afresh steps-numbered-anew)
 add_cases(every-style-rank-sweep cases/rank_sweep.py LABEL case STYLES ALL RANKS 8 CASES spheroids-through-a-flip)
-add_cases(every-style-rank-sweep cases/rank_sweep.py LABEL case STYLES ALL LONG_RANKS 8 CASES spheres superquadrics-through-a-flip)
+add_cases(every-style-rank-sweep cases/rank_sweep.py LABEL case STYLES ALL LONG_RANKS 8 CASES
+  spheres superquadrics-through-a-flip)
 add_cases(every-style-rank-sweep cases/rank_sweep.py LABEL long STYLES ALL RANKS 8 CASES every-decomposition)
-add_cases(every-style-decomposition cases/decomposition.py LABEL case STYLES ALL RANKS 2 CASES on-corners-of-a-tilted-box)
-add_cases(every-style-decomposition cases/decomposition.py LABEL case STYLES ALL RANKS 4 CASES just-below-the-least-height)
+add_cases(every-style-decomposition cases/decomposition.py LABEL case STYLES ALL RANKS 2 CASES
+  on-corners-of-a-tilted-box)
+add_cases(every-style-decomposition cases/decomposition.py LABEL case STYLES ALL RANKS 4 CASES
+  just-below-the-least-height)
 add_cases(every-style-decomposition cases/decomposition.py LABEL case STYLES ALL LONG_RANKS 4 CASES empty-ranks)
 add_cases(every-style-decomposition cases/decomposition.py LABEL case STYLES ALL RANKS 3 CASES
   just-above-the-least-height just-above-the-least-height-of-ellipsoids)
@@ -253,14 +338,16 @@ add_cases(every-style-decomposition cases/decomposition.py LABEL case STYLES ALL
 add_cases(every-style-decomposition cases/decomposition.py LABEL case STYLES ALL CASES host-cannot-balance)
 add_cases(every-style-decomposition cases/decomposition.py LABEL long STYLES ALL RANKS 2 3 4 8 CASES
   on-corners spheres-on-corners-of-a-tilted-box)
-add_cases(every-style-decomposition cases/decomposition.py LABEL long STYLES ALL RANKS 3 4 8 CASES on-corners-of-a-tilted-box)
-add_cases(every-style-decomposition cases/decomposition.py LABEL long STYLES ALL RANKS 2 3 8 CASES just-below-the-least-height)
+add_cases(every-style-decomposition cases/decomposition.py LABEL long STYLES ALL RANKS 3 4 8 CASES
+  on-corners-of-a-tilted-box)
+add_cases(every-style-decomposition cases/decomposition.py LABEL long STYLES ALL RANKS 2 3 8 CASES
+  just-below-the-least-height)
 add_cases(every-style-decomposition cases/decomposition.py LABEL long STYLES ALL RANKS 2 4 8 CASES
   just-above-the-least-height just-above-the-least-height-of-ellipsoids)
 add_cases(every-style-decomposition cases/decomposition.py LABEL long STYLES ALL RANKS 3 CASES migrants)
 add_cases(every-style-decomposition cases/decomposition.py LABEL long STYLES ALL RANKS 8 CASES
-  migrants empty-ranks arrive-on-the-upper-face shrinks-by-press-strain shrinks-by-fix-deform shrinks-by-change-box sheared-too-narrow
-  restart-of-grains-beyond-the-box)
+  migrants empty-ranks arrive-on-the-upper-face shrinks-by-press-strain shrinks-by-fix-deform shrinks-by-change-box
+  sheared-too-narrow restart-of-grains-beyond-the-box)
 add_cases(every-style-rank-statistics cases/rank_statistics.py LABEL long STYLES ALL RANKS 4 CASES prolate-flow)
 add_cases(every-style-shuffle cases/shuffle.py LABEL case STYLES ALL RANKS 1 CASES ellipsoids)
 add_cases(every-style-shuffle cases/shuffle.py LABEL case STYLES ALL LONG_RANKS 3 CASES spheres)
@@ -271,25 +358,29 @@ add_cases(every-style-lifetimes cases/lifetimes.py LABEL case STYLES ALL CASES e
 add_cases(every-style-lifetimes cases/lifetimes.py LABEL case STYLES ALL LONG_RANKS 1 CASES
   computes-1000-times fixes-1000-times pair-styles-1000-times pair-styles-not-compiled-1000-times
   computes-asked-100-times fixes-run-100-times pair-styles-run-200-times)
-add_cases(every-style-lifetimes cases/lifetimes.py LABEL long STYLES ALL RANKS 2 CASES computes-asked-100-times fixes-run-100-times)
+add_cases(every-style-lifetimes cases/lifetimes.py LABEL long STYLES ALL RANKS 2 CASES
+  computes-asked-100-times fixes-run-100-times)
 add_cases(every-style-soak cases/soak.py LABEL case STYLES ALL LONG_RANKS 1 2 CASES spheroids-over-1e4-steps)
 add_cases(every-style-soak cases/soak.py LABEL long STYLES ALL RANKS 1 2 CASES spheroids-over-1e5-steps)
 add_cases(every-style-soak cases/soak.py LABEL long STYLES ALL CASES spheroids-over-1e6-steps spheres-over-1e6-steps)
 
 # The study
 add_cases(study-config cases/study_config.py LABEL case STYLES study CASES
-  runs-of-lists exceptions numbers-that-yaml-takes-for-words example-is-valid howto-has-the-grid-of-the-paper every-figure-is-asked-for steps-of-deck
-  unknown-word empty-list no-list word-for-number
-  yes-for-number negative-friction half-a-grain not-finite twice steady-beyond-strain exception-steady measure exception-shape exceptions-no-list exception-where
-  exception-use exception-value output ranks)
+  runs-of-lists exceptions numbers-that-yaml-takes-for-words example-is-valid howto-has-the-grid-of-the-paper
+  every-figure-is-asked-for steps-of-deck unknown-word empty-list no-list word-for-number yes-for-number
+  negative-friction half-a-grain not-finite twice steady-beyond-strain exception-steady measure exception-shape
+  exceptions-no-list exception-where exception-use exception-value output ranks)
 add_cases(study-fits cases/study_fits.py LABEL case STYLES study CASES
-  friction-law fraction-law power-law without-errors decay refused curves-that-do-not-bend crossing level-set laws-of-grid laws-of-shape seeds-and-sizes agreement
-  published-of-grid)
-add_cases(study-runs cases/study_runs.py LABEL case STYLES study RANKS 1 LONG_RANKS 2 CASES killed-run-continues longer-strain-continues)
+  friction-law fraction-law power-law without-errors decay refused curves-that-do-not-bend crossing level-set
+  laws-of-grid laws-of-shape seeds-and-sizes agreement published-of-grid)
+add_cases(study-runs cases/study_runs.py LABEL case STYLES study RANKS 1 LONG_RANKS 2 CASES
+  killed-run-continues longer-strain-continues)
 add_cases(study-runs cases/study_runs.py LABEL case STYLES study CASES
-  one-at-a-time stopped-run-has-not-ended first-restart-cut no-restart-whole other-variables-refused part-must-be-named reason-is-told means-of-files table-holds-everything)
+  one-at-a-time stopped-run-has-not-ended first-restart-cut no-restart-whole other-variables-refused
+  part-must-be-named reason-is-told means-of-files table-holds-everything)
 add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study CASES basic-measures bad-configuration)
-add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study LONG_RANKS 1 CASES failing-runs-do-not-stop-others study-goes-on)
+add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study LONG_RANKS 1 CASES
+  failing-runs-do-not-stop-others study-goes-on)
 add_cases(study-slurm cases/study_slurm.py LABEL long STYLES study CASES slurm-grid)
 
 # The tests themselves

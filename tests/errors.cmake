@@ -1,17 +1,19 @@
 # Every style's command line: what must be refused, each bad input in a process of its own; and what must be taken
-set(styles_with_keywords stress/contact nematic contact/grain contact/solver energy/ledger dissipation fabric contact/surface contact/direction
-  contact/local fluctuation layering velocity/correlation velocity/memory displacement/shear press/strain nve/spheroid gran/insitu)
+set(styles_with_keywords stress/contact nematic contact/grain contact/solver energy/ledger dissipation fabric
+  contact/surface contact/direction contact/local fluctuation layering velocity/correlation velocity/memory
+  displacement/shear press/strain nve/spheroid gran/insitu)
+set(keywords ${CMAKE_CURRENT_SOURCE_DIR}/errors/keywords.py)
 foreach(style IN LISTS styles_with_keywords)
   string(REPLACE / - case ${style})
   foreach(way refused taken)
-    add_script(${style}-keywords-${way} COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/errors/keywords.py ${case}-${way} 1 LABELS error ${style})
+    add_script(${style}-keywords-${way} COMMAND ${keywords} ${case}-${way} 1 LABELS error ${style})
   endforeach()
-  add_script(${style}-keywords-refused-on-2-ranks RANKS 2 COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/errors/keywords.py ${case}-refused 2
+  add_script(${style}-keywords-refused-on-2-ranks RANKS 2 COMMAND ${keywords} ${case}-refused 2
              LABELS error mpi ${style})
 endforeach()
 foreach(style stress/contact velocity/memory press/strain nve/spheroid gran/insitu)
   string(REPLACE / - case ${style})
-  add_script(${style}-keywords-refused-on-4-ranks RANKS 4 COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/errors/keywords.py ${case}-refused 4
+  add_script(${style}-keywords-refused-on-4-ranks RANKS 4 COMMAND ${keywords} ${case}-refused 4
              LABELS long ${style})
 endforeach()
 
@@ -20,20 +22,29 @@ add_cases(every-style-surroundings errors/surroundings.py LABEL error STYLES ALL
   no-pair-style pair-style-gran memory-before-box atom-style atom-style-changed-later group-deleted compute-deleted
   variable-becomes-nan variable-becomes-infinite box-changed asked-between-runs)
 add_cases(every-style-surroundings errors/surroundings.py LABEL error STYLES ALL RANKS 2 CASES variable-becomes-nan)
-add_cases(gran/insitu-surroundings errors/surroundings.py LABEL error STYLES gran/insitu RANKS 1 2 LONG_RANKS 4 CASES words-before-hybrid)
+add_cases(gran/insitu-surroundings errors/surroundings.py LABEL error STYLES gran/insitu RANKS 1 2 LONG_RANKS 4 CASES
+  words-before-hybrid)
 set(of_strain displacement/shear velocity/memory press/strain)
 add_cases(displacement/shear+velocity/memory-surroundings errors/surroundings.py LABEL error STYLES ${of_strain} CASES
   strain-fix-deleted named-strain-fix-deleted strain-variable-deleted memory-replaced-by-hand)
-add_cases(displacement/shear+velocity/memory-surroundings errors/surroundings.py LABEL error STYLES ${of_strain} RANKS 1 2 CASES strain-not-set-up)
-add_cases(press/strain-surroundings errors/surroundings.py LABEL error STYLES press/strain CASES target-variable-deleted)
-add_cases(press/strain-surroundings errors/surroundings.py LABEL error STYLES press/strain RANKS 1 2 LONG_RANKS 4 CASES variable-becomes-negative)
+add_cases(displacement/shear+velocity/memory-surroundings errors/surroundings.py LABEL error STYLES ${of_strain} RANKS
+  1 2 CASES
+  strain-not-set-up)
+add_cases(press/strain-surroundings errors/surroundings.py LABEL error STYLES press/strain CASES
+  target-variable-deleted)
+add_cases(press/strain-surroundings errors/surroundings.py LABEL error STYLES press/strain RANKS 1 2 LONG_RANKS 4
+  CASES
+  variable-becomes-negative)
 set(of_records energy/ledger ledger/record grain/record displacement/shear velocity/memory)
-add_cases(energy/ledger+displacement/shear+velocity/memory-surroundings errors/surroundings.py LABEL error STYLES ${of_records}
-  RANKS 1 2 LONG_RANKS 4 CASES grains-renumbered)
-add_cases(energy/ledger+displacement/shear+velocity/memory-surroundings errors/surroundings.py LABEL error STYLES ${of_records}
-  RANKS 1 LONG_RANKS 2 CASES grains-renumbered-warned)
+add_cases(energy/ledger+displacement/shear+velocity/memory-surroundings errors/surroundings.py LABEL error STYLES
+  ${of_records} RANKS 1 2 LONG_RANKS 4 CASES
+  grains-renumbered)
+add_cases(energy/ledger+displacement/shear+velocity/memory-surroundings errors/surroundings.py LABEL error STYLES
+  ${of_records} RANKS 1 LONG_RANKS 2 CASES
+  grains-renumbered-warned)
 
-add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu run/guard setup/memory RANKS 1 LONG_RANKS 2 CASES
+add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu run/guard setup/memory RANKS 1 LONG_RANKS
+  2 CASES
   hybrid newton-on setup-twice guard-by-hand memory-by-hand misspelt-model misspelt-setting)
 add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu RANKS 1 2 CASES small-periodic-box)
 add_cases(press/strain-refused errors/press_strain.py LABEL error STYLES press/strain CASES
@@ -42,38 +53,56 @@ add_cases(press/strain-refused errors/press_strain.py LABEL error STYLES press/s
   target-variable-negative orthogonal-box)
 add_cases(press/strain-refused errors/press_strain.py LABEL error STYLES press/strain RANKS 1 2 CASES wall-on-the-axis)
 set(recorded displacement/shear grain/record)
-add_cases(contact/surface-refused errors/measures.py LABEL error STYLES contact/surface CASES surface-sphere-among-spheroids surface-boxy)
-add_cases(contact/surface-refused errors/measures.py LABEL error STYLES contact/surface RANKS 1 2 CASES surface-two-shapes)
-add_cases(contact/surface-refused errors/measures.py LABEL error STYLES contact/surface RANKS 1 LONG_RANKS 2 CASES surface-triaxial surface-of-spheres)
-add_cases(velocity/correlation-refused errors/measures.py LABEL error STYLES velocity/correlation CASES correlation-mesh-too-fine)
-add_cases(velocity/correlation-refused errors/measures.py LABEL error STYLES velocity/correlation RANKS 1 2 CASES correlation-mesh-not-periodic)
+add_cases(contact/surface-refused errors/measures.py LABEL error STYLES contact/surface CASES
+  surface-sphere-among-spheroids surface-boxy)
+add_cases(contact/surface-refused errors/measures.py LABEL error STYLES contact/surface RANKS 1 2 CASES
+  surface-two-shapes)
+add_cases(contact/surface-refused errors/measures.py LABEL error STYLES contact/surface RANKS 1 LONG_RANKS 2 CASES
+  surface-triaxial surface-of-spheres)
+add_cases(velocity/correlation-refused errors/measures.py LABEL error STYLES velocity/correlation CASES
+  correlation-mesh-too-fine)
+add_cases(velocity/correlation-refused errors/measures.py LABEL error STYLES velocity/correlation RANKS 1 2 CASES
+  correlation-mesh-not-periodic)
 add_cases(velocity/memory-refused errors/measures.py LABEL error STYLES velocity/memory CASES memory-too-much)
-add_cases(velocity/memory-refused errors/measures.py LABEL error STYLES velocity/memory RANKS 1 2 CASES memory-without-strain)
+add_cases(velocity/memory-refused errors/measures.py LABEL error STYLES velocity/memory RANKS 1 2 CASES
+  memory-without-strain)
 add_cases(displacement/shear-refused errors/measures.py LABEL error STYLES ${recorded} CASES
-  displacement-record-taken displacement-record-gone record-by-hand displacement-strain-not-an-equal-variable displacement-strain-no-such-fix
-  displacement-strain-beyond-the-vector displacement-without-strain)
-add_cases(displacement/shear-refused errors/measures.py LABEL error STYLES ${recorded} RANKS 1 2 CASES displacement-strain-no-such-variable)
-add_cases(nve/spheroid-refused errors/spheroid.py LABEL error STYLES nve/spheroid CASES spheres triaxial-between-runs implicit-cfd-coupling)
+  displacement-record-taken displacement-record-gone record-by-hand displacement-strain-not-an-equal-variable
+  displacement-strain-no-such-fix displacement-strain-beyond-the-vector displacement-without-strain)
+add_cases(displacement/shear-refused errors/measures.py LABEL error STYLES ${recorded} RANKS 1 2 CASES
+  displacement-strain-no-such-variable)
+add_cases(nve/spheroid-refused errors/spheroid.py LABEL error STYLES nve/spheroid CASES
+  spheres triaxial-between-runs implicit-cfd-coupling)
 add_cases(nve/spheroid-refused errors/spheroid.py LABEL error STYLES nve/spheroid RANKS 1 2 CASES triaxial-grains)
-add_cases(nve/spheroid-refused errors/spheroid.py LABEL error STYLES nve/spheroid RANKS 1 LONG_RANKS 2 CASES boxy-about-an-equator triaxial-inserted)
+add_cases(nve/spheroid-refused errors/spheroid.py LABEL error STYLES nve/spheroid RANKS 1 LONG_RANKS 2 CASES
+  boxy-about-an-equator triaxial-inserted)
 add_cases(surface/ellipsoid-refused errors/ellipsoid.py LABEL error STYLES surface/ellipsoid CASES
-  boxy-one-way boxy-grain-under-gran nearly-an-ellipsoid-is-taken wall-of-spheres both-curvatures-of-a-wall limit-negative-under-gran misspelt-surface)
-add_cases(surface/ellipsoid-refused errors/ellipsoid.py LABEL error STYLES surface/ellipsoid RANKS 1 LONG_RANKS 2 CASES
+  boxy-one-way boxy-grain-under-gran nearly-an-ellipsoid-is-taken wall-of-spheres both-curvatures-of-a-wall
+  limit-negative-under-gran misspelt-surface)
+add_cases(surface/ellipsoid-refused errors/ellipsoid.py LABEL error STYLES surface/ellipsoid RANKS 1 LONG_RANKS 2
+  CASES
   boxy-between-runs boxy-created-later spheres both-curvatures limit-negative)
-add_cases(surface/ellipsoid-refused errors/ellipsoid.py LABEL error STYLES surface/ellipsoid RANKS 1 2 LONG_RANKS 4 CASES first-of-two-boxy-grains)
-add_cases(surface/ellipsoid-refused errors/ellipsoid.py LABEL error STYLES surface/ellipsoid RANKS 1 LONG_RANKS 2 4 CASES boxy-grain boxy-inserted)
+add_cases(surface/ellipsoid-refused errors/ellipsoid.py LABEL error STYLES surface/ellipsoid RANKS 1 2 LONG_RANKS 4
+  CASES
+  first-of-two-boxy-grains)
+add_cases(surface/ellipsoid-refused errors/ellipsoid.py LABEL error STYLES surface/ellipsoid RANKS 1 LONG_RANKS 2 4
+  CASES
+  boxy-grain boxy-inserted)
 add_cases(contact/solver-refused errors/ellipsoid.py LABEL error STYLES contact/solver CASES solver-of-spheres)
 add_cases(contact/solver-refused errors/ellipsoid.py LABEL error STYLES contact/solver RANKS 1 LONG_RANKS 2 CASES
   solver-needs-surface-ellipsoid solver-needs-gran-insitu)
-add_cases(contact/solver-refused errors/ellipsoid.py LABEL error STYLES contact/solver RANKS 1 2 CASES solver-of-a-group)
+add_cases(contact/solver-refused errors/ellipsoid.py LABEL error STYLES contact/solver RANKS 1 2 CASES
+  solver-of-a-group)
 add_cases(energy/ledger-refused errors/ledger.py LABEL error STYLES energy/ledger ledger/record dissipation CASES
-  dissipation-ledger-off needs-gran-insitu cohesion rolling other-integrator box-without-flow box-of-some-grains record-taken record-gone
-  record-by-hand pre-no-at-first time-step-changed)
-add_cases(energy/ledger-refused errors/ledger.py LABEL error STYLES energy/ledger ledger/record RANKS 1 2 CASES loose-grains restart-without)
-add_cases(energy/ledger-refused errors/ledger.py LABEL error STYLES energy/ledger ledger/record RANKS 1 LONG_RANKS 2 CASES
+  dissipation-ledger-off needs-gran-insitu cohesion rolling other-integrator box-without-flow box-of-some-grains
+  record-taken record-gone record-by-hand pre-no-at-first time-step-changed)
+add_cases(energy/ledger-refused errors/ledger.py LABEL error STYLES energy/ledger ledger/record RANKS 1 2 CASES
+  loose-grains restart-without)
+add_cases(energy/ledger-refused errors/ledger.py LABEL error STYLES energy/ledger ledger/record RANKS 1 LONG_RANKS 2
+  CASES
   ledger-off grains-inserted restart-with)
 
 # The build
 add_cases(build-host errors/build.py LABEL error STYLES build CASES
-  folder-without-liggghts root-or-src source-left-untouched styles-are-listed mended-where-needed not-mended-where-right
-  configured-twice-rebuilds-nothing own-whitelist missing-whitelist)
+  folder-without-liggghts root-or-src source-left-untouched styles-are-listed mended-where-needed
+  not-mended-where-right configured-twice-rebuilds-nothing own-whitelist missing-whitelist)

@@ -1,5 +1,5 @@
-# Seconds, against hangs alone: a busy machine takes many times as long as an idle one, and the sanitizers twelve times. For each run of a
-# test, and for each of one that is long; a test as a whole has three times as much.
+# Seconds, against hangs alone: a busy machine takes many times as long as an idle one, and the sanitizers twelve times.
+# For each run of a test, and for each of one that is long; a test as a whole has three times as much.
 set(TIME_LIMIT 1200)
 set(LONG_TIME_LIMIT 36000)
 if(GRAINSCOPE_SANITIZE)

@@ -1,5 +1,6 @@
-"""Runs of Open MPI side by side on one machine. Processes that start and end at the same moment share a session directory in /tmp, and one
-can remove it under another: "mkdir: File exists", exit code 1. Here each mpirun gets directories of its own."""
+"""Runs of Open MPI side by side on one machine. Processes that start and end at the same moment share a session directory
+in /tmp, and one can remove it under another: "mkdir: File exists", exit code 1. Here each mpirun gets directories of its
+own."""
 from contextlib import contextmanager
 import os
 from pathlib import Path
@@ -17,8 +18,8 @@ def _base():
 
 
 class Session:
-    """Directories of one group of processes. `note`: a file that names them for as long as they are there, so that the next session with
-    the same note removes what a killed process left."""
+    """Directories of one group of processes. `note`: a file that names them for as long as they are there, so that the
+    next session with the same note removes what a killed process left."""
 
     def __init__(self, note=None):
         self.note = note and Path(note)
@@ -49,7 +50,8 @@ class Session:
 
 @contextmanager
 def session(environment=os.environ, note=None):
-    """The environment with a session of its own, for one mpirun after another; the directories go at the end of the block."""
+    """The environment with a session of its own, for one mpirun after another; its directories go at the end of the
+    block."""
     own = Session(note)
     try:
         yield {**environment, **own.variables()}

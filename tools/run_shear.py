@@ -103,8 +103,8 @@ def attempt(arguments, resume, locked):
     with screen.open("ab") as output:
         end_of_earlier = output.tell()
         with session(note=arguments.out / "session.txt") as environment:
-            run = subprocess.Popen(command(arguments, resume), stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
-                                   pass_fds=[locked.fileno()], env=environment)
+            run = subprocess.Popen(command(arguments, resume), stdin=subprocess.DEVNULL, stdout=output,
+                                   stderr=subprocess.STDOUT, pass_fds=[locked.fileno()], env=environment)
             _, status, usage = os.wait4(run.pid, 0)
             run.returncode = os.waitstatus_to_exitcode(status)
     if run.returncode == 0 and time_of(final) == earlier:

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/** A program that is started without mpirun. Open MPI 4 would start a daemon beside it, and both use a directory in /tmp that all processes
- *  of a user share: one that ends removes it under another that starts, which then ends with exit code 1. A program alone needs neither.
- *  Set before main and MPI_Init; other MPIs and Open MPI 5 do not read these variables, and a user's own values stay. */
+/** A program that is started without mpirun. Open MPI 4 would start a daemon beside it, and both use a directory in
+ *  /tmp that all processes of a user share: one that ends removes it under another that starts, which then ends with
+ *  exit code 1. A program alone needs neither. Set before main and MPI_Init; other MPIs and Open MPI 5 do not read
+ *  these variables, and a user's own values stay. */
 #include <algorithm>
 #include <cstdlib>
 #include <iterator>
@@ -10,7 +11,8 @@ namespace {
 
 /** Whatever started the program told it which rank it is: mpirun, srun or another. */
 bool has_launcher() {
-  const char *const told[] = {"OMPI_COMM_WORLD_SIZE", "PMIX_NAMESPACE", "PMIX_RANK", "PMI_RANK", "PMI_FD", "PMI_ID", "ALPS_APP_PE", "FLUX_JOB_ID"};
+  const char *const told[] = {"OMPI_COMM_WORLD_SIZE", "PMIX_NAMESPACE", "PMIX_RANK", "PMI_RANK", "PMI_FD", "PMI_ID",
+                              "ALPS_APP_PE", "FLUX_JOB_ID"};
   return std::any_of(std::begin(told), std::end(told), [](const char *name) { return std::getenv(name) != nullptr; });
 }
 

@@ -115,7 +115,8 @@ def restart_is_exact(packing, surface="ellipsoid", extra="setup neutral ledger o
 def long_deck(packing, steps, every, ranks):
     deck = neutral(packing, processors=f"{ranks} 1 1")  # the host would choose a grid for the box that it finds
     lines, _ = everything_with_state(deck)
-    end = [*dump_grains(packing, steps), f"restart {every} {' '.join(FILES)}", "thermo 10", FLUSHED, f"run {steps} upto"]
+    end = [*dump_grains(packing, steps), f"restart {every} {' '.join(FILES)}", "thermo 10", FLUSHED,
+           f"run {steps} upto"]
     return replace(deck, body=[*lines, *end]), deck.restarted(" ".join(FILES), [*lines, *end])
 
 
@@ -138,14 +139,15 @@ def killed_and_resumed(packing, times, steps=3000, every=150):
             while result is None:
                 under_way = Started(deck, ranks, folder)
                 folder = under_way.folder
+                files = [folder / name for name in FILES]
                 if kills < times or not resumptions:
                     kill_after(under_way, dice.randrange(steps // 20))
                 result = under_way.end()
                 resumptions += deck is resumed and rows_so_far(under_way) > 0
                 if result.code < 0 or result.code == 128 + signal.SIGKILL:
                     kills += 1
-                    deck, result = resumed if any((folder / name).exists() for name in FILES) else fresh, None
-                elif result.code and "was cut short" in result.output and not all((folder / name).exists() for name in FILES):
+                    deck, result = resumed if any(file.exists() for file in files) else fresh, None
+                elif result.code and "was cut short" in result.output and not all(file.exists() for file in files):
                     deck, result = fresh, None  # killed while it wrote its first restart file: there is no other
             require(result.code == 0, f"the run ended with code {result.code}: {result.output[-1000:]}")
             require_same_snapshots(result.dump("grains.dump")[-1:], reference, f"after {kills} kills")
@@ -158,7 +160,8 @@ def stopped_by(number, to_one_rank=False):
         steps = 100_000_000     # the signal is what ends it
         deck = neutral(SPHERES)
         lines, told = everything_with_state(deck)
-        body = [*lines, *thermo(100, *told), FLUSHED, "fix means all ave/time 1 1 1 f_press[1] c_stress[1] file means.txt", f"run {steps} upto", "print 'went on'"]
+        body = [*lines, *thermo(100, *told), FLUSHED,
+                "fix means all ave/time 1 1 1 f_press[1] c_stress[1] file means.txt", f"run {steps} upto", "print 'went on'"]
         body.insert(len(lines), "compute stress all stress/contact")
         under_way = Started(replace(deck, body=body), ranks)
         wait_for_steps(under_way)
@@ -185,7 +188,8 @@ def stopped_by(number, to_one_rank=False):
 
 def stopped_between_short_runs(ranks):
     """A deck that loops over `run 1`: the last step of each is as good as any."""
-    deck = replace(neutral(SPHERES), body=[FLUSHED, "variable i loop 100000000", "label again", "run 1 post no", "next i", "jump SELF again"])
+    deck = replace(neutral(SPHERES), body=[FLUSHED, "variable i loop 100000000", "label again", "run 1 post no", "next i",
+                                           "jump SELF again"])
     under_way = Started(deck, ranks)
     wait_for_steps(under_way)
     for pid in under_way.ranks():

@@ -54,10 +54,12 @@ def ended(name, ranks=1, **variables):
 
 
 def stopped_half_way(name, ranks, stop, **variables):
-    """A run to which `stop(process)` is done as soon as it has written its second restart file; another, where it ended before that."""
+    """A run to which `stop(process)` is done as soon as it has written its second restart file; another, where it ended
+    before that."""
     while True:
         process = start(name, ranks, **variables)
-        wait_until(lambda: process.poll() is not None or (folder(name) / "odd.restart").exists(), f"a second restart file of {name}")
+        wait_until(lambda: process.poll() is not None or (folder(name) / "odd.restart").exists(),
+                   f"a second restart file of {name}")
         result = stop(process)
         if not (folder(name) / "final.restart").exists():
             return result

@@ -136,7 +136,8 @@ class Study:
         try:
             code = self.snakemake.wait(TIME_LIMIT)
         except subprocess.TimeoutExpired:
-            raise Failure(f"Snakemake did not end within {TIME_LIMIT:g} s; its log ends:\n{self.log.read_text()[-2500:]}")
+            end = self.log.read_text()[-2500:]
+            raise Failure(f"Snakemake did not end within {TIME_LIMIT:g} s; its log ends:\n{end}")
         return code, self.log.read_text()
 
     def kill(self):

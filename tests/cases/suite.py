@@ -15,7 +15,8 @@ MANY = 5    # styles, from which on a name says every-style
 
 def tests():
     """{name: labels}, as CTest has them."""
-    found = subprocess.run(["ctest", "--show-only=json-v1"], cwd=os.environ["GRAINSCOPE_BUILD"], capture_output=True, text=True, check=True).stdout
+    found = subprocess.run(["ctest", "--show-only=json-v1"], cwd=os.environ["GRAINSCOPE_BUILD"], capture_output=True,
+                           text=True, check=True).stdout
     for test in json.loads(found)["tests"]:
         labels = [p["value"] for p in test.get("properties", []) if p["name"] == "LABELS"]
         yield test["name"], set(labels[0] if labels else ())
@@ -57,7 +58,8 @@ def names_begin_with_a_style(ranks):
 
 def asked(*words):
     """Exit code and words of scripts/test, which only says what it would run."""
-    done = subprocess.run([SOURCE / "scripts" / "test", "--show", *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    done = subprocess.run([SOURCE / "scripts" / "test", "--show", *words], stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True)
     return done.returncode, done.stdout
 
 
@@ -71,14 +73,18 @@ def unknown_word_refused(ranks):
 
 def short_words(ranks):
     """A part of a name finds the styles, a style in full itself alone; options go on to ctest."""
-    for words, expected in ((["fabric"], "-L ^(fabric)$ -LE long"), (["ledger"], "-L ^(energy/ledger|ledger/record)$ -LE long"),
-                            (["ellipsoid"], "-L ^(surface/ellipsoid)$ -LE long"), (["insitu"], "-L ^(gran/insitu)$ -LE long"),
+    for words, expected in ((["fabric"], "-L ^(fabric)$ -LE long"),
+                            (["ledger"], "-L ^(energy/ledger|ledger/record)$ -LE long"),
+                            (["ellipsoid"], "-L ^(surface/ellipsoid)$ -LE long"),
+                            (["insitu"], "-L ^(gran/insitu)$ -LE long"),
                             (["run/guard", "strain"], "-L ^(press/strain|run/guard)$ -LE long"), ([], "-LE long"),
                             (["--long", "fabric"], "-L ^(fabric)$ -L long"), (["-R", "fabric"], "-R fabric"),
-                            (["fabric", "-R", "oracle"], "-L ^(fabric)$ -LE long -R oracle"), (["study"], "-L ^(study)$ -LE long"),
+                            (["fabric", "-R", "oracle"], "-L ^(fabric)$ -LE long -R oracle"),
+                            (["study"], "-L ^(study)$ -LE long"),
                             (["-L", "unit"], "-L unit"), (["--long"], "-L long")):
         code, said = asked(*words)
-        require(code == 0 and said.splitlines()[-1] == f"ctest {expected}", f"{words}: exit code {code}: {said}, expected {expected}")
+        require(code == 0 and said.splitlines()[-1] == f"ctest {expected}",
+                f"{words}: exit code {code}: {said}, expected {expected}")
 
 
 main({"every-style-has-tests": every_style_has_tests, "names-begin-with-a-style": names_begin_with_a_style,

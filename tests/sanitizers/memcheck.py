@@ -102,8 +102,8 @@ def check(name, deck, mine, folder):
     (where / "in.deck").write_text(deck if isinstance(deck, str) else deck.text())
     suppressions = [f"--suppressions={OPEN_MPI}"] if OPEN_MPI.exists() else []
     command = [*VALGRIND, *suppressions, f"--xml-file={where / 'valgrind.xml'}", binary(), "-in", "in.deck", "-log", "log.liggghts"]
-    done = subprocess.run(command, cwd=where, env=environment(1), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                          text=True, errors="replace")
+    done = subprocess.run(command, cwd=where, env=environment(1), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True, errors="replace")
     if done.returncode != 0 or count_errors(done.stdout):
         return [f"{name}: ended with code {done.returncode}: {done.stdout[-1500:]}"], Counter()
     found, others = [], Counter()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Memory of a run at places that its deck names: what it has written to, in RAM or swapped out. Pages of its files, which come and go with
-what else runs on the machine, are not counted."""
+"""Memory of a run at places that its deck names: what it has written to, in RAM or swapped out. Pages of its files, which
+come and go with what else runs on the machine, are not counted."""
 import ctypes
 import os
 from pathlib import Path
@@ -29,7 +29,7 @@ echo $$ > pid.${OMPI_COMM_WORLD_RANK:-0}
 exec '%s' "$@"
 """
 SANITIZED = "LSAN_OPTIONS" in os.environ
-# Pages of 2 MB, which the kernel gives when it has some to spare, would look like growth. What is started inherits this.
+# Pages of 2 MB, which the kernel gives when it has some to spare, would look like growth. Children inherit this.
 NO_HUGE_PAGES = 41  # PR_SET_THP_DISABLE
 NOTED = "shell . ./note"  # the deck line
 

@@ -12,7 +12,8 @@ import numpy as np
 
 from open_mpi import Session
 
-# Seconds, against hangs alone: on a busy machine a run takes many times as long. tests/CMakeLists.txt sets it, more for what is long.
+# Seconds, against hangs alone: on a busy machine a run takes many times as long. tests/limits.cmake has it, and more for
+# what is long.
 TIME_LIMIT = float(os.environ.get("GRAINSCOPE_TIME_LIMIT", "1200"))
 PAUSE = 0.01    # between looks at what is waited for
 FINDINGS = ("ERROR: AddressSanitizer", "ERROR: LeakSanitizer", "runtime error: ", "AddressSanitizer:DEADLYSIGNAL")
@@ -154,7 +155,8 @@ def processes_of(session):
 
 
 def kill_session(session):
-    """SIGKILL to all processes of a session, first the one that leads it, until none is left: each rank has a process group of its own."""
+    """SIGKILL to all processes of a session, first the one that leads it, until none is left: each rank has a process
+    group of its own."""
     while left := [pid for pid, _ in processes_of(session)]:
         for pid in sorted(left, key=lambda pid: pid != session):
             try:
@@ -173,8 +175,8 @@ def wait_until(condition, what):
 
 
 class Started:
-    """A run under way, in a folder of its own, for tests that do not let it end in peace. `program`: what to start in place of the binary.
-    Without `restore_signals` a file that may not grow is an error of writing, not a signal."""
+    """A run under way, in a folder of its own, for tests that do not let it end in peace. `program`: what to start in
+    place of the binary. Without `restore_signals` a file that may not grow is an error of writing, not a signal."""
 
     def __init__(self, deck, ranks=1, folder=None, arguments=(), program=None, restore_signals=False):
         self.folder = Path(folder or tempfile.mkdtemp(prefix="case-", dir=os.environ.get("GRAINSCOPE_SCRATCH")))
@@ -184,8 +186,9 @@ class Started:
         self._command = [*_command(ranks, program or binary()), "-in", "in.deck", "-log", "log.liggghts", *arguments]
         self._session = Session()
         self._output = open(self.folder / "output", "w")
-        self._process = subprocess.Popen(self._command, cwd=self.folder, env=environment(ranks, self._session), stdout=self._output,
-                                         stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, start_new_session=True, restore_signals=restore_signals)
+        self._process = subprocess.Popen(self._command, cwd=self.folder, env=environment(ranks, self._session),
+                                         stdin=subprocess.DEVNULL, stdout=self._output, stderr=subprocess.STDOUT,
+                                         start_new_session=True, restore_signals=restore_signals)
 
     def kill(self):
         """SIGKILL to all ranks, and to mpirun."""
