@@ -14,66 +14,52 @@ add_cases(gran/insitu-host cases/pair_host.py LABEL case STYLES gran/insitu CASE
   stale-springs-cured-no-warning stale-springs-of-round-superquadrics no-stale-springs-of-spheroids
   no-stale-springs-of-ellipsoids every-way-to-ask spin-of-frictionless-spheres no-springs-no-warning
   check-timestep-gran virial-of-plain-gran-is-wrong)
-add_cases(contact/local+gran/insitu-host cases/pair_host.py LABEL case STYLES contact/local gran/insitu RANKS 1
-  LONG_RANKS 2 CASES
-  contact-local-output-does-not-disturb)
-add_cases(gran/insitu+stress/contact-host-tally cases/ranks.py LABEL case STYLES gran/insitu stress/contact RANKS 1
-  LONG_RANKS 2 CASES
-  stress-atom-of-spheres stress-atom-of-spheroids)
+add_cases(contact/local+gran/insitu-host cases/pair_host.py LABEL case STYLES contact/local gran/insitu
+  RANKS 1 LONG_RANKS 2 CASES contact-local-output-does-not-disturb)
+add_cases(gran/insitu+stress/contact-host-tally cases/ranks.py LABEL case STYLES gran/insitu stress/contact
+  RANKS 1 LONG_RANKS 2 CASES stress-atom-of-spheres stress-atom-of-spheroids)
 add_cases(gran/insitu-range cases/ranges.py LABEL case STYLES gran/insitu RANKS 1 LONG_RANKS 2 CASES
   time-step time-step-in-short-runs time-step-unseen quiet unstable-from-the-start)
 
 # stress/contact, dissipation, nematic, contact/local against the oracle and a contact law of its own
 set(first_measures stress/contact dissipation nematic contact/local)
-add_cases(stress/contact+dissipation+nematic-oracle cases/measures_against_oracle.py LABEL case STYLES
-  ${first_measures} RANKS 1 2 CASES
-  spheroid-1.5)
-add_cases(stress/contact+dissipation+nematic-oracle cases/measures_against_oracle.py LABEL case STYLES
-  ${first_measures} RANKS 1 LONG_RANKS 2 CASES
+add_cases(stress/contact+dissipation+nematic-oracle cases/measures_against_oracle.py LABEL case
+  STYLES ${first_measures} RANKS 1 2 CASES spheroid-1.5)
+add_cases(stress/contact+dissipation+nematic-oracle cases/measures_against_oracle.py LABEL case
+  STYLES ${first_measures} RANKS 1 LONG_RANKS 2 CASES
   spheres spheres-in-the-open spheroid-1.5-in-the-open spheres-through-a-flip spheroids-through-a-flip
   walls-not-counted)
-add_cases(stress/contact+dissipation+nematic-oracle cases/measures_against_oracle.py LABEL case STYLES
-  ${first_measures} CASES
+add_cases(stress/contact+dissipation+nematic-oracle cases/measures_against_oracle.py LABEL case
+  STYLES ${first_measures} CASES
   spheroid-0.33-in-the-open spheroid-3-in-the-open polydisperse two-types frictionless no-history subgroup
   group-of-one)
-add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures} RANKS 2
-  LONG_RANKS 4 CASES
-  spheroids)
-add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures} LONG_RANKS 2 4
-  CASES
-  spheres oblate-grains subgroup)
+add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures}
+  RANKS 2 LONG_RANKS 4 CASES spheroids)
+add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures}
+  LONG_RANKS 2 4 CASES spheres oblate-grains subgroup)
 add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures} RANKS 4 CASES
   empty-ranks empty-group)
 add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures} surface/ellipsoid
-  LONG_RANKS 4 CASES
-  ellipsoids-0.33 ellipsoids-polydisperse)
+  LONG_RANKS 4 CASES ellipsoids-0.33 ellipsoids-polydisperse)
 add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures} surface/ellipsoid
-  RANKS 2 LONG_RANKS 4 CASES
-  ellipsoids-1.5)
+  RANKS 2 LONG_RANKS 4 CASES ellipsoids-1.5)
 add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures} surface/ellipsoid
-  LONG_RANKS 2 4 CASES
-  ellipsoids-3)
+  LONG_RANKS 2 4 CASES ellipsoids-3)
 add_cases(stress/contact-range cases/ranges.py LABEL case STYLES stress/contact RANKS 1 LONG_RANKS 2 CASES kappa)
 add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation CASES
   history-undamped no-history frictionless slippery limit-force)
-add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation RANKS 1 2
-  CASES
+add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation RANKS 1 2 CASES
   history)
-add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation RANKS 1
-  LONG_RANKS 2 CASES
-  two-types)
+add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation
+  RANKS 1 LONG_RANKS 2 CASES two-types)
 add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation press/strain
-  RANKS 1 LONG_RANKS 2 CASES
-  under-pressure-control sheared-backward)
-add_cases(contact/local+surface/ellipsoid-rows cases/ellipsoid_rows.py LABEL case STYLES contact/local
-  surface/ellipsoid CASES
-  spheroid-0.33 spheroid-3 ellipsoid-0.33 ellipsoid-3)
-add_cases(contact/local+surface/ellipsoid-rows cases/ellipsoid_rows.py LABEL case STYLES contact/local
-  surface/ellipsoid RANKS 1 LONG_RANKS 2 CASES
-  spheroid-1.5)
-add_cases(contact/local+surface/ellipsoid-rows cases/ellipsoid_rows.py LABEL case STYLES contact/local
-  surface/ellipsoid RANKS 2 CASES
-  ellipsoid-1.5)
+  RANKS 1 LONG_RANKS 2 CASES under-pressure-control sheared-backward)
+add_cases(contact/local+surface/ellipsoid-rows cases/ellipsoid_rows.py LABEL case
+  STYLES contact/local surface/ellipsoid CASES spheroid-0.33 spheroid-3 ellipsoid-0.33 ellipsoid-3)
+add_cases(contact/local+surface/ellipsoid-rows cases/ellipsoid_rows.py LABEL case
+  STYLES contact/local surface/ellipsoid RANKS 1 LONG_RANKS 2 CASES spheroid-1.5)
+add_cases(contact/local+surface/ellipsoid-rows cases/ellipsoid_rows.py LABEL case
+  STYLES contact/local surface/ellipsoid RANKS 2 CASES ellipsoid-1.5)
 add_cases(nematic-order cases/nematic.py LABEL case STYLES nematic CASES
   two-of-four-along-z three-of-four-along-z all-aligned isotropic mean-angle mean-angle-is-of-lines oblate-angle
   spheres-have-no-order spheres-do-not-dilute longest-of-three-axes axis-along-body-x mean-spin)
@@ -89,73 +75,67 @@ add_cases(dissipation-collision cases/collisions.py LABEL case STYLES dissipatio
 
 # fabric, contact/surface, contact/direction, contact/grain
 set(contact_measures fabric contact/surface contact/direction contact/grain)
-add_cases(fabric+contact/surface+contact/direction+contact/grain-oracle cases/contact_measures.py LABEL case STYLES
-  ${contact_measures} CASES
+add_cases(fabric+contact/surface+contact/direction+contact/grain-oracle cases/contact_measures.py LABEL case
+  STYLES ${contact_measures} CASES
   spheres-mu-0 spheres-mu-10 spheres-polydisperse spheroid-0.33-in-the-open spheroid-0.67-in-the-open
   spheroid-1-in-the-open spheroid-3-in-the-open spheroid-1.5-mu-0 spheroid-1.5-mu-10 spheroid-0.33 polydisperse
   two-types with-tangential-damping no-history tilted-backward subgroup group-of-one axis-along-body-x
   walls-not-counted units-cgs)
-add_cases(fabric+contact/surface+contact/direction+contact/grain-oracle cases/contact_measures.py LABEL case STYLES
-  ${contact_measures} RANKS 1 2 CASES
-  spheroid-1.5)
-add_cases(fabric+contact/surface+contact/direction+contact/grain-oracle cases/contact_measures.py LABEL case STYLES
-  ${contact_measures} RANKS 1 LONG_RANKS 2 CASES
+add_cases(fabric+contact/surface+contact/direction+contact/grain-oracle cases/contact_measures.py LABEL case
+  STYLES ${contact_measures} RANKS 1 2 CASES spheroid-1.5)
+add_cases(fabric+contact/surface+contact/direction+contact/grain-oracle cases/contact_measures.py LABEL case
+  STYLES ${contact_measures} RANKS 1 LONG_RANKS 2 CASES
   spheres spheroid-1.5-in-the-open spheres-through-a-flip spheroids-through-a-flip under-pressure-control)
-add_cases(fabric+contact/surface+contact/direction+contact/grain-analytic cases/contact_analytic.py LABEL case STYLES
-  ${contact_measures} CASES
+add_cases(fabric+contact/surface+contact/direction+contact/grain-analytic cases/contact_analytic.py LABEL case
+  STYLES ${contact_measures} CASES
   three-of-four-along-z three-of-four-along-z-in-xz two-of-four-along-z one-of-four-less-along-x all-along-one
   angle-is-of-lines area-of-prolate-polar area-of-prolate-parametric area-of-oblate-polar area-of-oblate-parametric
   area-of-sphere-polar area-of-sphere-parametric area-about-another-axis area-about-another-axis-parametric
   every-bin-prolate-parametric every-bin-oblate-polar pole-on-equator statistics-of-spheres)
-add_cases(fabric+contact/surface+contact/direction+contact/grain-analytic cases/contact_analytic.py LABEL case STYLES
-  ${contact_measures} RANKS 1 2 CASES
+add_cases(fabric+contact/surface+contact/direction+contact/grain-analytic cases/contact_analytic.py LABEL case
+  STYLES ${contact_measures} RANKS 1 2 CASES
   cubic-lattice every-bin-prolate-polar opposite-bins-of-spheroids powers-add-up)
-add_cases(fabric+contact/surface+contact/direction+contact/grain-analytic cases/contact_analytic.py LABEL case STYLES
-  ${contact_measures} RANKS 1 LONG_RANKS 2 CASES
+add_cases(fabric+contact/surface+contact/direction+contact/grain-analytic cases/contact_analytic.py LABEL case
+  STYLES ${contact_measures} RANKS 1 LONG_RANKS 2 CASES
   every-bin-oblate-parametric opposite-bins powers-of-spheres-add-up)
 
 # fluctuation, layering, velocity/correlation, displacement/shear, velocity/memory
 set(motion_measures fluctuation layering velocity/correlation)
-add_cases(fluctuation+layering+velocity/correlation-oracle cases/motion_measures.py LABEL case STYLES
-  ${motion_measures} CASES
+add_cases(fluctuation+layering+velocity/correlation-oracle cases/motion_measures.py LABEL case
+  STYLES ${motion_measures} CASES
   spheres-at-rest spheres-polydisperse spheroid-0.33 spheroid-0.67 spheroid-1 spheroid-3 triaxial tilted-backward
   under-pressure-control sheared-in-xz sheared-in-yz group-of-one)
-add_cases(fluctuation+layering+velocity/correlation-oracle cases/motion_measures.py LABEL case STYLES
-  ${motion_measures} RANKS 1 2 CASES
-  spheroid-1.5)
-add_cases(fluctuation+layering+velocity/correlation-oracle cases/motion_measures.py LABEL case STYLES
-  ${motion_measures} RANKS 1 LONG_RANKS 2 CASES
-  spheres spheres-through-a-flip subgroup)
+add_cases(fluctuation+layering+velocity/correlation-oracle cases/motion_measures.py LABEL case
+  STYLES ${motion_measures} RANKS 1 2 CASES spheroid-1.5)
+add_cases(fluctuation+layering+velocity/correlation-oracle cases/motion_measures.py LABEL case
+  STYLES ${motion_measures} RANKS 1 LONG_RANKS 2 CASES spheres spheres-through-a-flip subgroup)
 set(motions fluctuation layering displacement/shear velocity/memory grain/record)
-add_cases(fluctuation+layering+displacement/shear+velocity/memory-analytic cases/motion_analytic.py LABEL case STYLES
-  ${motions} CASES
+add_cases(fluctuation+layering+displacement/shear+velocity/memory-analytic cases/motion_analytic.py LABEL case
+  STYLES ${motions} CASES
   rarely-asked affine-backward affine-without-stretch drifting-backward drifting-in-xz drifting-in-yz rigid lever
   starts-late)
-add_cases(fluctuation+layering+displacement/shear+velocity/memory-analytic cases/motion_analytic.py LABEL case STYLES
-  ${motions} RANKS 1 2 CASES
-  replaced-grains affine planes-of-grains remembers)
-add_cases(fluctuation+layering+displacement/shear+velocity/memory-analytic cases/motion_analytic.py LABEL case STYLES
-  ${motions} RANKS 1 LONG_RANKS 2 CASES
+add_cases(fluctuation+layering+displacement/shear+velocity/memory-analytic cases/motion_analytic.py LABEL case
+  STYLES ${motions} RANKS 1 2 CASES replaced-grains affine planes-of-grains remembers)
+add_cases(fluctuation+layering+displacement/shear+velocity/memory-analytic cases/motion_analytic.py LABEL case
+  STYLES ${motions} RANKS 1 LONG_RANKS 2 CASES
   rarely-asked-backward drifting drifting-under-press-strain energies random-walk later-grains remembers-later-grains)
 add_cases(fluctuation-range cases/ranges.py LABEL case STYLES fluctuation RANKS 1 LONG_RANKS 2 CASES profile)
 set(series displacement/shear velocity/memory grain/record)
 add_cases(displacement/shear+velocity/memory-oracle cases/series_measures.py LABEL case STYLES ${series} CASES
   spheroids backward backward-under-pressure-control)
-add_cases(displacement/shear+velocity/memory-oracle cases/series_measures.py LABEL case STYLES ${series} RANKS 1 2
-  CASES
+add_cases(displacement/shear+velocity/memory-oracle cases/series_measures.py LABEL case STYLES ${series} RANKS 1 2 CASES
   under-pressure-control)
-add_cases(displacement/shear+velocity/memory-oracle cases/series_measures.py LABEL case STYLES ${series} RANKS 1
-  LONG_RANKS 2 CASES
-  spheres sheared-in-yz subgroup)
+add_cases(displacement/shear+velocity/memory-oracle cases/series_measures.py LABEL case STYLES ${series}
+  RANKS 1 LONG_RANKS 2 CASES spheres sheared-in-yz subgroup)
 add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation CASES
-  spheres-at-rest polydisperse spheroid-0.33 spheroid-3 tilted-backward sheared-in-xz sheared-in-yz group-of-one
-  not-periodic decays)
-add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation RANKS 1 2
-  CASES
-  through-a-flip plane-wave-on-a-mesh)
-add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation RANKS 1
-  LONG_RANKS 2 CASES
-  spheres under-pressure-control subgroup running plane-wave)
+  spheres-at-rest polydisperse spheroid-0.33 tilted-backward sheared-in-xz sheared-in-yz group-of-one not-periodic
+  decays)
+add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation
+  LONG_RANKS 1 CASES spheroid-3)
+add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation
+  RANKS 1 2 CASES through-a-flip plane-wave-on-a-mesh)
+add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation
+  RANKS 1 LONG_RANKS 2 CASES spheres under-pressure-control subgroup running plane-wave)
 
 # press/strain
 add_cases(press/strain-control cases/press_strain.py LABEL case STYLES press/strain CASES
@@ -175,7 +155,9 @@ add_cases(press/strain-range cases/ranges.py LABEL case STYLES press/strain RANK
 
 # nve/spheroid
 add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid CASES
-  flows-as-host-1.5 flows-as-host-0.5 boxy-grains)
+  flows-as-host-0.5 boxy-grains)
+add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid LONG_RANKS 1 CASES
+  flows-as-host-1.5)
 add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid RANKS 1 LONG_RANKS 2 CASES
   energy-kept some-grains first-group collision-of-prolate-grains collision-of-oblate-grains inserted-grains)
 add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid RANKS 1 2 CASES restart-continues)
@@ -191,21 +173,18 @@ add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case 
   hooke rolling-cdt rolling-epsd2 limit-force-undamped moved-by-nve-spheroid mixed-shapes-and-types cohesion
   spheres-of-five-sizes frozen-spheres softened-spheres rods-squeezed-by-the-box tumbling-rods-with-jumps
   tumbling-rods-shrink-wrapped pushed-rods shapes-set-between-runs)
-add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case STYLES surface/ellipsoid RANKS 1 2
-  CASES
+add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case STYLES surface/ellipsoid RANKS 1 2 CASES
   spheroid-1.5 tumbling-rods-in-a-deforming-box)
-add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case STYLES surface/ellipsoid RANKS 1
-  LONG_RANKS 2 CASES
-  spheres-here-spheroids-there tumbling-rods tumbling-rods-between-walls between-runs)
-add_cases(surface/ellipsoid-host cases/pair_host.py LABEL case STYLES surface/ellipsoid gran/insitu RANKS 1 LONG_RANKS
-  2 CASES
+add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case STYLES surface/ellipsoid
+  RANKS 1 LONG_RANKS 2 CASES spheres-here-spheroids-there tumbling-rods tumbling-rods-between-walls between-runs)
+add_cases(surface/ellipsoid-host cases/pair_host.py LABEL case STYLES surface/ellipsoid gran/insitu
+  RANKS 1 LONG_RANKS 2 CASES
   virial-of-ellipsoids restart-of-ellipsoids-continues pair-local-output-does-not-disturb-ellipsoids)
 add_cases(surface/ellipsoid-forces cases/ellipsoid_forces.py LABEL case STYLES surface/ellipsoid CASES
   spheroid-0.33 spheroid-0.5 spheroid-3 spheres polydisperse gaussian-curvature mean-curvature
   limit-without-curvature-keywords flows-on-from-the-other restart-of-prolate-grains restart-of-oblate-grains)
-add_cases(surface/ellipsoid-forces cases/ellipsoid_forces.py LABEL case STYLES surface/ellipsoid RANKS 1 LONG_RANKS 2
-  CASES
-  spheroid-1.5 restart-before-a-flip)
+add_cases(surface/ellipsoid-forces cases/ellipsoid_forces.py LABEL case STYLES surface/ellipsoid
+  RANKS 1 LONG_RANKS 2 CASES spheroid-1.5 restart-before-a-flip)
 add_cases(surface/ellipsoid-forces cases/ellipsoid_forces.py LABEL case STYLES surface/ellipsoid RANKS 2 CASES
   start-survives-a-swap)
 add_cases(surface/ellipsoid-wall cases/ellipsoid_walls.py LABEL case STYLES surface/ellipsoid CASES
@@ -213,8 +192,7 @@ add_cases(surface/ellipsoid-wall cases/ellipsoid_walls.py LABEL case STYLES surf
   triaxial-on-a-plane triaxial-on-a-cylinder triaxial-on-a-mesh sphere-on-a-plane gaussian-curvature-on-a-plane
   gaussian-curvature-on-a-mesh mean-curvature-on-a-plane mean-curvature-on-a-mesh limit-alone-on-a-plane
   limit-alone-on-a-mesh)
-add_cases(surface/ellipsoid-wall cases/ellipsoid_walls.py LABEL case STYLES surface/ellipsoid RANKS 1 LONG_RANKS 2
-  CASES
+add_cases(surface/ellipsoid-wall cases/ellipsoid_walls.py LABEL case STYLES surface/ellipsoid RANKS 1 LONG_RANKS 2 CASES
   pile)
 add_cases(surface/ellipsoid-contact cases/ellipsoid_contacts.py LABEL case STYLES surface/ellipsoid CASES
   poles-meet poles-meet-gaussian poles-meet-mean equators-meet-gaussian equators-meet-mean flat-faces-meet-gaussian
@@ -225,20 +203,18 @@ add_cases(surface/ellipsoid-contact cases/ellipsoid_contacts.py LABEL case STYLE
   no-stale-springs no-stale-springs-of-poles host-keeps-springs host-keeps-springs-of-poles)
 add_cases(surface/ellipsoid-contact cases/ellipsoid_contacts.py LABEL case STYLES surface/ellipsoid RANKS 2 CASES
   concentric-between-ranks)
-add_cases(contact/solver-counts cases/contact_solver.py LABEL case STYLES contact/solver surface/ellipsoid RANKS 1
-  LONG_RANKS 2 4 CASES
-  lists-and-contacts)
-add_cases(contact/solver-counts cases/contact_solver.py LABEL case STYLES contact/solver surface/ellipsoid RANKS 1
-  LONG_RANKS 2 CASES
-  add-up begins-with-the-pair-style does-not-disturb)
-add_cases(contact/solver-counts cases/contact_solver.py LABEL case STYLES contact/solver surface/ellipsoid RANKS 2
-  LONG_RANKS 4 CASES
-  same-on-ranks)
+add_cases(contact/solver-counts cases/contact_solver.py LABEL case STYLES contact/solver surface/ellipsoid
+  RANKS 1 LONG_RANKS 2 4 CASES lists-and-contacts)
+add_cases(contact/solver-counts cases/contact_solver.py LABEL case STYLES contact/solver surface/ellipsoid
+  RANKS 1 LONG_RANKS 2 CASES add-up begins-with-the-pair-style does-not-disturb)
+add_cases(contact/solver-counts cases/contact_solver.py LABEL case STYLES contact/solver surface/ellipsoid
+  RANKS 2 LONG_RANKS 4 CASES same-on-ranks)
 
 # energy/ledger
 set(ledger energy/ledger ledger/record dissipation)
 add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} CASES
-  sheared-slippery sheared-frictionless no-history polydisperse drift-kept)
+  sheared-frictionless no-history polydisperse drift-kept)
+add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} LONG_RANKS 1 CASES sheared-slippery)
 add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} RANKS 1 2 CASES sheared)
 add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} RANKS 1 LONG_RANKS 2 CASES
   sheared-with-tangential-damping contacts-open-and-close through-a-flip under-pressure-control)
@@ -270,8 +246,9 @@ add_cases(setup/memory-split cases/restarts.py LABEL case STYLES setup/memory gr
 set(resumed read_restart run/guard setup/memory)
 add_cases(read_restart-goes-on cases/restarts.py LABEL case STYLES ${resumed} RANKS 1 2 CASES exact-spheroids)
 add_cases(read_restart-goes-on cases/restarts.py LABEL case STYLES ${resumed} LONG_RANKS 4 CASES exact-spheroids)
-add_cases(read_restart-goes-on cases/restarts.py LABEL case STYLES ${resumed} RANKS 1 LONG_RANKS 2 CASES
-  exact-spheres killed-a-few-times)
+add_cases(read_restart-goes-on cases/restarts.py LABEL case STYLES ${resumed} RANKS 1 LONG_RANKS 2 CASES exact-spheres)
+add_cases(read_restart-goes-on cases/restarts.py LABEL case STYLES ${resumed} LONG_RANKS 1 2 CASES killed-a-few-times)
+add_cases(read_restart-goes-on cases/restarts.py LABEL case STYLES ${resumed} CASES killed-twice)
 add_cases(read_restart-goes-on cases/restarts.py LABEL case STYLES ${resumed} CASES
   exact-superquadrics exact-by-the-host)
 add_cases(read_restart-goes-on cases/restarts.py LABEL long STYLES ${resumed} RANKS 1 2 CASES

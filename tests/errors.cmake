@@ -27,24 +27,20 @@ add_cases(gran/insitu-surroundings errors/surroundings.py LABEL error STYLES gra
 set(of_strain displacement/shear velocity/memory press/strain)
 add_cases(displacement/shear+velocity/memory-surroundings errors/surroundings.py LABEL error STYLES ${of_strain} CASES
   strain-fix-deleted named-strain-fix-deleted strain-variable-deleted memory-replaced-by-hand)
-add_cases(displacement/shear+velocity/memory-surroundings errors/surroundings.py LABEL error STYLES ${of_strain} RANKS
-  1 2 CASES
-  strain-not-set-up)
+add_cases(displacement/shear+velocity/memory-surroundings errors/surroundings.py LABEL error STYLES ${of_strain}
+  RANKS 1 2 CASES strain-not-set-up)
 add_cases(press/strain-surroundings errors/surroundings.py LABEL error STYLES press/strain CASES
   target-variable-deleted)
-add_cases(press/strain-surroundings errors/surroundings.py LABEL error STYLES press/strain RANKS 1 2 LONG_RANKS 4
-  CASES
+add_cases(press/strain-surroundings errors/surroundings.py LABEL error STYLES press/strain RANKS 1 2 LONG_RANKS 4 CASES
   variable-becomes-negative)
 set(of_records energy/ledger ledger/record grain/record displacement/shear velocity/memory)
-add_cases(energy/ledger+displacement/shear+velocity/memory-surroundings errors/surroundings.py LABEL error STYLES
-  ${of_records} RANKS 1 2 LONG_RANKS 4 CASES
-  grains-renumbered)
-add_cases(energy/ledger+displacement/shear+velocity/memory-surroundings errors/surroundings.py LABEL error STYLES
-  ${of_records} RANKS 1 LONG_RANKS 2 CASES
-  grains-renumbered-warned)
+add_cases(energy/ledger+displacement/shear+velocity/memory-surroundings errors/surroundings.py LABEL error
+  STYLES ${of_records} RANKS 1 2 LONG_RANKS 4 CASES grains-renumbered)
+add_cases(energy/ledger+displacement/shear+velocity/memory-surroundings errors/surroundings.py LABEL error
+  STYLES ${of_records} RANKS 1 LONG_RANKS 2 CASES grains-renumbered-warned)
 
-add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu run/guard setup/memory RANKS 1 LONG_RANKS
-  2 CASES
+add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu run/guard setup/memory
+  RANKS 1 LONG_RANKS 2 CASES
   hybrid newton-on setup-twice guard-by-hand memory-by-hand misspelt-model misspelt-setting)
 add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu RANKS 1 2 CASES small-periodic-box)
 add_cases(press/strain-refused errors/press_strain.py LABEL error STYLES press/strain CASES
@@ -79,15 +75,12 @@ add_cases(nve/spheroid-refused errors/spheroid.py LABEL error STYLES nve/spheroi
 add_cases(surface/ellipsoid-refused errors/ellipsoid.py LABEL error STYLES surface/ellipsoid CASES
   boxy-one-way boxy-grain-under-gran nearly-an-ellipsoid-is-taken wall-of-spheres both-curvatures-of-a-wall
   limit-negative-under-gran misspelt-surface)
-add_cases(surface/ellipsoid-refused errors/ellipsoid.py LABEL error STYLES surface/ellipsoid RANKS 1 LONG_RANKS 2
-  CASES
+add_cases(surface/ellipsoid-refused errors/ellipsoid.py LABEL error STYLES surface/ellipsoid RANKS 1 LONG_RANKS 2 CASES
   boxy-between-runs boxy-created-later spheres both-curvatures limit-negative)
-add_cases(surface/ellipsoid-refused errors/ellipsoid.py LABEL error STYLES surface/ellipsoid RANKS 1 2 LONG_RANKS 4
-  CASES
-  first-of-two-boxy-grains)
-add_cases(surface/ellipsoid-refused errors/ellipsoid.py LABEL error STYLES surface/ellipsoid RANKS 1 LONG_RANKS 2 4
-  CASES
-  boxy-grain boxy-inserted)
+add_cases(surface/ellipsoid-refused errors/ellipsoid.py LABEL error STYLES surface/ellipsoid
+  RANKS 1 2 LONG_RANKS 4 CASES first-of-two-boxy-grains)
+add_cases(surface/ellipsoid-refused errors/ellipsoid.py LABEL error STYLES surface/ellipsoid
+  RANKS 1 LONG_RANKS 2 4 CASES boxy-grain boxy-inserted)
 add_cases(contact/solver-refused errors/ellipsoid.py LABEL error STYLES contact/solver CASES solver-of-spheres)
 add_cases(contact/solver-refused errors/ellipsoid.py LABEL error STYLES contact/solver RANKS 1 LONG_RANKS 2 CASES
   solver-needs-surface-ellipsoid solver-needs-gran-insitu)
@@ -98,9 +91,8 @@ add_cases(energy/ledger-refused errors/ledger.py LABEL error STYLES energy/ledge
   record-taken record-gone record-by-hand pre-no-at-first time-step-changed)
 add_cases(energy/ledger-refused errors/ledger.py LABEL error STYLES energy/ledger ledger/record RANKS 1 2 CASES
   loose-grains restart-without)
-add_cases(energy/ledger-refused errors/ledger.py LABEL error STYLES energy/ledger ledger/record RANKS 1 LONG_RANKS 2
-  CASES
-  ledger-off grains-inserted restart-with)
+add_cases(energy/ledger-refused errors/ledger.py LABEL error STYLES energy/ledger ledger/record
+  RANKS 1 LONG_RANKS 2 CASES ledger-off grains-inserted restart-with)
 
 # The build
 add_cases(build-host errors/build.py LABEL error STYLES build CASES

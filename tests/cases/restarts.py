@@ -147,7 +147,7 @@ def killed_and_resumed(packing, times, steps=3000, every=150):
                 if result.code < 0 or result.code == 128 + signal.SIGKILL:
                     kills += 1
                     deck, result = resumed if any(file.exists() for file in files) else fresh, None
-                elif result.code and "was cut short" in result.output and not all(file.exists() for file in files):
+                elif "ERROR: read_restart: '" in result.output and not all(file.exists() for file in files):
                     deck, result = fresh, None  # killed while it wrote its first restart file: there is no other
             require(result.code == 0, f"the run ended with code {result.code}: {result.output[-1000:]}")
             require_same_snapshots(result.dump("grains.dump")[-1:], reference, f"after {kills} kills")
@@ -160,7 +160,7 @@ def stopped_by(number, to_one_rank=False):
         steps = 100_000_000     # the signal is what ends it
         deck = neutral(SPHERES)
         lines, told = everything_with_state(deck)
-        body = [*lines, *thermo(100, *told), FLUSHED,
+        body = [*lines, *thermo(10, *told), FLUSHED,
                 "fix means all ave/time 1 1 1 f_press[1] c_stress[1] file means.txt", f"run {steps} upto", "print 'went on'"]
         body.insert(len(lines), "compute stress all stress/contact")
         under_way = Started(replace(deck, body=body), ranks)
@@ -226,6 +226,7 @@ CASES = {
     "killed-spheroids": killed_and_resumed(SPHEROIDS, 20),
     "killed-spheres": killed_and_resumed(SPHERES, 20, 6000, 250),
     "killed-a-few-times": killed_and_resumed(SPHERES, 6, 4000, 200),
+    "killed-twice": killed_and_resumed(SPHERES, 2, 800, 50),
     "sigterm": stopped_by(signal.SIGTERM),
     "sigint": stopped_by(signal.SIGINT),
     "sigterm-to-one-rank": stopped_by(signal.SIGTERM, True),

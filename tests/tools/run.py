@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Runs a deck in a folder of its own and reads what it wrote."""
+import atexit
+from functools import lru_cache
 import os
 from pathlib import Path
 import re
@@ -38,14 +40,22 @@ def binary():
 ALONE = {"OMPI_MCA_ess_singleton_isolated": "1", "OMPI_MCA_pml": "ob1", "OMPI_MCA_btl": "self"}
 
 
+@lru_cache
+def session_of_this_test():
+    session = Session()
+    atexit.register(session.remove)
+    return session
+
+
 def environment(ranks, session=None):
-    """Environment of a run on so many ranks, with the session directories of an open_mpi.Session."""
+    """Environment of a run on so many ranks, with the directories of an open_mpi.Session: one for all runs of this test
+    that start one after the other and name none of their own."""
     env = dict(os.environ, OMP_NUM_THREADS="1", OMPI_MCA_btl_vader_single_copy_mechanism="none",
                OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_mpi_yield_when_idle="1")
     if ranks == 1:
         env.update(ALONE)
-    if session:
-        env.update(session.variables())
+    if ranks > 1 or session:
+        env.update((session or session_of_this_test()).variables())
     if os.geteuid() == 0:
         env.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     return env
