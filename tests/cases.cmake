@@ -362,7 +362,8 @@ add_cases(study-slurm cases/study_slurm.py LABEL long STYLES study CASES slurm-g
 
 # The tests themselves
 add_cases(suite-starts cases/starts.py LABEL case STYLES suite CASES
-  alone-shares-no-directory mpirun-has-its-own killed-leaves-nothing note-of-a-killed-one only-our-errors-count)
+  alone-shares-no-directory mpirun-has-its-own killed-leaves-nothing note-of-a-killed-one
+  only-our-errors-count rows-are-counted-from-the-first-step)
 add_cases(suite-starts cases/starts.py LABEL long STYLES suite CASES side-by-side)
 add_cases(suite-order cases/suite.py LABEL case STYLES suite CASES
   every-style-has-tests names-begin-with-a-style unknown-word-refused short-words)

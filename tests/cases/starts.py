@@ -9,7 +9,7 @@ import subprocess
 
 from case import main, require
 from open_mpi import SHARED_MEMORY, Session, session
-from run import ALONE, FLUSHED, Started, attempt, binary, count_errors, environment, wait_for_steps
+from run import ALONE, FLUSHED, Started, attempt, binary, count_errors, environment, rows_so_far, wait_for_steps
 
 DECK = "units si\natom_style sphere\n"
 GRAINS = """units si
@@ -115,6 +115,20 @@ def only_our_errors_count(ranks):
         require(found == expected, f"{found} errors counted, expected {expected}, in {text!r}")
 
 
+def rows_are_counted_from_the_first_step(ranks):
+    """Numbers in the log before that, of grains and settings, are no rows."""
+    class Begun:
+        folder = Path(os.environ["GRAINSCOPE_SCRATCH"])
+
+    log = Begun.folder / "log.liggghts"
+    require(rows_so_far(Begun) == 0, "rows without a log")
+    for text, expected in (("  1 settings made\n 2 by 1 by 1 MPI processor grid\n", 0), ("    Step    Atoms\n", 0),
+                           ("       0        1\n      10        1\nLoop time of 1 on 1 procs\n", 2)):
+        with log.open("a") as file:
+            file.write(text)
+        require(rows_so_far(Begun) == expected, f"{rows_so_far(Begun)} rows, expected {expected}, after {text!r}")
+
+
 def side_by_side(ranks):
     """Loops of starts, five of six on one rank by a user who has set nothing, the sixth on two ranks: none fails."""
     scratch = Path(os.environ["GRAINSCOPE_SCRATCH"])
@@ -142,4 +156,5 @@ def side_by_side(ranks):
 
 main({"alone-shares-no-directory": alone_shares_no_directory, "mpirun-has-its-own": mpirun_has_its_own,
       "killed-leaves-nothing": killed_leaves_nothing, "note-of-a-killed-one": note_of_a_killed_one,
+      "rows-are-counted-from-the-first-step": rows_are_counted_from_the_first_step,
       "only-our-errors-count": only_our_errors_count, "side-by-side": side_by_side})

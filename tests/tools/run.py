@@ -233,8 +233,9 @@ FLUSHED = "thermo_modify flush yes"
 def rows_so_far(started):
     """Rows of thermo output in the log, which the deck must flush: FLUSHED."""
     log = started.folder / "log.liggghts"
-    *_, told = re.split(r"^ *Step .*$", log.read_text(errors="replace") if log.exists() else "", maxsplit=1, flags=re.M)
-    return len(re.findall(r"^ *\d+( |$)", told, flags=re.M))
+    text = log.read_text(errors="replace") if log.exists() else ""
+    begun = re.search(r"^ *Step .*$", text, flags=re.M)
+    return len(re.findall(r"^ *\d+( |$)", text[begun.end():], flags=re.M)) if begun else 0
 
 
 def wait_for_steps(started, rows=2):
