@@ -109,7 +109,8 @@ def only_our_errors_count(ranks):
     five = "[vm:14622] PMIX ERROR: PMIX_ERR_UNREACH in file ../../../src/client/pmix_client.c at line 312\n"
     runtime = "[node-7.cluster:991] PRTE ERROR: Not found in file base/data.c at line 4\n"
     four = "[vm:15199] [[21984,0],0] ORTE_ERROR_LOG: Data unpack failed in file x.c at line 9\n"
-    for text, expected in ((ours, 1), (on_one, 1), (ours + five, 1), (five + runtime + four, 0), (ours + four + on_one, 2),
+    for text, expected in ((ours, 1), (on_one, 1), (ours + five, 1), (five + runtime + four, 0),
+                           (ours + four + on_one, 2),
                            ("step 1 " + ours, 1), (ours.strip() + five, 1), (ours + five + ours, 2), ("nothing\n", 0)):
         found = count_errors(text)
         require(found == expected, f"{found} errors counted, expected {expected}, in {text!r}")
