@@ -198,3 +198,10 @@ add_cases(study cases/study_runs.py LABEL case RANKS 1 CASES
 add_cases(study cases/study_workflow.py LABEL case RANKS 1 SECONDS 600 CASES
   failing-runs-do-not-stop-others study-goes-on basic-measures bad-configuration)
 add_cases(study cases/study_slurm.py LABEL long RANKS 1 SECONDS 900 CASES slurm-grid)
+add_cases(stress/contact-last-step cases/last_step.py LABEL case STYLES stress/contact fabric dissipation contact/surface contact/direction
+  RANKS 1 2 CASES after-a-run by-update-on-run-end)
+add_cases(stress/contact-last-step cases/last_step.py LABEL case STYLES stress/contact fabric dissipation contact/surface contact/direction
+  RANKS 1 CASES grains-move-as-without in-formulas loops thermo-changed stays-until-the-next-run)
+add_cases(contact/local-last-step cases/last_step.py LABEL case STYLES contact/local RANKS 1 CASES rows-after-a-run)
+add_cases(energy/ledger-last-step cases/last_step.py LABEL case STYLES energy/ledger displacement/shear velocity/memory dissipation
+  RANKS 1 CASES sums-are-not-asked-twice)

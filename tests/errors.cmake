@@ -14,7 +14,7 @@ add_cases(keywords errors/keywords.py LABEL error RANKS 4 CASES
 add_cases(surroundings errors/surroundings.py LABEL error CASES
   no-pair-style pair-style-gran words-before-hybrid memory-before-box atom-style atom-style-changed-later group-deleted compute-deleted
   strain-fix-deleted named-strain-fix-deleted strain-variable-deleted target-variable-deleted variable-becomes-nan variable-becomes-infinite
-  variable-becomes-negative box-changed grains-renumbered grains-renumbered-warned memory-replaced-by-hand asked-between-runs
+  variable-becomes-negative box-changed grains-renumbered grains-renumbered-warned memory-replaced-by-hand asked-between-runs asked-on-a-step-of-no-one
   strain-not-set-up)
 add_cases(surroundings errors/surroundings.py LABEL error RANKS 2 CASES
   words-before-hybrid variable-becomes-nan variable-becomes-negative grains-renumbered grains-renumbered-warned strain-not-set-up)
@@ -49,3 +49,11 @@ add_cases(error-ledger errors/ledger.py LABEL error RANKS 1 CASES
   other-integrator box-without-flow box-of-some-grains record-taken record-gone record-by-hand grains-inserted restart-without restart-with
   pre-no-at-first time-step-changed)
 add_cases(error-ledger errors/ledger.py LABEL error RANKS 2 CASES ledger-off loose-grains grains-inserted restart-without restart-with)
+add_cases(run/guard-messages errors/messages.py LABEL error STYLES run/guard RANKS 1 2 4 CASES one-rank)
+add_cases(run/guard-messages errors/messages.py LABEL error STYLES run/guard RANKS 1 2 CASES
+  all-ranks no-screen screen-in-a-file no-log log-by-a-command once-where-both-are-one when-the-program-starts)
+add_cases(run/guard-messages errors/messages.py LABEL error STYLES run/guard RANKS 1 CASES second-signal exception)
+add_cases(stress/contact-messages errors/messages.py LABEL error STYLES stress/contact contact/grain contact/local velocity/memory RANKS 1 CASES
+  beyond-the-end of-another-kind only-the-wrong-one index-that-is-none name-that-is-none misspelt-style)
+add_cases(stress/contact-messages errors/messages.py LABEL error STYLES stress/contact RANKS 2 CASES only-the-wrong-one)
+add_cases(press/strain-messages errors/messages.py LABEL error STYLES press/strain RANKS 1 CASES of-a-fix)

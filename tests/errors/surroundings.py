@@ -130,9 +130,13 @@ CASES = {
     "grains-renumbered-warned": renumbered_warned,
     "memory-replaced-by-hand": refused((body("variable v equal step", VARIABLE[1], "run 1", "fix c_record all grain/record 3 5 0", "run 1"),
                                         "fix grain/record: is made by the computes that need it")),
-    "asked-between-runs": refused(*((body(f"compute c all {style}", f"variable now equal {element}", *thermo(100, "step"), "run 3", 'print "${now}"'),
-                                     "Compute used in variable between runs is not current")
-                                    for style, element in (("stress/contact", "c_c"), ("dissipation", "c_c[1]"), ("fabric", "c_c[1]")))),
+    "asked-between-runs": refused(*((body(*lines, 'print "$(c_c[1])"'), "Compute used in variable between runs is not current")
+                                    for lines in (["run 3", "compute c all stress/contact"],
+                                                  ["compute c all fabric", "run 3", "reset_timestep 7"],
+                                                  ["compute c all dissipation mode ledger", "run 3"],
+                                                  ["compute c all stress/contact", "run 3", "pair_style gran/insitu model hertz", "pair_coeff * *"]))),
+    "asked-on-a-step-of-no-one": refused((body("compute c all stress/contact", "variable p equal c_c", PRESS.replace("target 1e5", "target v_p").replace(
+        "every 1e-3", "every/step 2"), *thermo(100, "step"), "run 5"), "compute stress/contact c: not tallied on this step, because nobody announced it")),
     "strain-not-set-up": refused((body("run 1", *VARIABLE, "run 2 pre no"), "compute velocity/memory: was not set up: do not use 'pre no'")),
 }
 
