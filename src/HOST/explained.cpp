@@ -39,7 +39,9 @@ struct Reference {
 
 std::vector<Reference> references_in(const std::string &text) {
   std::vector<Reference> found;
-  const auto in_name = [&text](std::size_t k) { return k < text.size() && (std::isalnum(static_cast<unsigned char>(text[k])) || text[k] == '_'); };
+  const auto in_name = [&text](std::size_t k) {
+    return k < text.size() && (std::isalnum(static_cast<unsigned char>(text[k])) || text[k] == '_');
+  };
   for (std::size_t at = 0; at + 2 < text.size(); at++) {
     if ((text[at] != 'c' && text[at] != 'f') || text[at + 1] != '_' || (at > 0 && in_name(at - 1))) continue;
     std::size_t end = at + 2;
@@ -73,35 +75,46 @@ int distance(const std::string &a, const std::string &b) {
 }
 
 std::string nearest(const std::string &name, const std::vector<std::string> &names) {
-  const auto closer = [&name](const std::string &a, const std::string &b) { return distance(name, a) < distance(name, b); };
-  const auto found = std::min_element(names.begin(), names.end(), closer);
-  if (found == names.end() || distance(name, *found) > std::max<int>(1, name.size() / 3)) return "";
-  return ": did you mean '" + *found + "'?";
+  const int far = std::max<int>(1, name.size() / 3) + 1;
+  int least = far;
+  std::string found;
+  for (const std::string &one : names)
+    if (const int d = distance(name, one); d < least) {
+      least = d;
+      found = one;
+    }
+  if (least == far) return "";
+  return ": did you mean '" + found + "'?";
 }
 
 template <class Owner>
-std::string what_there_is(const Owner &owner, int scalar, int vector, bool array, int rows, int columns) {
+std::string what_there_is(const Owner &owner) {
   std::vector<std::string> parts;
-  if (scalar) parts.push_back("a scalar");
-  if (vector) parts.push_back("a vector of " + std::to_string(owner.size_vector));
-  if (array) parts.push_back("an array of " + std::to_string(rows) + " rows and " + std::to_string(columns) + " columns");
+  if (owner.scalar_flag) parts.push_back("a scalar");
+  if (owner.vector_flag) parts.push_back("a vector of " + std::to_string(owner.size_vector));
+  if (owner.array_flag)
+    parts.push_back("an array of " + std::to_string(owner.size_array_rows) + " rows and " +
+                    std::to_string(owner.size_array_cols) + " columns");
   const auto column = [&parts](const char *of, int n) {
     parts.push_back(n ? std::to_string(n) + " columns " + of : std::string("a value ") + of);
   };
   if (owner.peratom_flag) column("per grain", owner.size_peratom_cols);
   if (owner.local_flag) column("per local row", owner.size_local_cols);
   std::string text;
-  for (std::size_t k = 0; k < parts.size(); k++) text += (k == 0 ? "" : k + 1 < parts.size() ? ", " : " and ") + parts[k];
+  for (std::size_t k = 0; k < parts.size(); k++)
+    text += (k == 0 ? "" : k + 1 < parts.size() ? ", " : " and ") + parts[k];
   return text.empty() ? "nothing" : text;
 }
 
 /** Whether the indices fit something that `owner` gives. */
 template <class Owner>
 bool may_fit(const Reference &r, const Owner &owner) {
-  if (r.indices.empty()) return owner.scalar_flag || owner.vector_flag || owner.array_flag || owner.peratom_flag || owner.local_flag;
+  if (r.indices.empty())
+    return owner.scalar_flag || owner.vector_flag || owner.array_flag || owner.peratom_flag || owner.local_flag;
   const int last = r.indices.back();
   const auto within = [last](int flag, int n) { return flag && last >= 1 && last <= n; };
-  if (r.indices.size() > 1) return within(owner.array_flag, owner.size_array_cols) && r.indices[0] <= owner.size_array_rows;
+  if (r.indices.size() > 1)
+    return within(owner.array_flag, owner.size_array_cols) && r.indices[0] <= owner.size_array_rows;
   return within(owner.vector_flag, owner.size_vector) || within(owner.array_flag, owner.size_array_cols) ||
       within(owner.peratom_flag, owner.size_peratom_cols) || within(owner.local_flag, owner.size_local_cols);
 }
@@ -119,8 +132,7 @@ Description describe(const Reference &r, Owner **owners, int n) {
     const Owner &owner = *owners[k];
     ids.push_back(owner.id);
     if (r.id == owner.id)
-      return {r.text + ": " + kind + " " + r.id + " (" + owner.style + ") gives " +
-                  what_there_is(owner, owner.scalar_flag, owner.vector_flag, owner.array_flag, owner.size_array_rows, owner.size_array_cols),
+      return {r.text + ": " + kind + " " + r.id + " (" + owner.style + ") gives " + what_there_is(owner),
               may_fit(r, owner)};
   }
   return {r.text + ": there is no " + kind + " '" + r.id + "'" + nearest(r.id, ids), false};
@@ -130,9 +142,10 @@ Description describe(const Reference &r, Owner **owners, int n) {
 std::string about_outputs(LAMMPS *lmp) {
   std::string text = formula ? formula : "";
   for (int k = 0; !formula && k < lmp->input->narg; k++) text += std::string(" ") + lmp->input->arg[k];
+  const LAMMPS_NS::Modify &modify = *lmp->modify;
   std::vector<Description> all;
   for (const Reference &r : references_in(text))
-    all.push_back(r.compute ? describe(r, lmp->modify->compute, lmp->modify->ncompute) : describe(r, lmp->modify->fix, lmp->modify->nfix));
+    all.push_back(r.compute ? describe(r, modify.compute, modify.ncompute) : describe(r, modify.fix, modify.nfix));
   const bool all_fit = std::all_of(all.begin(), all.end(), [](const Description &one) { return one.fits; });
   std::string told;
   int number = 0;
@@ -161,10 +174,12 @@ std::string about_style(LAMMPS *lmp, const std::string &complaint) {
 std::string explained(LAMMPS *lmp, const char *complaint) {
   std::string text = complaint;
   if (!lmp->input || !lmp->modify) return text;
-  static const char *const about_names[] = {"accessed out-of-range", "does not compute", "does not calculate", "Mismatched compute", "Mismatched fix",
-                                            "Could not find", "Compute ID for", "Fix ID for", "Invalid compute ID", "Invalid fix ID",
+  static const char *const about_names[] = {"accessed out-of-range", "does not compute", "does not calculate",
+                                            "Mismatched compute", "Mismatched fix", "Could not find",
+                                            "Compute ID for", "Fix ID for", "Invalid compute ID", "Invalid fix ID",
                                             "must be an index"};
   const auto contains = [&text](const char *words) { return text.find(words) != std::string::npos; };
+  if (contains("group ID")) return text;
   if (std::any_of(std::begin(about_names), std::end(about_names), contains)) return text + about_outputs(lmp);
   return text + about_style(lmp, text);
 }
@@ -176,7 +191,8 @@ int index_in_brackets(LAMMPS *lmp, const char *brackets) {
   const char *digits = brackets + 1, *end = digits + std::strspn(digits, "0123456789");
   const int index = end - digits < 10 ? std::atoi(digits) : 0;
   if (index < 1 || std::strcmp(end, "]"))
-    lmp->error->all(FLERR, ("what is in brackets must be an index, a whole number from 1 up, got '" + std::string(brackets) + "'").c_str());
+    lmp->error->all(FLERR, ("what is in brackets must be an index, a whole number from 1 up, got '" +
+                            std::string(brackets) + "'").c_str());
   return index;
 }
 

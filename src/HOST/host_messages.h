@@ -7,17 +7,20 @@
 
 namespace LAMMPS_NS { class LAMMPS; }
 
-/** What cmake/mends/messages.cmake puts into the host: no message is lost, and one about a wrong name or index says what there is. */
+/** What cmake/mends/messages.cmake puts into the host: no message is lost, and one about a wrong name or index says
+ *  what there is. */
 namespace grainscope {
 
-/** When the program starts: lines of the screen arrive when they end, and an exception that nobody catches is reported as an error. */
+/** When the program starts: lines of the screen arrive when they end, and an exception that nobody catches is reported
+ *  as an error. */
 void begin_messages(LAMMPS_NS::LAMMPS *lmp);
 /** Lines of a screen or log file arrive when they end, at its end. None: nothing. */
 void write_by_line(FILE *file);
 /** Every rank keeps the name of the log file, which rank 0 writes. */
 void log_goes_to(const char *path);
 
-/** What ends the run, which is on the screen already: to the log file from every rank, and to stderr unless that is where the screen is. */
+/** What ends the run, which is on the screen already: to the log file from every rank, and to stderr unless that is
+ *  where the screen is. */
 void last_words(LAMMPS_NS::LAMMPS *lmp, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /** A complaint about a style, a compute or a fix in the current command or formula, with what there is. */

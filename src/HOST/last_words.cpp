@@ -65,7 +65,8 @@ void append_to_log(const std::string &text) {
   } catch (...) {
   }
   const int rank = running->universe->me;
-  if (FILE *screen = running->screen) fprintf(screen, "ERROR on proc %d: an exception ended the program: %s\n", rank, what.c_str());
+  if (FILE *screen = running->screen)
+    fprintf(screen, "ERROR on proc %d: an exception ended the program: %s\n", rank, what.c_str());
   last_words(running, "ERROR on proc %d: an exception ended the program: %s\n", rank, what.c_str());
   MPI_Abort(MPI_COMM_WORLD, 1);
   std::abort();
@@ -75,6 +76,8 @@ void append_to_log(const std::string &text) {
 
 void begin_messages(LAMMPS *lmp) {
   running = lmp;
+  lmp->input = nullptr;   // the host sets them later, and complains before
+  lmp->modify = nullptr;
   write_by_line(stdout);
   std::set_terminate(report_exception);
 }
@@ -91,7 +94,8 @@ void log_goes_to(const char *path) {
   log_path = path;
   if (log_path == "none") log_path.clear();
   char folder[4096];
-  if (!log_path.empty() && log_path[0] != '/' && getcwd(folder, sizeof folder)) log_path = std::string(folder) + "/" + log_path;
+  if (!log_path.empty() && log_path[0] != '/' && getcwd(folder, sizeof folder))
+    log_path = std::string(folder) + "/" + log_path;
 }
 
 void last_words(LAMMPS *lmp, const char *format, ...) {

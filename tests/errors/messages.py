@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""No message is lost: what ends a run is on the screen, in the log file and on stderr, once each, from any rank, whatever the streams are. And a
-message about a wrong name, index or style says which, and what there is."""
+"""No message is lost: what ends a run is on the screen, in the log file and on stderr, once each, from any rank,
+whatever the streams are. And a message about a wrong name, index or style says which, and what there is."""
 from dataclasses import dataclass
 import os
 from pathlib import Path
@@ -46,8 +46,8 @@ def end(deck, ranks, *arguments, folder=None, log="log.liggghts", screen="screen
         (folder / "in.deck").write_text(deck if isinstance(deck, str) else deck.text())
     command = [*_command(ranks, binary()), *(arguments or ("-in", "in.deck"))]
     with open(folder / "screen", "w") as out, open(folder / "stderr", "w") as err:
-        done = subprocess.run(command, cwd=folder, env=environment(ranks), stdout=out, stderr=err, stdin=subprocess.DEVNULL,
-                              timeout=TIME_LIMIT * TIME_SCALE, preexec_fn=limit)
+        done = subprocess.run(command, cwd=folder, env=environment(ranks), stdout=out, stderr=err,
+                              stdin=subprocess.DEVNULL, timeout=TIME_LIMIT * TIME_SCALE, preexec_fn=limit)
     return Ended(done.returncode, read(folder / screen), read(folder / "stderr"), read(folder / log))
 
 
@@ -56,11 +56,12 @@ def require_once(ended, words, **streams):
     require(ended.code > 0, f"ended with code {ended.code}")
     for name, wanted in streams.items():
         text = getattr(ended, name)
-        require(text.count(words) == wanted, f"{name} has the message {text.count(words)} times, not {int(wanted)}; it ends:\n{text[-1500:]}")
+        require(text.count(words) == wanted,
+                f"{name} has the message {text.count(words)} times, not {int(wanted)}; it ends:\n{text[-1500:]}")
 
 
 def last_rank_complains(ranks, *lines):
-    """A folder where the dump file of the last rank cannot be opened, and the deck that opens it. Only that rank knows."""
+    """A folder where the dump file of the last rank cannot be opened, and the deck that opens it."""
     folder = new_folder()
     (folder / "d").mkdir()
     (folder / "d" / f"grains.{ranks - 1}").mkdir()
@@ -75,7 +76,7 @@ def all_ranks(ranks):
     ended = end(body(f'print "{BEFORE}"', "nonsense of mine"), ranks)
     require_once(ended, "ERROR: Unknown command: nonsense of mine", screen=True, stderr=True, log=True)
     require_once(ended, BEFORE + "\n", screen=True, log=True)
-    ended = end(body("fix c all property/global x scalar"), ranks)
+    ended = end(body("fix c all property/global x scalarr 1.0"), ranks)
     require_once(ended, "ERROR: Fix property/global (id c): ", screen=True, stderr=True, log=True)
 
 
@@ -88,22 +89,27 @@ def one_rank(ranks):
 
 def no_screen(ranks):
     arguments = ("-in", "in.deck", "-screen", "none")
-    require_once(end(body("nonsense"), ranks, *arguments), "ERROR: Unknown command", screen=False, stderr=True, log=True)
+    ended = end(body("nonsense"), ranks, *arguments)
+    require_once(ended, "ERROR: Unknown command", screen=False, stderr=True, log=True)
     folder, deck = last_rank_complains(ranks)
-    require_once(end(deck, ranks, *arguments, folder=folder), message_of(ranks), screen=False, stderr=True, log=True)
+    ended = end(deck, ranks, *arguments, folder=folder)
+    require_once(ended, message_of(ranks), screen=False, stderr=True, log=True)
 
 
 def screen_in_a_file(ranks):
     """The host has no screen on other ranks then."""
     arguments = ("-in", "in.deck", "-screen", "its.screen")
-    require_once(end(body("nonsense"), ranks, *arguments, screen="its.screen"), "ERROR: Unknown command", screen=True, stderr=True, log=True)
+    ended = end(body("nonsense"), ranks, *arguments, screen="its.screen")
+    require_once(ended, "ERROR: Unknown command", screen=True, stderr=True, log=True)
     folder, deck = last_rank_complains(ranks)
-    require_once(end(deck, ranks, *arguments, folder=folder, screen="its.screen"), message_of(ranks), screen=ranks == 1, stderr=True, log=True)
+    ended = end(deck, ranks, *arguments, folder=folder, screen="its.screen")
+    require_once(ended, message_of(ranks), screen=ranks == 1, stderr=True, log=True)
 
 
 def no_log(ranks):
     arguments = ("-in", "in.deck", "-log", "none")
-    require_once(end(body("nonsense"), ranks, *arguments), "ERROR: Unknown command", screen=True, stderr=True, log=False)
+    ended = end(body("nonsense"), ranks, *arguments)
+    require_once(ended, "ERROR: Unknown command", screen=True, stderr=True, log=False)
     folder, deck = last_rank_complains(ranks)
     ended = end(deck, ranks, *arguments, folder=folder)
     require_once(ended, message_of(ranks), screen=True, stderr=True, log=False)
@@ -112,7 +118,8 @@ def no_log(ranks):
 
 def log_by_a_command(ranks):
     """The log file that a command names, from another folder."""
-    folder, deck = last_rank_complains(ranks, "log other.log", "shell mkdir elsewhere", "shell cd elsewhere", "shell ln -s ../d d")
+    commands = ["log other.log", "shell mkdir elsewhere", "shell cd elsewhere", "shell ln -s ../d d"]
+    folder, deck = last_rank_complains(ranks, *commands)
     ended = end(deck, ranks, folder=folder, log="other.log")
     require_once(ended, message_of(ranks), screen=True, stderr=True, log=True)
     require_once(ended, BEFORE + "\n", screen=True, log=True)
@@ -133,11 +140,12 @@ def merged(folder, ranks, terminal):
     command = [*_command(ranks, binary()), "-in", "in.deck"]
     if not terminal:
         with open(folder / "both", "w") as both:
-            subprocess.run(command, cwd=folder, env=environment(ranks), stdout=both, stderr=both, stdin=subprocess.DEVNULL,
-                           timeout=TIME_LIMIT * TIME_SCALE)
+            subprocess.run(command, cwd=folder, env=environment(ranks), stdout=both, stderr=both,
+                           stdin=subprocess.DEVNULL, timeout=TIME_LIMIT * TIME_SCALE)
         return read(folder / "both")
     ours, theirs = os.openpty()
-    process = subprocess.Popen(command, cwd=folder, env=environment(ranks), stdout=theirs, stderr=theirs, stdin=subprocess.DEVNULL)
+    process = subprocess.Popen(command, cwd=folder, env=environment(ranks), stdout=theirs, stderr=theirs,
+                               stdin=subprocess.DEVNULL)
     os.close(theirs)
     text = b""
     try:
@@ -154,7 +162,7 @@ def when_the_program_starts(ranks):
     ended = end(None, ranks, "-in", "no.such.deck")
     require_once(ended, "ERROR on proc 0: Cannot open input script no.such.deck", screen=True, stderr=True, log=True)
     ended = end(None, ranks, "-nonsense")
-    require_once(ended, "ERROR: Invalid command-line argument", screen=False, stderr=True)
+    require_once(ended, "ERROR: Invalid command-line argument", screen=True, stderr=True)
     ended = end(None, ranks, "-in", "no.such.deck", "-log", "no/such/folder/log")
     require_once(ended, "ERROR on proc 0: Cannot open universe log file", screen=True, stderr=True)
 
@@ -168,7 +176,8 @@ def second_signal(ranks):
         os.kill(pid, number)
     result = started.end()
     require(result.code == 1, f"ended with code {result.code}")
-    require(result.output.count("ERROR: the run ends at once, at a second SIGINT or SIGTERM") == 1, result.output[-1500:])
+    words = "ERROR: the run ends at once, at a second SIGINT or SIGTERM"
+    require(result.output.count(words) == 1, result.output[-1500:])
     log = result.file("log.liggghts").read_text()
     require(log.endswith("\n") and log.count("\n") > 50, "lines of the log file are missing")
 
@@ -177,9 +186,11 @@ def exception(ranks):
     """An array that no memory can hold, which the host asks for in a way that it does not check."""
     def limit():
         resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
-    deck = "atom_style atomic\nregion box block 0 1 0 1 0 1 units box\n" + f'print "{BEFORE}"\n' + "create_box 2000000000 box\n"
+    box = "region box block 0 1 0 1 0 1 units box"
+    deck = f'atom_style atomic\n{box}\nprint "{BEFORE}"\ncreate_box 2000000000 box\n'
     ended = end(deck, 1, limit=None if "asan" in binary() else limit)
-    require_once(ended, "ERROR on proc 0: an exception ended the program: std::bad_alloc", screen=True, stderr=True, log=True)
+    words = "ERROR on proc 0: an exception ended the program: std::bad_alloc"
+    require_once(ended, words, screen=True, stderr=True, log=True)
     require_once(ended, BEFORE + "\n", screen=True, log=True)
 
 
@@ -187,8 +198,8 @@ STRESS = "compute stress (stress/contact) gives a scalar and a vector of 35"
 MEMORY = "compute memory (velocity/memory) gives a scalar, a vector of 3 and an array of 5 rows and 4 columns"
 GRAIN = "compute grain (contact/grain) gives 6 columns per grain"
 ROWS = "compute rows (contact/local) gives 3 columns per local row"
-COMPUTES = ["compute stress all stress/contact", "variable s equal step", "compute memory all velocity/memory strain v_s lags 4",
-            "compute grain all contact/grain", "compute rows all contact/local branch"]
+COMPUTES = ["compute stress all stress/contact", "variable s equal step",
+            "compute memory all velocity/memory strain v_s lags 4", "compute grain all contact/grain", "compute rows all contact/local branch"]
 # How an index is used, in lines with {}; the reference, what there is.
 PLACES = {
     "thermo": ("thermo_style custom step {}", "run 0"),
@@ -227,43 +238,50 @@ def beyond_the_end(ranks):
 def of_another_kind(ranks):
     """An index that something has, but not what is asked for."""
     require_refused(lines_with(PLACES["thermo"], "c_memory[4]"), ranks, "out-of-range", f"c_memory[4]: {MEMORY}")
-    require_refused(lines_with(PLACES["thermo"], "c_grain[1]"), ranks, "does not compute vector", f"c_grain[1]: {GRAIN}")
-    require_refused(lines_with(PLACES["print"], "c_stress[1][1]"), ranks, "Mismatched compute in variable formula", f"c_stress[1][1]: {STRESS}")
-    require_refused(lines_with(PLACES["ave-time"], "c_grain"), ranks, "does not calculate a scalar", f"c_grain: {GRAIN}")
-    require_refused(lines_with(GRAIN_PLACES["dump"], "c_stress"), ranks, "does not compute per-atom info", f"c_stress: {STRESS}")
+    for place, reference, words, what in (
+            (PLACES["thermo"], "c_grain[1]", "does not compute vector", GRAIN),
+            (PLACES["print"], "c_stress[1][1]", "Mismatched compute in variable formula", STRESS),
+            (PLACES["ave-time"], "c_grain", "does not calculate a scalar", GRAIN),
+            (GRAIN_PLACES["dump"], "c_stress", "does not compute per-atom info", STRESS)):
+        require_refused(lines_with(place, reference), ranks, words, f"{reference}: {what}")
 
 
 def of_a_fix(ranks):
     define = "fix press all press/strain axis y target 1e5 every/step 5"
     for place in (PLACES["thermo"], PLACES["print"], PLACES["ave-time"]):
         deck = lines_with((define, *place), "f_press[99]")
-        require_refused(deck, ranks, "out-of-range", "f_press[99]: fix press (press/strain) gives")
+        require_refused(deck, ranks, "out-of-range", "f_press[99]: fix press (deform) gives a scalar and a vector of 8")
 
 
 def only_the_wrong_one(ranks):
     """Of several references the one that is wrong."""
-    result = require_refused(body(*COMPUTES, "thermo_style custom step c_stress[1] c_memory[2] c_stress[36]"), ranks, f"c_stress[36]: {STRESS}")
-    require("c_memory[2]:" not in result.output and "c_stress[1]:" not in result.output, "a right one is described too")
+    deck = body(*COMPUTES, "thermo_style custom step c_stress[1] c_memory[2] c_stress[36]")
+    output = require_refused(deck, ranks, f"c_stress[36]: {STRESS}").output
+    require("c_memory[2]:" not in output and "c_stress[1]:" not in output, "a right one is described too")
 
 
 NO_INDEX = ["[*]", "[0]", "[-1]", "[1][2]", "[2x]", "[]", "[1.5]", "[99999999999]"]
 
 
 def index_that_is_none(ranks):
+    words = "what is in brackets must be an index, a whole number from 1 up, got"
     for bad in NO_INDEX:
-        require_refused(lines_with(PLACES["ave-time"], f"c_stress{bad}"), ranks, "what is in brackets must be an index, a whole number from 1 up",
-                        f"got '{bad}'", STRESS)
+        require_refused(lines_with(PLACES["ave-time"], f"c_stress{bad}"), ranks, f"{words} '{bad}'", STRESS)
     places = [("c_stress", PLACES[k]) for k in ("ave-correlate", "ave-histo", "slice")]
-    places += [("c_grain", place) for place in GRAIN_PLACES.values()] + [("c_rows", place) for place in LOCAL_PLACES.values()]
+    places += [("c_grain", place) for place in GRAIN_PLACES.values()]
+    places += [("c_rows", place) for place in LOCAL_PLACES.values()]
     for name, place in places:
-        require_refused(lines_with(place, f"{name}[*]"), ranks, "must be an index, a whole number from 1 up, got '[*]'", f"compute {name[2:]} (")
+        require_refused(lines_with(place, f"{name}[*]"), ranks, f"{words} '[*]'", f"compute {name[2:]} (")
 
 
 def name_that_is_none(ranks):
-    for place in (*PLACES.values(),):
-        require_refused(lines_with(place, "c_stres[1]"), ranks, "c_stres[1]: there is no compute 'stres': did you mean 'stress'?")
-    require_refused(lines_with(PLACES["print"], "f_fricton[1]"), ranks, "f_fricton[1]: there is no fix 'fricton': did you mean 'friction'?")
-    result = require_refused(lines_with(PLACES["print"], "c_quite_another"), ranks, "there is no compute 'quite_another'")
+    for place in PLACES.values():
+        require_refused(lines_with(place, "c_stres[1]"), ranks,
+                        "c_stres[1]: there is no compute 'stres': did you mean 'stress'?")
+    require_refused(lines_with(PLACES["print"], "f_fricton[1]"), ranks,
+                    "f_fricton[1]: there is no fix 'fricton': did you mean 'friction'?")
+    deck = lines_with(PLACES["print"], "c_quite_another")
+    result = require_refused(deck, ranks, "there is no compute 'quite_another'")
     require("did you mean" not in result.output, "a guess from nowhere")
 
 
@@ -282,7 +300,8 @@ STYLES = [
 def misspelt_style(ranks):
     for line, complaint, wrong, right in STYLES:
         require_refused(body(line), ranks, complaint, f'"{wrong}": did you mean \'{right}\'?')
-    require_refused("atom_style supperquadric\n", ranks, "Invalid atom style", "\"supperquadric\": did you mean 'superquadric'?")
+    require_refused("atom_style supperquadric\n", ranks, "Invalid atom style",
+                    "\"supperquadric\": did you mean 'superquadric'?")
     result = require_refused(body("compute c all of/nothing/known"), ranks, 'Invalid compute style: "of/nothing/known"')
     require("did you mean" not in result.output, "a guess from nowhere")
 
