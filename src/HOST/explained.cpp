@@ -174,8 +174,8 @@ std::string about_style(LAMMPS *lmp, const std::string &complaint) {
 std::string explained(LAMMPS *lmp, const char *complaint) {
   std::string text = complaint;
   if (!lmp->input || !lmp->modify) return text;
-  static const char *const about_names[] = {"accessed out-of-range", "does not compute", "does not calculate",
-                                            "Mismatched compute", "Mismatched fix", "Could not find",
+  static const char *const about_names[] = {"accessed out-of-range", "is not large enough", "does not compute",
+                                            "does not calculate", "Mismatched compute", "Mismatched fix", "Could not find",
                                             "Compute ID for", "Fix ID for", "Invalid compute ID", "Invalid fix ID",
                                             "must be an index"};
   const auto contains = [&text](const char *words) { return text.find(words) != std::string::npos; };

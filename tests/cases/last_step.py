@@ -101,7 +101,8 @@ def loops(ranks):
     every = printed(run(deck(f"run 6 every 2 {commands}", computes=SEEN), ranks), quantities[:40])
     require(sorted(every) == [2, 4, 6], f"steps {sorted(every)}")
     require_equal(every[2][0], expected[0][2][:40], "run every: step 2")
-    whole = "post no start 0 stop 6"  # fix deform, which is not set up again, moves the box from the first step to the last
+    # Fix deform, which is not set up again, moves the box from the first step to the last.
+    whole = "post no start 0 stop 6"
     lines = [f"run 2 {whole}", *printing(quantities)]
     for _ in range(2):
         lines += [f"run 2 pre no {whole}", *printing(quantities)]

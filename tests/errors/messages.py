@@ -199,7 +199,8 @@ MEMORY = "compute memory (velocity/memory) gives a scalar, a vector of 3 and an 
 GRAIN = "compute grain (contact/grain) gives 6 columns per grain"
 ROWS = "compute rows (contact/local) gives 3 columns per local row"
 COMPUTES = ["compute stress all stress/contact", "variable s equal step",
-            "compute memory all velocity/memory strain v_s lags 4", "compute grain all contact/grain", "compute rows all contact/local branch"]
+            "compute memory all velocity/memory strain v_s lags 4", "compute grain all contact/grain",
+            "compute rows all contact/local branch"]
 # How an index is used, in lines with {}; the reference, what there is.
 PLACES = {
     "thermo": ("thermo_style custom step {}", "run 0"),
@@ -208,8 +209,8 @@ PLACES = {
     "ave-time": ("fix mean all ave/time 1 1 1 {} file mean.txt",),
     "ave-correlate": ("fix mean all ave/correlate 1 5 5 c_stress[1] {} file mean.txt",),
     "ave-histo": ("fix mean all ave/histo 1 1 1 0 1 10 {} file mean.txt",),
-    "slice": ("compute few all slice 1 2 1 {}",),
 }
+SLICE = ("compute few all slice 1 2 1 {}",)   # of columns
 GRAIN_PLACES = {
     "dump": ("dump d all custom 1 d.dump id {}",),
     "reduce": ("compute few all reduce sum {}",),
@@ -228,9 +229,10 @@ def beyond_the_end(ranks):
     for place in PLACES.values():
         require_refused(lines_with(place, "c_stress[99]"), ranks, "out-of-range", f"c_stress[99]: {STRESS}")
     for place in GRAIN_PLACES.values():
-        require_refused(lines_with(place, "c_grain[7]"), ranks, "out-of-range", f"c_grain[7]: {GRAIN}")
+        require_refused(lines_with(place, "c_grain[7]"), ranks, f"c_grain[7]: {GRAIN}")
     for place in LOCAL_PLACES.values():
         require_refused(lines_with(place, "c_rows[4]"), ranks, "out-of-range", f"c_rows[4]: {ROWS}")
+    require_refused(lines_with(SLICE, "c_memory[5]"), ranks, "out-of-range", f"c_memory[5]: {MEMORY}")
     for place in (PLACES["thermo"], PLACES["print"]):
         require_refused(lines_with(place, "c_memory[6][1]"), ranks, "out-of-range", f"c_memory[6][1]: {MEMORY}")
 
@@ -267,7 +269,7 @@ def index_that_is_none(ranks):
     words = "what is in brackets must be an index, a whole number from 1 up, got"
     for bad in NO_INDEX:
         require_refused(lines_with(PLACES["ave-time"], f"c_stress{bad}"), ranks, f"{words} '{bad}'", STRESS)
-    places = [("c_stress", PLACES[k]) for k in ("ave-correlate", "ave-histo", "slice")]
+    places = [("c_stress", place) for place in (PLACES["ave-correlate"], PLACES["ave-histo"], SLICE)]
     places += [("c_grain", place) for place in GRAIN_PLACES.values()]
     places += [("c_rows", place) for place in LOCAL_PLACES.values()]
     for name, place in places:
@@ -275,7 +277,7 @@ def index_that_is_none(ranks):
 
 
 def name_that_is_none(ranks):
-    for place in PLACES.values():
+    for place in (*PLACES.values(), SLICE):
         require_refused(lines_with(place, "c_stres[1]"), ranks,
                         "c_stres[1]: there is no compute 'stres': did you mean 'stress'?")
     require_refused(lines_with(PLACES["print"], "f_fricton[1]"), ranks,
