@@ -232,7 +232,7 @@ def beyond_the_end(ranks):
         require_refused(lines_with(place, "c_grain[7]"), ranks, f"c_grain[7]: {GRAIN}")
     for place in LOCAL_PLACES.values():
         require_refused(lines_with(place, "c_rows[4]"), ranks, "out-of-range", f"c_rows[4]: {ROWS}")
-    require_refused(lines_with(SLICE, "c_memory[5]"), ranks, "out-of-range", f"c_memory[5]: {MEMORY}")
+    require_refused(lines_with(SLICE, "c_memory[5]"), ranks, f"c_memory[5]: {MEMORY}")
     for place in (PLACES["thermo"], PLACES["print"]):
         require_refused(lines_with(place, "c_memory[6][1]"), ranks, "out-of-range", f"c_memory[6][1]: {MEMORY}")
 
