@@ -50,6 +50,9 @@ void ComputeDissipation::init() {
   if (impl_->mode == Impl::Mode::ledger) FixLedgerRecord::find(lmp, id);
 }
 
+/** A ledger that does not close, as grains came, is no matter of a run that does not ask for it. */
+bool ComputeDissipation::answers_after_run() const { return impl_->mode != Impl::Mode::ledger; }
+
 bool ComputeDissipation::needs_images() const { return impl_->mode == Impl::Mode::step; }
 
 void ComputeDissipation::begin_contacts() {

@@ -126,7 +126,7 @@ void ComputeStressContact::compute_vector() {
   }
   const double kappa = stiffness_ * std::pow(per_pressure, 2.0 / 3.0);
   *out++ = kappa;
-  soft_.watch(lmp, pressure > 0.0 && kappa < hard_grains,
+  if (!unasked()) soft_.watch(lmp, pressure > 0.0 && kappa < hard_grains,
               "compute stress/contact: the stiffness number kappa is %.4g, below the hard-grain limit of %g: results depend on how stiff the "
               "grains are. Stiffer grains, or a lower pressure", kappa, hard_grains);
   for (int k = 0; k < size_vector; k++) vector[k] += 0.0;  // no negative zeros

@@ -31,6 +31,8 @@ class ContactSink {
   virtual bool needs_details() const { return true; }
   /** True if image shifts of ghosts must be known during the evaluation. */
   virtual bool needs_images() const { return false; }
+  /** A run has ended: what is made of the last evaluation is to be made now, while grains are as they were then. Called on every rank alike. */
+  virtual void end_run() {}
 
   void set_source(Source *source) { source_ = source; }
   /** False once the source is gone: what was kept of it must not be used. */

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_run_guard.h"
+#include "contact_observer.h"
 #include "finite.h"
+#include "pair_gran_insitu.h"
 #include "restart_seal.h"
 #include "stop_signal.h"
 #include "atom.h"
@@ -14,6 +16,7 @@
 #include <cstdint>
 #include <cstring>
 #include <sstream>
+#include <unistd.h>
 
 using namespace LAMMPS_NS;
 
@@ -32,6 +35,13 @@ struct Quantity {
 };
 
 bool finite(const double *values, int n) { return grainscope::all_finite(values, n); }
+
+/** Of a file whose lines go out as they end, so that nothing is left to be flushed. Sets errno, by a line break more. */
+bool lost_a_line(FILE *file) {
+  if (!file || file == stdout || !ferror(file)) return false;
+  errno = EIO;
+  return write(fileno(file), "\n", 1) != 0;
+}
 
 std::ostream &operator<<(std::ostream &out, const Quantity &quantity) { return out << quantity.name; }
 
@@ -91,6 +101,7 @@ void FixRunGuard::end_of_step() {
 
 void FixRunGuard::post_run() {
   running_ = false;
+  PairGranInsitu::required_by(lmp, "fix run/guard")->observer().end_run();
   fail_together(not_written());
 }
 
@@ -162,7 +173,8 @@ void FixRunGuard::pre_neighbor() {
 /** All streams that the host has open: it does not look whether its output arrives. A screen that is gone is no reason to end a run. */
 std::string FixRunGuard::not_written() const {
   const bool screen_is_gone = fflush(stdout) != 0;
-  if (fflush(nullptr) == 0 || screen_is_gone) return "";
+  const bool written = fflush(nullptr) == 0 && !lost_a_line(logfile) && !lost_a_line(screen);
+  if (written || screen_is_gone) return "";
   const std::string reason = strerror(errno);
   return "step " + std::to_string(update->ntimestep) + ": output of this run (dumps, tables, log) cannot be written: " + reason;
 }

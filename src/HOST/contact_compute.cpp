@@ -10,7 +10,7 @@
 namespace grainscope {
 
 ContactCompute::ContactCompute(LAMMPS_NS::LAMMPS *lmp, int &iarg, int narg, char **arg)
-    : Compute(lmp, iarg, narg, arg), observer_(nullptr), name_(std::string("compute ") + style), tallied_(-1) {
+    : Compute(lmp, iarg, narg, arg), observer_(nullptr), name_(std::string("compute ") + style), tallied_(-1), unasked_(false) {
   timeflag = 1;
 }
 
@@ -21,9 +21,20 @@ void ContactCompute::init() {
 }
 
 bool ContactCompute::wants_contacts() {
-  if (!matchstep(update->ntimestep)) return false;
+  if (!matchstep(update->ntimestep) && update->ntimestep != update->laststep) return false;
   tallied_ = update->ntimestep;
   return true;
+}
+
+void ContactCompute::end_run() {
+  const LAMMPS_NS::bigint now = update->ntimestep;
+  if (tallied_ != now || !answers_after_run()) return;
+  unasked_ = true;
+  if (vector_flag && invoked_vector != now) compute_vector();
+  if (scalar_flag && invoked_scalar != now) compute_scalar();
+  if (array_flag && invoked_array != now) compute_array();
+  if (local_flag && invoked_local != now) compute_local();
+  unasked_ = false;
 }
 
 bool ContactCompute::in_group(int i) const { return atom->mask[i] & groupbit; }
@@ -41,7 +52,7 @@ void ContactCompute::require_known_losses() const {
 void ContactCompute::require_tally() const {
   if (attached() && tallied_ == update->ntimestep) return;
   const std::string message = name_ + " " + id + ": not tallied on this step, because nobody announced it: ask through thermo, "
-                              "fix ave/time, a dump, or a variable that one of them uses";
+                              "fix ave/time, a dump, or a variable that one of them uses, or after the last step of a run";
   error->all(FLERR, message.c_str());
 }
 

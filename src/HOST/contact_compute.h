@@ -11,13 +11,15 @@ namespace grainscope {
 class ContactObserver;
 
 /** A compute that sees contacts: it listens to the force evaluations of the steps it is announced for, as LAMMPS announces
- *  computes (thermo, fix ave/time, dumps and variables in them do), and refuses to answer for any other step. */
+ *  computes (thermo, fix ave/time, dumps and variables in them do), and of the last step of every run; it refuses to answer for any other.
+ *  What it gives as a whole or as rows is computed when a run ends, so that the input script can ask for it until the next run begins. */
 class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
  public:
   ContactCompute(LAMMPS_NS::LAMMPS *lmp, int &iarg, int narg, char **arg);
 
   void init();
   bool wants_contacts();
+  void end_run();
 
  protected:
   ContactObserver *observer_;
@@ -29,11 +31,16 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
   void require_known_losses() const;
   /** Errors unless the current step was tallied. */
   void require_tally() const;
+  /** False where an answer that nobody asked for may end the run. */
+  virtual bool answers_after_run() const { return true; }
+  /** Nobody has asked yet: no warnings. */
+  bool unasked() const { return unasked_; }
   /** Sums `values` over all ranks, in place. */
   void sum_over_ranks(double *values, int n) const;
 
  private:
   LAMMPS_NS::bigint tallied_;
+  bool unasked_;
 };
 
 }

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <unistd.h>
 
 namespace SignalHandler = LAMMPS_NS::SignalHandler;
 
@@ -23,9 +24,16 @@ struct sigaction before[3];
 bool watching = false;
 volatile std::sig_atomic_t wants_quit = 0, wants_restart = 0;
 
+/** At a second signal. Only what a signal may do: no streams, whose lines are written already. */
+[[noreturn]] void end_at_once() {
+  const char words[] = "ERROR: the run ends at once, at a second SIGINT or SIGTERM\n";
+  const ssize_t written = write(STDERR_FILENO, words, sizeof words - 1);
+  std::_Exit(written < 0 ? EXIT_FAILURE + 1 : EXIT_FAILURE);
+}
+
 void note(int signal) {
   if (signal == SIGUSR1) wants_restart = 1;
-  else if (wants_quit) std::_Exit(EXIT_FAILURE);  // a second one: at once
+  else if (wants_quit) end_at_once();
   else wants_quit = 1;
 }
 

@@ -55,6 +55,10 @@ bool ContactObserver::begin(bool springs_move, bool again) {
   return images;
 }
 
+void ContactObserver::end_run() const {
+  for (ContactSink *sink : sinks_) sink->end_run();
+}
+
 /** The spring as it was before the friction limit, in the host's own operations and order, so that a spring that was not cut
  *  compares equal to the last bit. In the first evaluation of a run the host moves no spring: sliding then means that the force was
  *  limited, and slip is what would have been cut; where it repeats an evaluation, they have been cut already. */

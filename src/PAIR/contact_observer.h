@@ -51,6 +51,8 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   /** Whether tangential springs were moved in the last evaluation. */
   bool springs_move() const { return springs_move_; }
   void end() { active_ = false; }
+  /** Of a run: for the sinks. */
+  void end_run() const;
   bool active() const { return active_; }
   /** The box as it was in the evaluation that was observed last. */
   const BoxState &box() const { return box_; }

@@ -95,6 +95,7 @@ NAMED = [PRESS, "compute c all displacement/shear strain f_press[1]", *thermo(1,
 VARIABLE = ["variable v equal step*1e-3", "compute c all velocity/memory strain v_v", *thermo(1, "c_c")]
 RENUMBER = ["group few id 3:9", "delete_atoms group few"]
 AVERAGE = ["compute c all fluctuation", "fix mean all ave/time 1 1 1 c_c file mean.txt"]
+MOVING_REGION = "region r block 0 1 0 1 0 1 move v_p NULL NULL units box"  # LIGGGHTS announces nothing for it
 CASES = {
     "no-pair-style": refused(*((without_pair(line), f"{name} requires pair_style gran/insitu, got 'no pair style'") for line, name in watchers())),
     "pair-style-gran": refused(*((body(line, "run 1", pair="gran"), f"{name} requires pair_style gran/insitu, got 'gran'")
@@ -130,9 +131,13 @@ CASES = {
     "grains-renumbered-warned": renumbered_warned,
     "memory-replaced-by-hand": refused((body("variable v equal step", VARIABLE[1], "run 1", "fix c_record all grain/record 3 5 0", "run 1"),
                                         "fix grain/record: is made by the computes that need it")),
-    "asked-between-runs": refused(*((body(f"compute c all {style}", f"variable now equal {element}", *thermo(100, "step"), "run 3", 'print "${now}"'),
-                                     "Compute used in variable between runs is not current")
-                                    for style, element in (("stress/contact", "c_c"), ("dissipation", "c_c[1]"), ("fabric", "c_c[1]")))),
+    "asked-between-runs": refused(*((body(*lines, 'print "$(c_c[1])"', extra="ledger on"), "Compute used in variable between runs is not current")
+                                    for lines in (["run 3", "compute c all stress/contact"],
+                                                  ["compute c all fabric", "run 3", "reset_timestep 7"],
+                                                  ["compute c all dissipation mode ledger", "run 3"]))),
+    "asked-on-a-step-of-no-one": refused((body("compute c all stress/contact", "variable p equal 0*c_c", MOVING_REGION,
+                                               "fix push all addforce 0.0 0.0 0.0 region r", *thermo(100, "step"), "run 5"),
+                                          "compute stress/contact c: not tallied on this step, because nobody announced it")),
     "strain-not-set-up": refused((body("run 1", *VARIABLE, "run 2 pre no"), "compute velocity/memory: was not set up: do not use 'pre no'")),
 }
 
