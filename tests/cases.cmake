@@ -198,3 +198,19 @@ add_cases(study cases/study_runs.py LABEL case RANKS 1 CASES
 add_cases(study cases/study_workflow.py LABEL case RANKS 1 SECONDS 600 CASES
   failing-runs-do-not-stop-others study-goes-on basic-measures bad-configuration)
 add_cases(study cases/study_slurm.py LABEL long RANKS 1 SECONDS 900 CASES slurm-grid)
+add_cases(gran/insitu-first-evaluation cases/first_evaluation.py LABEL case STYLES gran/insitu run/guard contact/local contact/grain dissipation
+  stress/contact RANKS 1 CASES
+  as-the-host neutral repeated-row after-a-change below-the-limit packings spin-on-a-frictionless-plane spin-on-a-frictionless-mesh
+  friction-of-a-plane friction-of-a-mesh)
+add_cases(gran/insitu-first-evaluation cases/first_evaluation.py LABEL case STYLES gran/insitu run/guard RANKS 2 CASES as-the-host packings)
+add_cases(contact/local-sphere-law cases/sphere_law.py LABEL case STYLES contact/local dissipation gran/insitu RANKS 1 CASES
+  sjkr sjkr2 sjkr-reduces-friction sjkr-no-history sjkr-limit-force neutral neutral-slippery neutral-two-types)
+add_cases(contact/local-friction-limit cases/friction_limit.py LABEL case STYLES contact/local contact/grain contact/surface dissipation RANKS 1 CASES
+  spheroids spheroids-cohesion-reduces balls-that-slide liquid-bridge-washino liquid-bridge-easo)
+add_cases(contact/local-friction-limit cases/friction_limit.py LABEL case STYLES contact/local contact/grain contact/surface RANKS 2 CASES spheroids)
+add_cases(surface/ellipsoid-cohesion cases/sphere_cohesion.py LABEL case STYLES surface/ellipsoid gran/insitu RANKS 1 CASES
+  poles sides pole-on-side sizes sphere-and-spheroid poles-sjkr2 sizes-sjkr2 poles-by-curvature sides-by-curvature sizes-by-curvature poles-under-gran
+  spheres softened-spheres pole-on-a-plane pole-on-a-mesh pole-on-a-plane-by-curvature sphere-on-a-plane sphere-on-a-mesh superquadrics)
+add_cases(surface/ellipsoid-history-columns cases/history_columns.py LABEL case STYLES surface/ellipsoid gran/insitu RANKS 1 CASES
+  spheroids flat spheres under-gran counted without-a-trace without-a-trace-under-gran without-a-trace-cohesive)
+add_cases(surface/ellipsoid-history-columns cases/history_columns.py LABEL case STYLES surface/ellipsoid RANKS 2 CASES spheroids)

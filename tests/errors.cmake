@@ -49,3 +49,6 @@ add_cases(error-ledger errors/ledger.py LABEL error RANKS 1 CASES
   other-integrator box-without-flow box-of-some-grains record-taken record-gone record-by-hand grains-inserted restart-without restart-with
   pre-no-at-first time-step-changed)
 add_cases(error-ledger errors/ledger.py LABEL error RANKS 2 CASES ledger-off loose-grains grains-inserted restart-without restart-with)
+add_cases(surface/ellipsoid-cohesion errors/ellipsoid.py LABEL error STYLES surface/ellipsoid RANKS 1 CASES
+  bridge-washino bridge-easo bridge-under-gran bridge-of-spheres-is-taken)
+add_cases(surface/ellipsoid-cohesion errors/ellipsoid.py LABEL error STYLES surface/ellipsoid RANKS 1 2 CASES bridge-of-one-spheroid)

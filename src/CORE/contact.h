@@ -31,10 +31,10 @@ struct Contact {
   double normal_force;                   // force . normal, > 0 pushes apart; damping (and cohesion) included
   Eigen::Vector3d tangential_force;      // force on i less its normal part
   double friction;                       // mu_p of this pair of types
-  double friction_limit;                 // that the law cuts by: mu_p times its own normal force, of which cohesion may be no part
-  Eigen::Vector3d friction_force;        // the tangential force of the friction law: a liquid bridge adds its own to tangential_force
-  bool sliding;                          // the tangential spring was cut (friction limit reached) in this evaluation; in the first of a run
-                                         // also a contact whose damping alone is kept to the limit, or exceeds it
+  double friction_limit;                 // mu_p times the normal force of the law: cohesion may be no part of it
+  Eigen::Vector3d friction_force;        // tangential_force less the drag of a liquid bridge, which no friction limits
+  bool sliding;                          // the tangential spring was cut (friction limit reached) in this evaluation;
+                                         // in the first of a run also: damping takes the force to the limit or beyond
   double slip;                           // length cut from the spring, >= 0
 
   // Details

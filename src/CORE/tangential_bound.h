@@ -7,12 +7,13 @@
 
 namespace grainscope {
 
-/** The tangential force -k_t s - gamma u of a contact whose spring is below the friction limit. Nothing in the law keeps its damping part below it:
- *  in the first evaluation of a run no spring has moved, so none is cut, and gamma u may be any multiple of the limit. LIGGGHTS's tangential
- *  models ask here for the gamma that acts. */
+/** The tangential force -k_t s - gamma u of a contact whose spring is below the friction limit. Nothing in the law
+ *  keeps its damping part below it: in the first evaluation of a run no spring has moved, so none is cut, and gamma u
+ *  may be any multiple of the limit. LIGGGHTS's tangential models ask here for the gamma that acts. */
 class TangentialBound {
  public:
-  /** off: gamma as it is, which costs one branch. watch: the same, and the worst contact is noted. bound: the largest gamma that keeps the limit. */
+  /** off: gamma as it is, which costs one branch. watch: the same, and the worst contact is noted. bound: the largest
+   *  gamma that keeps the limit. */
   enum class Mode { off, watch, bound };
 
   static TangentialBound &get() {
@@ -24,7 +25,7 @@ class TangentialBound {
     excess_ = 0.0;
   }
   Mode mode() const { return mode_; }
-  /** Since `set`: the largest |F_t| over its limit of those beyond it, infinity where the limit is 0; 0 when none was. */
+  /** Since `set`: the largest |F_t| over its limit of those beyond it, infinity where that is 0; 0 when none was. */
   double excess() const { return excess_; }
 
   /** `f`: the force of the spring; `u`: the tangential velocity. */

@@ -93,7 +93,8 @@ void FixRunGuard::warn_of_damping() {
   warned_of_damping = true;
   if (comm->me != 0) return;
   std::ostringstream message;
-  message << "step " << update->ntimestep << ": in the first evaluation of a run LIGGGHTS does not limit tangential damping: a contact pushes with ";
+  message << "step " << update->ntimestep << ": in the first evaluation of a run LIGGGHTS does not limit tangential "
+          << "damping: a contact pushes with ";
   if (std::isinf(excess)) message << "a tangential force though it has no friction";
   else message << excess << " times its friction limit";
   message << ". Say 'setup neutral' in pair_style gran/insitu to keep the limit, or 'tangential_damping off'";

@@ -59,9 +59,10 @@ bool ContactObserver::begin(bool springs_move, bool again) {
   return images;
 }
 
-/** The spring as it was before the friction limit, in the host's own operations and order, so that a spring that was not cut
- *  compares equal to the last bit. In the first evaluation of a run the host moves no spring: a cut then means that the force was
- *  limited, and slip is what would have been cut; where it repeats an evaluation, they have been cut already. */
+/** The spring as it was before the friction limit, in the host's own operations and order, so that a spring that was
+ *  not cut compares equal to the last bit. In the first evaluation of a run the host moves no spring: a cut then means
+ *  that the force was limited, and slip is what would have been cut; where it repeats an evaluation, they have been
+ *  cut. */
 inline void ContactObserver::judge_spring(const Sides &s, Friction &friction) const {
   double x = spring_[0], y = spring_[1], z = spring_[2];
   if (springs_move_) {
@@ -84,7 +85,8 @@ inline void ContactObserver::judge_spring(const Sides &s, Friction &friction) co
 
 /** Where no spring has moved none can say that the limit is reached: the force does. */
 inline void ContactObserver::judge_damping(const Sides &s, Friction &friction) const {
-  const double spring[3] = {-(s.kt * spring_[0]), -(s.kt * spring_[1]), -(s.kt * spring_[2])}, u[3] = {s.vtr1, s.vtr2, s.vtr3};
+  const double spring[3] = {-(s.kt * spring_[0]), -(s.kt * spring_[1]), -(s.kt * spring_[2])};
+  const double u[3] = {s.vtr1, s.vtr2, s.vtr3};
   friction.beyond = TangentialBound::length(s.gammat, spring, u) > friction.limit;
   if (friction.beyond && TangentialBound::get().mode() == TangentialBound::Mode::bound)
     friction.damping = TangentialBound::largest(s.gammat, spring, u, friction.limit);
@@ -111,7 +113,8 @@ Vector3d ContactObserver::friction_force(const Sides &s, const Friction &frictio
   Vector3d force = Vector3d::Zero();
   if (law_ == TangentialLaw::other) return c.tangential_force;
   if (law_ == TangentialLaw::history)
-    force = friction.cut ? Vector3d(-friction.limit * spring.normalized()) : Vector3d(-s.kt * spring - friction.damping * u);
+    force = friction.cut ? Vector3d(-friction.limit * spring.normalized())
+                         : Vector3d(-s.kt * spring - friction.damping * u);
   if (law_ == TangentialLaw::no_history)
     force = friction.cut ? Vector3d(-friction.limit * u.normalized()) : Vector3d(-friction.damping * u);
   return force - force.dot(c.normal) * c.normal;
@@ -162,7 +165,8 @@ inline void ContactObserver::add_details(const Sides &s, const Friction &frictio
 }
 
 /** What only the energy ledger asks for. */
-void ContactObserver::add_springs(const Sides &s, const Friction &friction, const LIGGGHTS::ContactModels::ForceData &force_on_i, Contact &c) const {
+void ContactObserver::add_springs(const Sides &s, const Friction &friction, const Forces &force_on_i,
+                                  Contact &c) const {
   c.spring.setZero();
   c.spring_before.setZero();
   c.cut.setZero();
@@ -177,7 +181,7 @@ void ContactObserver::add_springs(const Sides &s, const Friction &friction, cons
   c.rolling_torque = Map<const Vector3d>(force_on_i.delta_torque) - c.arm.cross(c.force);
 }
 
-void ContactObserver::observe(const Sides &s, const LIGGGHTS::ContactModels::ForceData &force_on_i) {
+void ContactObserver::observe(const Sides &s, const Forces &force_on_i) {
   const Map<const Vector3d> xi(x_[s.i]), xj(x_[s.j]);
   const Vector3d normal(s.en[0], s.en[1], s.en[2]), force(force_on_i.delta_F[0], force_on_i.delta_F[1], force_on_i.delta_F[2]);
   const double normal_force = force.dot(normal), coefficient = friction_ ? friction_[s.itype][s.jtype] : 0.0;

@@ -72,6 +72,7 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   }
 
   using Sides = LIGGGHTS::ContactModels::SurfacesIntersectData;
+  using Forces = LIGGGHTS::ContactModels::ForceData;
   void remember_spring(const Sides &s) {
     if (law_ != TangentialLaw::history) return;
     double *spring = s.contact_history + spring_offset_;
@@ -81,7 +82,7 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
       spring_[k] = spring[k];
     }
   }
-  void observe(const Sides &s, const LIGGGHTS::ContactModels::ForceData &force_on_i);
+  void observe(const Sides &s, const Forces &force_on_i);
 
  private:
   std::vector<ContactSink *> sinks_, listening_;
@@ -121,7 +122,7 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   Eigen::Vector3d friction_force(const Sides &s, const Friction &friction, const Contact &c) const;
   double normal_damping(const Sides &s) const;
   void add_details(const Sides &s, const Friction &friction, Contact &c) const;
-  void add_springs(const Sides &s, const Friction &friction, const LIGGGHTS::ContactModels::ForceData &force_on_i, Contact &c) const;
+  void add_springs(const Sides &s, const Friction &friction, const Forces &force_on_i, Contact &c) const;
   ContactPast read_past(const Sides &s) const;
   void write_past(const Sides &s, const Contact &c) const;
 };

@@ -72,8 +72,10 @@ void EllipsoidBodies::refuse_other_than_spheres() {
     if (!is_sphere(i)) first = std::min(first, atom->tag[i]);
   MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, world);
   if (first == none) return;
-  error->all(FLERR, ("surface ellipsoid: '" + sphere_model_ + "' knows the distance of spheres only, and grain " + std::to_string(first) +
-                     " is none: use cohesion sjkr or sjkr2, whose area surface ellipsoid provides, or spheres").c_str());
+  const std::string message = "surface ellipsoid: '" + sphere_model_ + "' knows the distance of spheres only, and "
+      "grain " + std::to_string(first) + " is none: use cohesion sjkr or sjkr2, whose area surface ellipsoid "
+      "provides, or spheres";
+  error->all(FLERR, message.c_str());
 }
 
 Triaxial EllipsoidBodies::frame(int i) const { return make_triaxial(atom->shape[i], atom->quaternion[i]); }

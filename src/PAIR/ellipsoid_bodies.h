@@ -40,7 +40,8 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
  public:
   explicit EllipsoidBodies(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
 
-  /** Before a force evaluation; all ranks together. Refuses grains that are no ellipsoids, or no spheres where a model needs them. */
+  /** Before a force evaluation; all ranks together. Refuses grains that are no ellipsoids, or no spheres where a model
+   *  needs spheres. */
   void prepare();
   /** The words of a contact model that knows spheres only, or "". */
   void set_sphere_model(const std::string &model) { sphere_model_ = model; }

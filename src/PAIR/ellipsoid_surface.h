@@ -12,10 +12,11 @@ namespace grainscope {
 
 /** Between the solver and the host's contact data and history: what `surface ellipsoid` means, whichever loop asks. */
 struct EllipsoidSurface {
-  // Columns of the contact history, as many as `surface superquadric` has, so that restart files of the two are interchangeable: what one
-  // left is a start for the other or no start, never a wrong one. Only `lambda` is remembered (less 1/2: changes its sign when the host
-  // swaps i and j; 0: none), last of them and beside the tangential spring in memory; the others stay 0: not touching, to the other surface.
-  // In an evaluation for output alone all of them hold for a while what `surface superquadric` would give; see show().
+  // Columns of the contact history, as many as `surface superquadric` has, so that restart files of the two are
+  // interchangeable: what one left is a start for the other or no start, never a wrong one. Only `lambda` is remembered
+  // (less 1/2: changes its sign when the host swaps i and j; 0: none), last of them and beside the tangential spring in
+  // memory; the others stay 0: not touching, to the other surface. In an evaluation for output alone all of them hold
+  // for a while what `surface superquadric` would give; see show().
   static constexpr int columns = 7;
   int first, lambda;
   double curvature_limit = 0.0;
@@ -63,10 +64,10 @@ struct EllipsoidSurface {
     return true;
   }
 
-  /** What compute pair/gran/local reads from the history, in the order of `surface superquadric`: 0 (which of the bounding boxes' axes separated
-   *  them), 2 (they touch), contact point, depth of i, depth of j. `lambda` is lost. */
+  /** What compute pair/gran/local reads from the history, in the order of `surface superquadric`: 0 (which axis of the
+   *  bounding boxes separated them), 2 (they touch), contact point, depth of i, depth of j. `lambda` is lost. */
   void show(const EllipsoidContact &c, const Sides &s) const {
-    const double values[columns] = {0.0, 2.0, s.contact_point[0], s.contact_point[1], s.contact_point[2], c.depth[0], c.depth[1]};
+    const double *p = s.contact_point, values[columns] = {0.0, 2.0, p[0], p[1], p[2], c.depth[0], c.depth[1]};
     std::copy(values, values + columns, s.contact_history + first);
   }
 

@@ -206,7 +206,8 @@ void PairGranInsitu::init_granular() {
   impl_->observer.set_elastic(elastic);
   impl_->observer.set_rolling(!contact_match("rolling_friction", "off"));
   impl_->observer.set_limits_force(impl_->models.find("limitForce on") != std::string::npos);
-  impl_->observer.set_wet(contact_match("cohesion", "washino/capillary/viscous") || contact_match("cohesion", "easo/capillary/viscous"));
+  impl_->observer.set_wet(contact_match("cohesion", "washino/capillary/viscous") ||
+                          contact_match("cohesion", "easo/capillary/viscous"));
   impl_->sphere_model = contact_match("surface", "superquadric") ? grainscope::SphereGeometry::of(*this) : "";
 
   impl_->friction = nullptr;
@@ -237,13 +238,14 @@ void PairGranInsitu::warn_of_stale_springs() {
 void PairGranInsitu::warn_of_sphere_model() {
   if (impl_->sphere_model.empty()) return;
   int any = 0;
-  for (int i = 0; i < atom->nlocal && !any; i++) any = grainscope::symmetry_axis(atom->shape[i]).shape != grainscope::Shape::sphere;
+  using grainscope::Shape;
+  for (int i = 0; i < atom->nlocal && !any; i++) any = grainscope::symmetry_axis(atom->shape[i]).shape != Shape::sphere;
   MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, world);
   if (!any) return;
-  if (comm->me == 0)
-    error->warning(FLERR, ("pair_style gran/insitu: '" + impl_->sphere_model + "' takes its geometry from the distance of centres and the radii of "
-                           "spheres: with surface superquadric its forces on grains that are no spheres are wrong. Say 'surface ellipsoid', which gives "
-                           "sjkr and sjkr2 the contact's own overlap and effective radius").c_str());
+  const std::string message = "pair_style gran/insitu: '" + impl_->sphere_model + "' takes its geometry from the "
+      "distance of centres and the radii of spheres: with surface superquadric its forces on grains that are no "
+      "spheres are wrong. Say 'surface ellipsoid', which gives sjkr and sjkr2 the contact's own overlap and effective radius";
+  if (comm->me == 0) error->warning(FLERR, message.c_str());
   impl_->sphere_model.clear();
 }
 

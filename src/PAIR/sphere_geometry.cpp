@@ -47,7 +47,9 @@ void SphereGeometry::connect(LAMMPS_NS::LAMMPS *lmp, LIGGGHTS::IContactHistorySe
 }
 
 std::string SphereGeometry::of(LAMMPS_NS::PairGran &pair) {
-  const Matches matches = [&pair](const std::string &kind, const std::string &model) { return pair.contact_match(kind, model); };
+  const Matches matches = [&pair](const std::string &kind, const std::string &model) {
+    return pair.contact_match(kind, model);
+  };
   const std::string found = area_model(matches);
   return found.empty() ? other_cohesion(matches) : found;
 }

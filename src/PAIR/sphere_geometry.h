@@ -9,10 +9,11 @@ namespace LAMMPS_NS { class Atom; class LAMMPS; class PairGran; }
 
 namespace grainscope {
 
-/** Models of LIGGGHTS that know spheres only: cohesion sjkr and sjkr2 and the adhesion of the normal models edinburgh take their contact area
- *  from the distance of the centres and the radii. For grains that are no spheres this lends them two spheres that meet as the grains do: of the
- *  contact's overlap and effective radius R*, their radii in the ratio of those of equal volume. The area of sjkr is then 2 pi R* delta, less what two
- *  spheres lack of it at a finite overlap. A wall meets one sphere of radius R*. Capillary bridges act at a distance, and are refused. */
+/** Models of LIGGGHTS that know spheres only: cohesion sjkr and sjkr2 and the adhesion of the normal models edinburgh
+ *  take their contact area from the distance of the centres and the radii. For grains that are no spheres this lends
+ *  them two spheres that meet as the grains do: of the contact's overlap and effective radius R*, their radii in the
+ *  ratio of those of equal volume. The area of sjkr is then 2 pi R* delta, less what two spheres lack of it at a
+ *  finite overlap. A wall meets one sphere of radius R*. Capillary bridges act at a distance, and are refused. */
 class SphereGeometry {
  public:
   using Sides = LIGGGHTS::ContactModels::SurfacesIntersectData;

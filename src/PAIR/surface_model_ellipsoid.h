@@ -16,12 +16,13 @@ namespace LIGGGHTS {
 namespace ContactModels {
 
 /** Grains of atom_style superquadric with blockiness 2 2, by the exact contact of ellipsoids: `surface superquadric` in keywords,
- *  physics and history columns, walls included; but models that know spheres only are given spheres (sphere_geometry.h).
- *  See doc/surface_ellipsoid.md. */
+ *  physics and history columns, walls included; but models that know spheres only are given spheres
+ *  (sphere_geometry.h). See doc/surface_ellipsoid.md. */
 template <>
 class SurfaceModel<SURFACE_ELLIPSOID> : public SurfaceModelBase {
  public:
-  SurfaceModel(LAMMPS *lmp, IContactHistorySetup *setup, ContactModelBase *model) : SurfaceModelBase(lmp, setup, model), setup_(setup) {
+  SurfaceModel(LAMMPS *lmp, IContactHistorySetup *setup, ContactModelBase *model)
+      : SurfaceModelBase(lmp, setup, model), setup_(setup) {
     if (!atom->superquadric_flag)
       error->all(FLERR, "surface ellipsoid needs atom_style superquadric (spheres are ellipsoids with three equal semi-axes)");
     surface_.first = setup->add_history_value("inequality_obb", "0");
@@ -99,7 +100,8 @@ class SurfaceModel<SURFACE_ELLIPSOID> : public SurfaceModelBase {
     if (surface_.curvature_limit > 0.0) {
       Superquadric grain(atom->x[s.i], atom->quaternion[s.i], atom->shape[s.i], atom->blockiness[s.i]);
       const double curvature = grain.calc_curvature_coefficient(surface_.mean ? 0 : 1, s.contact_point);
-      s.reff = MathExtraLiggghtsNonspherical::get_effective_radius_wall(s, atom->blockiness[s.i], curvature, surface_.curvature_limit, error);
+      s.reff = MathExtraLiggghtsNonspherical::get_effective_radius_wall(s, atom->blockiness[s.i], curvature,
+                                                                        surface_.curvature_limit, error);
     }
     MathExtraLiggghtsNonspherical::surfacesIntersectNonSpherical(s, atom->x);
   }
