@@ -210,7 +210,8 @@ add_cases(contact/local-friction-limit cases/friction_limit.py LABEL case STYLES
 add_cases(contact/local-friction-limit cases/friction_limit.py LABEL case STYLES contact/local contact/grain contact/surface RANKS 2 CASES spheroids)
 add_cases(surface/ellipsoid-cohesion cases/sphere_cohesion.py LABEL case STYLES surface/ellipsoid gran/insitu RANKS 1 CASES
   poles sides pole-on-side sizes sphere-and-spheroid poles-sjkr2 sizes-sjkr2 poles-by-curvature sides-by-curvature sizes-by-curvature poles-under-gran
-  spheres softened-spheres pole-on-a-plane pole-on-a-mesh pole-on-a-plane-by-curvature sphere-on-a-plane sphere-on-a-mesh superquadrics)
+  spheres softened-spheres pole-on-a-plane pole-on-a-mesh pole-on-a-plane-by-curvature sphere-on-a-plane sphere-on-a-mesh superquadrics
+  as-spheres-sjkr as-spheres-sjkr2 as-spheres-edinburgh)
 add_cases(surface/ellipsoid-history-columns cases/history_columns.py LABEL case STYLES surface/ellipsoid gran/insitu RANKS 1 CASES
   spheroids flat spheres under-gran counted without-a-trace without-a-trace-under-gran without-a-trace-cohesive)
 add_cases(surface/ellipsoid-history-columns cases/history_columns.py LABEL case STYLES surface/ellipsoid RANKS 2 CASES spheroids)

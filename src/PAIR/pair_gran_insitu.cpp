@@ -44,7 +44,8 @@ struct PairGranInsitu::Impl {
   bool neutral = false;
   FixSetupMemory *memory = nullptr;
   bool warned_of_stale_springs = false;
-  std::string sphere_model;        // that is given grains which may be no spheres, until it is warned of; or ""
+  std::string sphere_model;        // that is given grains which may be no spheres, or ""
+  bool warned_of_sphere_model = false;
   bool sending_images = false;
   bigint grains = 0;               // in the last evaluation
   bool renumbered = false;         // since then
@@ -236,7 +237,7 @@ void PairGranInsitu::warn_of_stale_springs() {
 
 /** Once, when there are such grains. */
 void PairGranInsitu::warn_of_sphere_model() {
-  if (impl_->sphere_model.empty()) return;
+  if (impl_->sphere_model.empty() || impl_->warned_of_sphere_model) return;
   int any = 0;
   using grainscope::Shape;
   for (int i = 0; i < atom->nlocal && !any; i++) any = grainscope::symmetry_axis(atom->shape[i]).shape != Shape::sphere;
@@ -246,7 +247,7 @@ void PairGranInsitu::warn_of_sphere_model() {
       "distance of centres and the radii of spheres: with surface superquadric its forces on grains that are no "
       "spheres are wrong. Say 'surface ellipsoid', which gives sjkr and sjkr2 the contact's own overlap and effective radius";
   if (comm->me == 0) error->warning(FLERR, message.c_str());
-  impl_->sphere_model.clear();
+  impl_->warned_of_sphere_model = true;
 }
 
 void PairGranInsitu::watch_time_step() {

@@ -124,18 +124,40 @@ def superquadrics(ranks):
     require(WARNING not in run(replace(deck, surface="ellipsoid"), ranks).output, "warned of surface ellipsoid")
     require(WARNING not in run(replace(deck, packing=pair(BALL, BALL)), ranks).output, "warned of spheres")
     require(WARNING not in run(replace(deck, cohesion="off"), ranks).output, "warned without cohesion")
-    adhesive = run(adhesion(replace(deck, cohesion="off", normal="edinburgh")), ranks).output
-    require(adhesive.count(WARNING) == 1 and "'model edinburgh'" in adhesive, "did not warn of the adhesion of edinburgh")
+    adhesive = run(with_adhesion(replace(deck, cohesion="off", normal="edinburgh")), ranks).output
+    require(adhesive.count(WARNING) == 1 and "'model edinburgh'" in adhesive, "did not warn of edinburgh")
 
 
-def adhesion(deck):
-    """Properties that normal model edinburgh needs."""
-    lines = [f"fix {name} all property/global {name} peratomtypepair 1 {value}" for name, value in (
-        ("kn2k1", 5.0), ("cex", 0.0), ("dex", 0.0), ("f_adh", 0.0), ("gamma_surf", 10.0), ("CoeffRestLog", 0.5), ("coefficientAdhesionExponent", 1.5),
-        ("overlapExponent", 1.5), ("pullOffForce", 0.0), ("surfaceEnergy", 10.0), ("LoadingStiffness", 1e5), ("UnloadingStiffness", 5e5))]
-    text = list(deck.lines())
-    at = next(k for k, line in enumerate(text) if line.startswith("pair_style"))
-    return "\n".join([*text[:at], *lines, *text[at:]]) + "\n"
+ADHESION = {"coefficientAdhesionStiffness": "peratomtypepair 1 0.5", "UnloadingStiffness": "peratomtypepair 1 5.0",
+            "pullOffForce": "peratomtypepair 1 0.0", "surfaceEnergy": "peratomtypepair 1 2e3",
+            "overlapExponent": "scalar 1.5", "adhesionExponent": "scalar 1.5"}
+
+
+def with_adhesion(deck):
+    """The deck's text, with what the normal models edinburgh need."""
+    lines = list(deck.lines())
+    at = next(k for k, line in enumerate(lines) if line.startswith("pair_style"))
+    lines[at:at] = [f"fix {name} all property/global {name} {value}" for name, value in ADHESION.items()]
+    return "\n".join(lines) + "\n"
+
+
+def as_spheres_of_equal_volume(**choices):
+    """Pole to pole, head on: spheres under the host's own surface of that volume and overlap push and pull each other alike, in every step."""
+    def case(ranks):
+        radius = float(radius_of_volume(POLE))
+        forces = []
+        for side in (POLE, ((radius,) * 3, POLE[1], radius)):
+            packing = replace(pair(side, side), atom_style="superquadric" if side is POLE else "sphere")
+            for grain, direction in zip(packing.grains, (1, -1)):
+                grain.velocity = (0.1 * direction, 0.0, 0.0)
+            deck = at_rest(packing, tangential="off", timestep=1e-4, **choices)
+            deck.body[-1] = "run 400"
+            result = run(with_adhesion(deck), ranks)
+            forces.append(np.array([columns["fx"][-1] for _, columns in result.dump("grains.dump")]))
+        require(forces[1].max() > 0.0 > forces[1].min(), "they did not both repel and attract each other")
+        # 400 steps of rounding.
+        require_close(forces[0], forces[1], 1e-8, "force")
+    return case
 
 
 CASES = {
@@ -158,6 +180,9 @@ CASES = {
     "sphere-on-a-plane": sticks_to("plane", (A, A, A), (1.0, 0.0, 0.0, 0.0), A, A),
     "sphere-on-a-mesh": sticks_to("mesh", (A, A, A), (1.0, 0.0, 0.0, 0.0), A, A),
     "superquadrics": superquadrics,
+    "as-spheres-sjkr": as_spheres_of_equal_volume(cohesion="sjkr"),
+    "as-spheres-sjkr2": as_spheres_of_equal_volume(cohesion="sjkr2"),
+    "as-spheres-edinburgh": as_spheres_of_equal_volume(normal="edinburgh"),
 }
 
 if __name__ == "__main__":
