@@ -154,7 +154,7 @@ def as_spheres_of_equal_volume(**choices):
             deck.body[-1] = "run 400"
             result = run(with_adhesion(deck), ranks)
             forces.append(np.array([columns["fx"][-1] for _, columns in result.dump("grains.dump")]))
-        require(forces[1].max() > 0.0 and np.isfinite(forces[1]).all(), "they did not repel each other")
+        require(np.isfinite(forces[1]).all() and np.ptp(forces[1]) > 100.0, "nothing happened")
         require("cohesion" not in choices or forces[1].min() < 0.0, "they did not attract each other")
         # 400 steps of rounding.
         require_close(forces[0], forces[1], 1e-8, "force")
