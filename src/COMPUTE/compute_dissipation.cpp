@@ -68,22 +68,20 @@ void ComputeDissipation::add_contact(const Contact &c) {
   sums.contacts += c.weight;
   if (c.sliding) sums.sliding += c.weight;
   if (sums.mode == Impl::Mode::ledger) return;
-  const bool damped = !c.sliding && c.tangential_damping > 0.0;
-
   if (sums.mode == Impl::Mode::instantaneous) {
     sums.normal += c.weight * grainscope::damping_loss(c);
     sums.friction += c.weight * grainscope::friction_loss(c);
-    if (damped) sums.tangential_damping += c.weight * c.tangential_damping * c.tangential_velocity.squaredNorm();
+    if (c.damped) sums.tangential_damping += c.weight * c.tangential_damping * c.tangential_velocity.squaredNorm();
     return;
   }
-  if (c.sliding) sums.friction += c.weight * c.tangential_force.norm() * c.slip;  // over dt, later
+  if (c.sliding) sums.friction += c.weight * c.friction_force.norm() * c.slip;  // over dt, later
   const Vector3d lever_i = c.point - Map<const Vector3d>(atom->x[c.i]);
   const Vector3d lever_j = lever_i + c.branch;
   Vector3d image_velocity = Vector3d::Zero();
   if (c.ghost && domain->deform_vremap && (atom->mask[c.j] & domain->deform_groupbit))
     image_velocity = observer_->image_velocity(c.j);
   sums.normal_damping_forces.add(c, c.normal_damping * c.normal, lever_i, lever_j, image_velocity);
-  if (damped)
+  if (c.damped)
     sums.tangential_damping_forces.add(c, -c.tangential_damping * c.tangential_velocity, lever_i, lever_j, image_velocity);
 }
 

@@ -31,7 +31,10 @@ struct Contact {
   double normal_force;                   // force . normal, > 0 pushes apart; damping (and cohesion) included
   Eigen::Vector3d tangential_force;      // force on i less its normal part
   double friction;                       // mu_p of this pair of types
-  bool sliding;                          // the tangential spring was cut (friction limit reached) in this evaluation
+  double friction_limit;                 // mu_p times the normal force of the law: cohesion may be no part of it
+  Eigen::Vector3d friction_force;        // tangential_force less the drag of a liquid bridge, which no friction limits
+  bool sliding;                          // the tangential spring was cut (friction limit reached) in this evaluation;
+                                         // in the first of a run also: damping takes the force to the limit or beyond
   double slip;                           // length cut from the spring, >= 0
 
   // Details
@@ -42,7 +45,8 @@ struct Contact {
   double normal_stiffness;               // secant k_n: elastic force / overlap
   double tangential_stiffness;           // k_t
   double damping_coefficient;            // gamma_n: damping force / normal velocity
-  double tangential_damping;             // gamma_t, acting while the contact does not slide
+  double tangential_damping;             // gamma_t, acting while `damped`
+  bool damped;                           // tangential damping acts: the spring was not cut
   Eigen::Vector3d arm;                   // from the centre of i to the contact point; from that of j it is arm + branch
   Eigen::Vector3d spring;                // tangential spring s after the update (0 without one): its force on i is -k_t s
   Eigen::Vector3d spring_before;         // the same before it

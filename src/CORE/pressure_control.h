@@ -11,7 +11,7 @@ namespace grainscope {
 /** What the contact network says along one axis, in one evaluation or summed over a window of evaluations. With every contact moved
  *  affinely along the axis n, a change of the box length L gives dP = (stiffness) dL/L + (damping) (dL/dt)/L, per unit volume:
  *  stiffness = sum (k n_a^2 + k_t (1 - n_a^2)) r_a^2, damping = sum (gamma_n n_a^2 + gamma_t (1 - n_a^2)) r_a^2, k the tangent
- *  normal stiffness, gamma_t that of contacts that do not slide. */
+ *  normal stiffness, gamma_t that of contacts whose tangential force is not cut. */
 struct NetworkResponse {
   double pressure = 0.0;   // sum F_a r_a / volume
   double stiffness = 0.0;
@@ -22,7 +22,7 @@ struct NetworkResponse {
     const double n2 = c.normal[axis] * c.normal[axis], r = c.branch[axis], wr2 = c.weight * r * r;
     pressure += c.weight * c.force[axis] * r;
     stiffness += wr2 * (exponent * c.normal_stiffness * n2 + (sticks ? c.tangential_stiffness * (1.0 - n2) : 0.0));
-    damping += wr2 * (c.damping_coefficient * n2 + (c.sliding ? 0.0 : c.tangential_damping * (1.0 - n2)));
+    damping += wr2 * (c.damping_coefficient * n2 + (c.damped ? c.tangential_damping * (1.0 - n2) : 0.0));
   }
   void add(const NetworkResponse &other, double factor) {
     pressure += factor * other.pressure;

@@ -30,7 +30,7 @@ class GrainModes {
 
   void add(const Contact &c, const Eigen::Vector3d &arm, double exponent, bool sticks) {
     const Eigen::Matrix3d n = c.normal * c.normal.transpose(), t = Eigen::Matrix3d::Identity() - n;
-    const double k_t = sticks ? c.tangential_stiffness : 0.0, damping_t = c.sliding ? 0.0 : c.tangential_damping;
+    const double k_t = sticks ? c.tangential_stiffness : 0.0, damping_t = c.damped ? c.tangential_damping : 0.0;
     stiffness_ += seen_from(arm, exponent * c.normal_stiffness * n + k_t * t);
     damping_ += seen_from(arm, c.damping_coefficient * n + damping_t * t);
   }

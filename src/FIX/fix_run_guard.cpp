@@ -5,6 +5,7 @@
 #include "pair_gran_insitu.h"
 #include "restart_seal.h"
 #include "stop_signal.h"
+#include "tangential_bound.h"
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
@@ -25,6 +26,7 @@ namespace {
 char guard_id[] = "gran_insitu_guard", group_all[] = "all", guard_style[] = "run/guard";
 // A line of an input script would replace it.
 bool making = false;
+bool warned_of_damping = false;  // since there is a pair style of ours
 
 const int seldom = 100;   // steps between looks at what a run can do without for a while
 
@@ -74,6 +76,7 @@ void FixRunGuard::make(LAMMPS *lmp, const std::string &settings) {
 void FixRunGuard::forget(LAMMPS *lmp) {
   if (lmp->modify && lmp->modify->nfix && lmp->modify->find_fix(guard_id) >= 0) lmp->modify->delete_fix(guard_id);
   grainscope::stop_signal::release();
+  warned_of_damping = false;
 }
 
 int FixRunGuard::setmask() { return FixConst::PRE_EXCHANGE | FixConst::PRE_NEIGHBOR | FixConst::END_OF_STEP; }
@@ -87,6 +90,25 @@ void FixRunGuard::init() {
 void FixRunGuard::setup(int) {
   running_ = true;
   fail_together(not_finite(true));
+  warn_of_damping();
+}
+
+/** Once. All walls have been evaluated, too. */
+void FixRunGuard::warn_of_damping() {
+  auto &bound = grainscope::TangentialBound::get();
+  if (warned_of_damping || bound.mode() != grainscope::TangentialBound::Mode::watch) return;
+  double excess = bound.excess();
+  MPI_Allreduce(MPI_IN_PLACE, &excess, 1, MPI_DOUBLE, MPI_MAX, world);
+  if (excess == 0.0) return;
+  warned_of_damping = true;
+  if (comm->me != 0) return;
+  std::ostringstream message;
+  message << "step " << update->ntimestep << ": in the first evaluation of a run LIGGGHTS does not limit tangential "
+          << "damping: a contact pushes with ";
+  if (std::isinf(excess)) message << "a tangential force though it has no friction";
+  else message << excess << " times its friction limit";
+  message << ". Say 'setup neutral' in pair_style gran/insitu to keep the limit, or 'tangential_damping off'";
+  error->warning(FLERR, message.str().c_str());
 }
 
 void FixRunGuard::end_of_step() {

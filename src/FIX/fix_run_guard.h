@@ -14,7 +14,8 @@ FixStyle(run/guard,FixRunGuard)
 namespace LAMMPS_NS {
 
 /** Watches over every run with pair_style gran/insitu: stops it at numbers that are not finite, at grains lost from a periodic box and at output that
- *  cannot be written; ends it in order at a signal; seals restart files, with the words of the pair style in them.
+ *  cannot be written; warns of a first evaluation that exceeds the friction limit; ends it in order at a signal; seals
+ *  restart files, with the words of the pair style in them.
  *  Made by the pair style, not by input scripts. */
 class FixRunGuard : public Fix {
  public:
@@ -44,6 +45,7 @@ class FixRunGuard : public Fix {
   /** What is wrong on this rank, or "". */
   std::string not_finite(bool forces) const;
   std::string not_written() const;
+  void warn_of_damping();
   /** Ends the run when anything is wrong on any rank; collective. */
   void fail_together(const std::string &trouble) const;
 };

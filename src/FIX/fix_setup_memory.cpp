@@ -214,8 +214,8 @@ bool FixSetupMemory::unchanged() const {
   if (changed && !nothing && comm->me == 0)
     for (FILE *out : {screen, logfile})
       if (out)
-        fprintf(out, "pair_style gran/insitu: grains, box, time step or fixes were changed since the last run: forces are formed anew, as "
-                "with 'setup host'\n");
+        fprintf(out, "pair_style gran/insitu: grains, box, time step or fixes were changed since the last run: "
+                "forces are recomputed with the velocities of whole steps, within the friction limit\n");
   return !changed;
 }
 

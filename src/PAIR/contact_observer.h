@@ -28,6 +28,10 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   void set_law(TangentialLaw law, int spring_offset) { law_ = law; spring_offset_ = spring_offset; }
   /** Whether the normal model is an elastic spring and a dashpot: then its stiffness and damping are what the model says. */
   void set_elastic(bool elastic) { elastic_ = elastic; }
+  /** Whether a normal force that would be negative is set to 0. */
+  void set_limits_force(bool limits) { limits_force_ = limits; }
+  /** Whether cohesion has a tangential force of its own, which no friction limits. */
+  void set_wet(bool wet) { wet_ = wet; }
   bool elastic() const { return elastic_; }
   void set_friction(double **coefficients) { friction_ = coefficients; }
   TangentialLaw law() const { return law_; }
@@ -45,8 +49,10 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
    *  before. Returns true if one of the sinks needs image shifts. */
   bool begin(bool springs_move, bool again);
   bool again() const { return again_; }
-  /** What tells the evaluation from others: contacts remember it. */
+  /** What tells the evaluation from others: contacts remember it. Negative where no spring moved. */
   double stamp() const { return stamp_; }
+  /** No spring moved in the evaluation, nor in the one that it repeats. */
+  bool first_evaluation() const { return stamp_ < 0.0; }
   void resume(double stamp) { stamp_ = stamp; }
   /** Whether tangential springs were moved in the last evaluation. */
   bool springs_move() const { return springs_move_; }
@@ -68,6 +74,7 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   }
 
   using Sides = LIGGGHTS::ContactModels::SurfacesIntersectData;
+  using Forces = LIGGGHTS::ContactModels::ForceData;
   void remember_spring(const Sides &s) {
     if (law_ != TangentialLaw::history) return;
     double *spring = s.contact_history + spring_offset_;
@@ -77,7 +84,7 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
       spring_[k] = spring[k];
     }
   }
-  void observe(const Sides &s, const LIGGGHTS::ContactModels::ForceData &force_on_i);
+  void observe(const Sides &s, const Forces &force_on_i);
 
  private:
   std::vector<ContactSink *> sinks_, listening_;
@@ -86,6 +93,8 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   TangentialLaw law_ = TangentialLaw::other;
   int spring_offset_ = 0;
   bool elastic_ = false;
+  bool limits_force_ = false;
+  bool wet_ = false;
   bool rolls_ = false;
   bool springs_move_ = true;
   bool again_ = false;
@@ -100,13 +109,22 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   double dt_ = 0.0;
   std::vector<double> image_shifts_;
 
-  struct Sliding {
-    bool yes;
-    double slip;
-    double uncut[3];   // the spring before the limit
+  /** What friction made of one contact. */
+  struct Friction {
+    double limit;                       // of the force
+    bool cut = false;                   // the spring was, or the force of a law without springs
+    bool beyond = false;                // not cut, but kept to the limit by damping, or beyond it: in first evaluations
+    double slip = 0.0;
+    double damping = 0.0;               // the coefficient that acts where it is not cut
+    double spring[3] = {0.0, 0.0, 0.0}; // before the cut
   };
-  Sliding judge_sliding(const Sides &s, double limit) const;
-  void add_springs(const Sides &s, const Sliding &sliding, const LIGGGHTS::ContactModels::ForceData &force_on_i, Contact &c) const;
+  Friction judge_friction(const Sides &s, double limit) const;
+  void judge_spring(const Sides &s, Friction &friction) const;
+  void judge_damping(const Sides &s, Friction &friction) const;
+  Eigen::Vector3d friction_force(const Sides &s, const Friction &friction, const Contact &c) const;
+  double normal_damping(const Sides &s) const;
+  void add_details(const Sides &s, const Friction &friction, Contact &c) const;
+  void add_springs(const Sides &s, const Friction &friction, const Forces &force_on_i, Contact &c) const;
   ContactPast read_past(const Sides &s) const;
   void write_past(const Sides &s, const Contact &c) const;
 };

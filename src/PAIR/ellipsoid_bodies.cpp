@@ -15,6 +15,7 @@ void EllipsoidBodies::prepare() {
   if (list_.renewed(*neighbor, *update)) {
     refuse_other_blockiness();
     read_shapes(n);
+    refuse_other_than_spheres();
   }
   if (only_spheres_) return;
   for (int i = 0; i < n; i++)
@@ -61,6 +62,20 @@ void EllipsoidBodies::refuse_other_blockiness() {
   snprintf(message, sizeof message, "surface ellipsoid needs blockiness 2 2 of every grain, got %g %g of grain %d: use surface superquadric",
            blockiness[0], blockiness[1], first.tag);
   error->all(FLERR, message);
+}
+
+void EllipsoidBodies::refuse_other_than_spheres() {
+  if (sphere_model_.empty()) return;
+  const int none = std::numeric_limits<int>::max();
+  int first = none;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (!is_sphere(i)) first = std::min(first, atom->tag[i]);
+  MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, world);
+  if (first == none) return;
+  const std::string message = "surface ellipsoid: '" + sphere_model_ + "' knows the distance of spheres only, and "
+      "grain " + std::to_string(first) + " is none: use cohesion sjkr or sjkr2, whose area surface ellipsoid "
+      "provides, or spheres";
+  error->all(FLERR, message.c_str());
 }
 
 Triaxial EllipsoidBodies::frame(int i) const { return make_triaxial(atom->shape[i], atom->quaternion[i]); }

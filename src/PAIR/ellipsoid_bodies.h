@@ -6,6 +6,7 @@
 #include "neighbor.h"
 #include "pointers.h"
 #include "update.h"
+#include <string>
 #include <vector>
 
 namespace grainscope {
@@ -39,8 +40,11 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
  public:
   explicit EllipsoidBodies(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
 
-  /** Before a force evaluation; all ranks together. Refuses grains that are no ellipsoids. */
+  /** Before a force evaluation; all ranks together. Refuses grains that are no ellipsoids, or no spheres where a model
+   *  needs spheres. */
   void prepare();
+  /** The words of a contact model that knows spheres only, or "". */
+  void set_sphere_model(const std::string &model) { sphere_model_ = model; }
 
   /** Grains i and j, d = x_j - x_i, and a start as in ellipsoid_contact(). */
   struct Query { int i, j; double d[3], start; };
@@ -84,9 +88,11 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
   std::vector<int> place_;                 // of each of them among the queries
   std::vector<EllipsoidContact> solved_;
   bool warned_ = false;
+  std::string sphere_model_;
 
   void read_shapes(int n);
   void refuse_other_blockiness();
+  void refuse_other_than_spheres();
   void add_pair(const Query &query);
   Triaxial frame(int i) const;
   EllipsoidContact solve_alone(const Query &query) const;

@@ -12,10 +12,13 @@ namespace grainscope {
 
 /** Between the solver and the host's contact data and history: what `surface ellipsoid` means, whichever loop asks. */
 struct EllipsoidSurface {
-  // Columns of the contact history. As many as `surface superquadric` has, so that restart files of the two are interchangeable: what one
-  // left is a start for the other or no start, never a wrong one. Only `lambda` is remembered (less 1/2: changes its sign when the host
-  // swaps i and j; 0: none), beside the tangential spring in memory; the others are for compute pair/gran/local.
-  int depth_j, point, depth_i, lambda;
+  // Columns of the contact history, as many as `surface superquadric` has, so that restart files of the two are
+  // interchangeable: what one left is a start for the other or no start, never a wrong one. Only `lambda` is remembered
+  // (less 1/2: changes its sign when the host swaps i and j; 0: none), last of them and beside the tangential spring in
+  // memory; the others stay 0: not touching, to the other surface. In an evaluation for output alone all of them hold
+  // for a while what `surface superquadric` would give; see show().
+  static constexpr int columns = 7;
+  int first, lambda;
   double curvature_limit = 0.0;
   bool mean = false, gaussian = false;
 
@@ -61,11 +64,11 @@ struct EllipsoidSurface {
     return true;
   }
 
-  /** What compute pair/gran/local reads from the history. */
+  /** What compute pair/gran/local reads from the history, in the order of `surface superquadric`: 0 (which axis of the
+   *  bounding boxes separated them), 2 (they touch), contact point, depth of i, depth of j. `lambda` is lost. */
   void show(const EllipsoidContact &c, const Sides &s) const {
-    s.contact_history[depth_i] = c.depth[0];
-    s.contact_history[depth_j] = c.depth[1];
-    for (int k = 0; k < 3; k++) s.contact_history[point + k] = s.contact_point[k];
+    const double *p = s.contact_point, values[columns] = {0.0, 2.0, p[0], p[1], p[2], c.depth[0], c.depth[1]};
+    std::copy(values, values + columns, s.contact_history + first);
   }
 
   /** Velocities of i against j at the contact point, and its distances from the centres (of spheres entered already). */

@@ -7,7 +7,10 @@
 #include "fix_setup_memory.h"
 #include "gran_insitu_models.h"
 #include "kept_history.h"
+#include "sphere_geometry.h"
 #include "stop_signal.h"
+#include "symmetry_axis.h"
+#include "tangential_bound.h"
 #include "time_step_watch.h"
 #include "atom.h"
 #include "comm.h"
@@ -26,6 +29,7 @@
 using namespace LAMMPS_NS;
 using grainscope::BoxState;
 using grainscope::ContactObserver;
+using grainscope::TangentialBound;
 
 struct PairGranInsitu::Impl {
   explicit Impl(LAMMPS *lmp) : observer(lmp), bodies(lmp), watch(lmp) {}
@@ -40,6 +44,8 @@ struct PairGranInsitu::Impl {
   bool neutral = false;
   FixSetupMemory *memory = nullptr;
   bool warned_of_stale_springs = false;
+  std::string sphere_model;        // that is given grains which may be no spheres, or ""
+  bool warned_of_sphere_model = false;
   bool sending_images = false;
   bigint grains = 0;               // in the last evaluation
   bool renumbered = false;         // since then
@@ -51,6 +57,7 @@ PairGranInsitu::PairGranInsitu(LAMMPS *lmp) : PairGranProxy(lmp), impl_(new Impl
 }
 
 PairGranInsitu::~PairGranInsitu() {
+  TangentialBound::get().set(TangentialBound::Mode::off);
   FixRunGuard::forget(lmp);
   FixSetupMemory::forget(lmp);
 }
@@ -199,6 +206,10 @@ void PairGranInsitu::init_granular() {
   for (const char *model : {"hertz", "hooke", "hertz/stiffness", "hooke/stiffness"}) elastic = elastic || contact_match("normal", model);
   impl_->observer.set_elastic(elastic);
   impl_->observer.set_rolling(!contact_match("rolling_friction", "off"));
+  impl_->observer.set_limits_force(impl_->models.find("limitForce on") != std::string::npos);
+  impl_->observer.set_wet(contact_match("cohesion", "washino/capillary/viscous") ||
+                          contact_match("cohesion", "easo/capillary/viscous"));
+  impl_->sphere_model = contact_match("surface", "superquadric") ? grainscope::SphereGeometry::of(*this) : "";
 
   impl_->friction = nullptr;
   if (law == Law::no_history || law == Law::history) {
@@ -222,6 +233,21 @@ void PairGranInsitu::warn_of_stale_springs() {
   if (comm->me == 0)
     error->warning(FLERR, "spheres at contact distance factor 1.0 keep the tangential spring of a contact that has opened, until the "
                           "next neighbour list: add the line 'neigh_modify contact_distance_factor 1.05'");
+}
+
+/** Once, when there are such grains. */
+void PairGranInsitu::warn_of_sphere_model() {
+  if (impl_->sphere_model.empty() || impl_->warned_of_sphere_model) return;
+  int any = 0;
+  using grainscope::Shape;
+  for (int i = 0; i < atom->nlocal && !any; i++) any = grainscope::symmetry_axis(atom->shape[i]).shape != Shape::sphere;
+  MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, world);
+  if (!any) return;
+  const std::string message = "pair_style gran/insitu: '" + impl_->sphere_model + "' takes its geometry from the "
+      "distance of centres and the radii of spheres: with surface superquadric its forces on grains that are no "
+      "spheres are wrong. Say 'surface ellipsoid', which gives sjkr and sjkr2 the contact's own overlap and effective radius";
+  if (comm->me == 0) error->warning(FLERR, message.c_str());
+  impl_->warned_of_sphere_model = true;
 }
 
 void PairGranInsitu::watch_time_step() {
@@ -248,6 +274,7 @@ void PairGranInsitu::require_box_large_enough() {
 
 void PairGranInsitu::compute(int eflag, int vflag) {
   if (neighbor->ago == 0 && history) require_box_large_enough();
+  if (neighbor->ago == 0) warn_of_sphere_model();
   FixSetupMemory *memory = impl_->memory;
   const bool again = memory && update->setupflag && memory->again();
   if (again) {
@@ -257,6 +284,7 @@ void PairGranInsitu::compute(int eflag, int vflag) {
   {
     const grainscope::KeptHistory kept(again ? listgranhistory : nullptr, list, dnum());
     if (impl_->observer.begin(!update->setupflag, again)) update_image_shifts();
+    set_tangential_bound();
     PairGran::compute(eflag, vflag);
     impl_->observer.end();
   }
@@ -264,6 +292,13 @@ void PairGranInsitu::compute(int eflag, int vflag) {
   impl_->grains = atom->natoms;
   if (memory) memory->set_stamp(impl_->observer.stamp());
   impl_->watch.judge();
+}
+
+/** In first evaluations, and for the walls that follow. */
+void PairGranInsitu::set_tangential_bound() {
+  using Mode = TangentialBound::Mode;
+  const bool first = update->setupflag && impl_->observer.first_evaluation();
+  TangentialBound::get().set(!first ? Mode::off : impl_->neutral ? Mode::bound : Mode::watch);
 }
 
 /** The host re-evaluates all contacts for compute pair/gran/local, and its surface model writes to the contact history while at it. */

@@ -60,6 +60,8 @@ class PairGranInsitu : public PairGranProxy, public grainscope::EllipsoidOwner {
   void require_same_columns_in_restart();
   void require_box_large_enough();
   void warn_of_stale_springs();
+  void warn_of_sphere_model();
+  void set_tangential_bound();
   void watch_time_step();
   void update_image_shifts();
 };

@@ -120,7 +120,7 @@ def automatic_gain(ranks):
     rows = contacts(law, grains_of(dumps[1][1]), box, False)
     ny2, ry2 = rows["normal"][:, 1] ** 2, rows["branch"][:, 1] ** 2
     stiffness = np.sum((1.5 * rows["kn"] * ny2 + rows["kt"] * (1 - ny2)) * ry2) / box.volume
-    sticking = rows["gamma_t"] * (rows["sliding"] == 0)
+    sticking = rows["gamma_t"]
     damping = np.sum((rows["gamma_n"] * ny2 + sticking * (1 - ny2)) * ry2) / box.volume
     lasts = math.ceil(every / rate / deck.dt()) * deck.dt()
     kp = 0.5 * table[LENGTH][0] / (damping + stiffness * lasts)

@@ -24,7 +24,8 @@ def law_of(deck):
 
     young = np.array(deck.material.young if len(deck.material.young) == types else deck.material.young * types)
     return Law(young, POISSON, pairs(deck.material.restitution), pairs(deck.material.friction), deck.dt(), deck.tangential,
-               "tangential_damping off" not in deck.extra, "limitForce on" in deck.extra)
+               "tangential_damping off" not in deck.extra, "limitForce on" in deck.extra, deck.cohesion, pairs(deck.material.cohesion),
+               "tangential_reduce on" in deck.extra, "setup neutral" in deck.extra)
 
 
 def ordered(rows):
@@ -59,6 +60,7 @@ def check_rows(found, expected, step):
     force = float(np.abs(expected["force"]).max())
     speed = float(max(np.abs(expected["ut"]).max(), np.abs(expected["un"]).max()))
     scales = {"sliding": 1.0, "slip": 1e-3, "overlap": 1.0, "ut": speed, "un": speed,
+              "mobilisation": max(1.0, float(expected["mobilisation"].max())),  # over a limit that may be nearly 0
               **{name: force for name in ("ft", "fn_damping", "fn", "force")}}
     for name in expected.keys() & found.keys():
         require_close(found[name], expected[name], TOLERANCE, f"step {step}: {name}", scales.get(name))
@@ -80,10 +82,10 @@ def under_control(deck, rate=0.03):
 
 
 def check_powers(rows, found, dt, step):
-    sliding = rows["sliding"] > 0
+    cut = rows["cut"] > 0
     normal = -np.sum(rows["fn_damping"] * rows["un"])
-    rubbing = -np.sum(np.einsum("ca,ca->c", rows["ft"], rows["ut"])[sliding])
-    damping = np.sum((rows["gamma_t"] * np.einsum("ca,ca->c", rows["ut"], rows["ut"]))[~sliding])
+    rubbing = -np.sum(np.einsum("ca,ca->c", rows["ft"], rows["ut"])[cut])
+    damping = np.sum(rows["gamma_t"] * np.einsum("ca,ca->c", rows["ut"], rows["ut"]))
     scale = max(abs(normal), abs(rubbing), abs(damping))
     require_close(found[:3], [normal, rubbing, damping], TOLERANCE, f"step {step}: instantaneous powers", scale)
     friction = np.sum(np.linalg.norm(rows["ft"], axis=1) * rows["slip"]) / dt
@@ -98,6 +100,7 @@ def spheres(**choices):
 
 TWO_TYPES = {"packing": dense_packing(atom_style="sphere", minimum=60, types=2, sizes=(0.9, 1.0, 1.1), overlap=0.053, speed=0.8),
              "material": Material(young=(5e6, 2e7), restitution=(0.3, 0.5, 0.5, 0.8), friction=(0.05, 0.2, 0.2, 0.9))}
+STICKY = Material(cohesion=(1e5,))  # about as strong as the repulsion
 CASES = {name: in_simple_shear(spheres(**choices)) for name, choices in {
     "history": {},
     "history-undamped": {"extra": "tangential_damping off"},
@@ -106,6 +109,14 @@ CASES = {name: in_simple_shear(spheres(**choices)) for name, choices in {
     "limit-force": {"extra": "limitForce on", "material": Material(restitution=(0.1,))},
     "slippery": {"material": Material(friction=(0.01,), restitution=(0.1,))},
     "two-types": TWO_TYPES,
+    "sjkr": {"cohesion": "sjkr", "material": STICKY},
+    "sjkr2": {"cohesion": "sjkr2", "material": STICKY},
+    "sjkr-reduces-friction": {"cohesion": "sjkr", "material": STICKY, "extra": "tangential_reduce on"},
+    "sjkr-no-history": {"cohesion": "sjkr", "material": STICKY, "tangential": "no_history"},
+    "sjkr-limit-force": {"cohesion": "sjkr", "material": replace(STICKY, restitution=(0.1,)), "extra": "limitForce on tangential_reduce on"},
+    "neutral": {"extra": "setup neutral"},
+    "neutral-slippery": {"material": Material(friction=(0.01,), restitution=(0.1,)), "extra": "setup neutral"},
+    "neutral-two-types": {**TWO_TYPES, "extra": "setup neutral"},
 }.items()}
 CASES["under-pressure-control"] = under_control(spheres())
 CASES["sheared-backward"] = in_simple_shear(spheres(), -0.03)

@@ -47,6 +47,20 @@ BOTH = "surface ellipsoid: meanCurvature and gaussianCurvature cannot both be ye
 NEEDS = "surface ellipsoid needs blockiness 2 2 of every grain, got"
 
 
+LIQUID = [f"fix {name} all property/global {name} {value}" for name, value in (
+    ("surfaceTension", "scalar 0.05"), ("fluidViscosity", "scalar 1.0"), ("surfaceLiquidContentInitial", "scalar 0.1"),
+    ("maxSeparationDistanceRatio", "scalar 1.1"), ("minSeparationDistanceRatio", "scalar 0.01"), ("contactAngle", "peratomtype 0.0"))]
+SPHERES = Packing((40.0, 20.0, 20.0), [Grain((-15.0 + 6.0 * k, 0.0, 0.0)) for k in range(6)], origin=(-20.0, -10.0, -10.0), triclinic=False)
+
+
+def bridge(model, number, **choices):
+    return refused(f"surface ellipsoid: 'cohesion {model}' knows the distance of spheres only, and grain {number} is none", "use cohesion sjkr or sjkr2",
+                   body=(*LIQUID, "run 1"), cohesion=model, **choices)
+
+
+ONE_SPHEROID = replace(SPHERES, grains=[*SPHERES.grains[:4], grains().grains[4], SPHERES.grains[5]])
+
+
 def solver_of(style="gran/insitu", surface="ellipsoid", atom_style="superquadric"):
     return lambda: Deck(dense_packing(1.5 if atom_style == "superquadric" else 1.0, atom_style=atom_style), pair=style, surface=surface,
                         body=[SOLVER, *thermo(1, "c_solver"), "run 1"])
@@ -74,6 +88,11 @@ CASES = {
         "gaussianCurvature yes", "run 1")),
     "limit-negative": refused("surface ellipsoid: curvatureLimitFactor must be at least 0, got -0.5", extra="curvatureLimitFactor -0.5"),
     "limit-negative-under-gran": refused("curvatureLimitFactor must be at least 0, got -2", extra="curvatureLimitFactor -2", pair="gran"),
+    "bridge-washino": bridge("washino/capillary/viscous", 1),
+    "bridge-easo": bridge("easo/capillary/viscous", 1),
+    "bridge-under-gran": bridge("washino/capillary/viscous", 1, pair="gran"),
+    "bridge-of-one-spheroid": bridge("washino/capillary/viscous", 5, packing=ONE_SPHEROID),
+    "bridge-of-spheres-is-taken": taken(*LIQUID, "run 1", packing=SPHERES, cohesion="washino/capillary/viscous"),
     "misspelt-surface": refusal(lambda: deck(surface="elipsoid"), "invalid contact model", "elipsoid"),
     "solver-of-a-group": refused("compute contact/solver: the group must be 'all'", "got 'few'", body=(
         "group few id 1:3", SOLVER.replace("all", "few"), "run 1")),

@@ -19,6 +19,7 @@ Contact contact_of(fuzz::Input &input) {
   c.damping_coefficient = input.flag() ? input.logarithmic(1e-6, 1e6) : 0.0;
   c.tangential_damping = input.flag() ? c.damping_coefficient : 0.0;
   c.sliding = input.flag();
+  c.damped = !c.sliding && c.tangential_damping > 0.0;
   return c;
 }
 

@@ -29,6 +29,7 @@ Touch touch_of(fuzz::Input &input, double size, double stiffness) {
   c.damping_coefficient = input.flag() ? input.logarithmic(1e-9, 1e9) : 0.0;
   c.tangential_damping = input.uniform(0.0, 1.0) * c.damping_coefficient;
   c.sliding = input.flag();
+  c.damped = !c.sliding && c.tangential_damping > 0.0;
   t.exponent = input.flag() ? 1.5 : 1.0;
   t.sticks = input.flag();
   return t;

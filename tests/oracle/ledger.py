@@ -26,7 +26,7 @@ class Snapshot:
             row = {name: values[k] for name, values in rows.items()}
             row["before"], row["spring"] = (springs.get((i, j), NONE) if law.tangential == "history" else NONE for springs in (before, law.springs))
             row["elastic"] = row["kn"] * row["overlap"]
-            row["viscous"] = np.zeros(3) if row["sliding"] else -row["gamma_t"] * row["ut"]
+            row["viscous"] = -row["gamma_t"] * row["ut"]
             self.contacts[(i, j)] = row
 
     def translation(self, v, x, dt, frame):

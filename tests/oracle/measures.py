@@ -44,10 +44,10 @@ def stress_vector(rows, grains, box, chosen, softest, flattest):
 
 
 def dissipation_instantaneous(rows):
-    """P_n = -sum F_n^gamma u_n; P_t = -sum over sliding contacts of F_t . u_t."""
+    """P_n = -sum F_n^gamma u_n; P_t = -sum over contacts that were cut of F_t . u_t."""
     normal = -np.sum(rows["fn_damping"] * rows["un"])
-    sliding = rows["sliding"] > 0
-    friction = -np.sum(np.einsum("ca,ca->c", rows["ft"], rows["ut"])[sliding])
+    cut = rows["slip"] > 0
+    friction = -np.sum(np.einsum("ca,ca->c", rows["ft"], rows["ut"])[cut])
     return normal, friction
 
 

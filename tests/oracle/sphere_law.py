@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Contacts of spheres from positions and velocities alone: geometry, Hertz (or Hooke-free) forces, the tangential spring followed from
 step to step. F_n = 4/3 E* sqrt(R* d) d - gamma_n u_n; k_t = 8 G* sqrt(R* d); gamma = -2 sqrt(5/6) b sqrt(S m*), S = 2 E* sqrt(R* d)
-for the normal part and k_t for the tangential one, b = ln e / sqrt(ln^2 e + pi^2)."""
+for the normal part and k_t for the tangential one, b = ln e / sqrt(ln^2 e + pi^2). Cohesion adds -energy x area along the normal, after the
+friction limit mu |F_n| is taken, or before it with `tangential_reduce on`."""
 from dataclasses import dataclass, field
 import itertools
 import math
@@ -19,6 +20,10 @@ class Law:
     tangential: str = "history"
     tangential_damping: bool = True
     limit_force: bool = False
+    cohesion: str = "off"
+    energy: np.ndarray = None  # of cohesion, types x types
+    reduces: bool = False      # cohesion lowers the friction limit
+    bounded: bool = False      # tangential damping is kept to the limit in the first evaluation
     springs: dict = field(default_factory=dict)
 
     def stiffness(self, a, b):
@@ -27,6 +32,14 @@ class Law:
         effective = 1.0 / ((1 - nu * nu) / ea + (1 - nu * nu) / eb)
         shear = 1.0 / (2 * (2 - nu) * (1 + nu) / ea + 2 * (2 - nu) * (1 + nu) / eb)
         return effective, shear
+
+
+def cohesive_area(model, ri, rj, distance):
+    """Of the circle in which two spheres meet; or sjkr2's."""
+    if model == "sjkr":
+        height = (distance ** 2 + ri ** 2 - rj ** 2) / (2 * distance)  # of that circle's plane over the centre of i
+        return math.pi * (ri ** 2 - height ** 2)
+    return 2.0 * math.pi * (2.0 * ri * rj / (ri + rj)) * (ri + rj - distance)
 
 
 def half_step_velocities(grains, dt, first):
@@ -72,26 +85,31 @@ def contacts(law, grains, box, first):
         fn, damped = kn * overlap - gamma_n * un, -gamma_n * un
         if law.limit_force and fn < 0.0:  # no attraction: damping takes away the elastic force and no more
             fn, damped = 0.0, -kn * overlap
-        ft, sliding, slip, spring = tangential_force(law, law.springs.get((i, j)), ut, n, kt, gamma_t,
-                                                     law.friction[a, b] * abs(fn), first)
+        cohesion = 0.0
+        if law.cohesion != "off":
+            cohesion = -law.energy[a, b] * cohesive_area(law.cohesion, grains.radius[i], grains.radius[j], distance)
+        limit = law.friction[a, b] * abs(fn + cohesion if law.reduces else fn)
+        ft, kind, slip, spring, gamma_t = tangential_force(law, law.springs.get((i, j)), ut, n, kt, gamma_t, limit, first)
         springs[(i, j)] = spring
+        fn += cohesion
+        mobilisation = 0.0 if law.tangential == "off" or limit == 0.0 else np.linalg.norm(ft) / limit
         rows.append({"id": (grains.ids[i], grains.ids[j]), "image": image, "point": grains.x[i] - ri * n, "normal": n, "branch": branch,
                      "overlap": overlap, "force": fn * n + ft, "fn": fn, "fn_damping": damped, "ft": ft, "un": un, "ut": ut,
-                     "sliding": float(sliding), "slip": slip, "gamma_t": gamma_t,
+                     "sliding": float(kind != "sticks"), "cut": kind == "cut", "slip": slip, "gamma_t": gamma_t, "mobilisation": mobilisation,
                      "kn": kn, "kt": kt, "gamma_n": gamma_n})
     law.springs = springs
     return {name: np.array([row[name] for row in rows]) for name in rows[0]}
 
 
 def tangential_force(law, spring, ut, n, kt, gamma_t, limit, first):
-    """(force, sliding, slip, spring) of one contact."""
+    """(force, "sticks", "cut" or "beyond" the limit, slip, spring, damping coefficient that acts) of one contact."""
     if law.tangential == "off":
-        return np.zeros(3), False, 0.0, None
+        return np.zeros(3), "sticks", 0.0, None, 0.0
     speed = np.linalg.norm(ut)
     if law.tangential == "no_history":
-        sliding = gamma_t * speed > limit
-        coefficient = limit / speed if sliding else gamma_t
-        return -coefficient * ut, sliding, speed * law.dt if sliding else 0.0, None
+        if gamma_t * speed > limit:
+            return -limit / speed * ut, "cut", speed * law.dt, None, 0.0
+        return -gamma_t * ut, "sticks", 0.0, None, gamma_t
     spring = np.zeros(3) if spring is None else spring
     if not first:
         spring = spring + ut * law.dt
@@ -99,5 +117,17 @@ def tangential_force(law, spring, ut, n, kt, gamma_t, limit, first):
     length = np.linalg.norm(spring)
     if kt * length > limit:
         cut = spring * (limit / (kt * length))
-        return -kt * cut, True, length - limit / kt, cut
-    return -kt * spring - gamma_t * ut, False, 0.0, spring
+        return -kt * cut, "cut", length - limit / kt, cut, 0.0
+    beyond = first and np.linalg.norm(kt * spring + gamma_t * ut) > limit
+    if beyond and law.bounded:
+        gamma_t = bounded_damping(gamma_t, kt * spring, ut, limit)
+    return -kt * spring - gamma_t * ut, "beyond" if beyond else "sticks", 0.0, spring, gamma_t
+
+
+def bounded_damping(gamma_t, force, ut, limit):
+    """The largest coefficient that keeps the limit, by bisection."""
+    low, high = 0.0, gamma_t
+    for _ in range(200):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if np.linalg.norm(force + middle * ut) <= limit else (low, middle)
+    return low

@@ -82,7 +82,7 @@ def ends(rows, grains):
 def powers(rows):
     """P_n and P_t of each contact, instantaneous."""
     normal = -rows["fn_damping"] * rows["un"]
-    return normal, -np.einsum("ca,ca->c", rows["ft"], rows["ut"]) * (rows["sliding"] > 0)
+    return normal, -np.einsum("ca,ca->c", rows["ft"], rows["ut"]) * (rows["slip"] > 0)
 
 
 def surface_table(rows, grains, volume, chosen, bins=10, angle="polar", axis="auto"):

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_SPHERE_GEOMETRY_H
+#define GRAINSCOPE_SPHERE_GEOMETRY_H
+
+#include "contact_interface.h"
+#include <string>
+
+namespace LAMMPS_NS { class Atom; class LAMMPS; class PairGran; }
+
+namespace grainscope {
+
+/** Models of LIGGGHTS that know spheres only: cohesion sjkr and sjkr2 and the adhesion of the normal models edinburgh
+ *  take their contact area from the distance of the centres and the radii. For grains that are no spheres this lends
+ *  them two spheres that meet as the grains do: of the contact's overlap and effective radius R*, their radii in the
+ *  ratio of those of equal volume. The area of sjkr is then 2 pi R* delta, less what two spheres lack of it at a
+ *  finite overlap. A wall meets one sphere of radius R*. Capillary bridges act at a distance, and are refused. */
+class SphereGeometry {
+ public:
+  using Sides = LIGGGHTS::ContactModels::SurfacesIntersectData;
+
+  /** Once the models of the pair style or wall are known. */
+  void connect(LAMMPS_NS::LAMMPS *lmp, LIGGGHTS::IContactHistorySetup *setup);
+  bool needed() const { return needed_; }
+  /** The words of a model that cannot be helped so, or "". */
+  const std::string &refused() const { return refused_; }
+
+  void enter(Sides &s);
+  /** What comes after, and the next contact of the same grain, find what was there. */
+  void leave(Sides &s) {
+    if (!lent_) return;
+    lent_ = false;
+    s.radi = kept_[0];
+    s.radj = kept_[1];
+    s.radsum = kept_[2];
+    s.r = kept_[3];
+  }
+
+  /** The words of a model of this pair style that takes grains for spheres, whatever their shape, or "". */
+  static std::string of(LAMMPS_NS::PairGran &pair);
+
+ private:
+  const LAMMPS_NS::Atom *atom_ = nullptr;
+  bool needed_ = false, lent_ = false;
+  std::string refused_;
+  double kept_[4] = {0.0, 0.0, 0.0, 0.0};
+};
+
+}
+
+#endif
