@@ -8,6 +8,7 @@
 #include "gran_insitu_models.h"
 #include "kept_history.h"
 #include "stop_signal.h"
+#include "surface_required.h"
 #include "time_step_watch.h"
 #include "atom.h"
 #include "comm.h"
@@ -174,6 +175,7 @@ void PairGranInsitu::init_style() {
   if (impl_->renumbered && comm->me == 0)
     error->warning(FLERR, "grains were given other IDs, and the host keeps tangential springs by ID: some are now those of other contacts. Say "
                           "'compress no' to delete_atoms");
+  grainscope::require_surface_models(lmp, this, impl_->models + (impl_->ledger ? " ledger on" : "") + (impl_->neutral ? " setup neutral" : ""));
   PairGranProxy::init_style();
   FixRunGuard::make(lmp, impl_->models + (impl_->ledger ? " ledger on" : ""));
   if (impl_->neutral) {

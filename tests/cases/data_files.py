@@ -1,0 +1,271 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Data files of superquadrics: write_data and read_data, files by hand, compute property/atom; and a run without a screen."""
+from dataclasses import replace
+import math
+import os
+from pathlib import Path
+import tempfile
+
+import numpy as np
+
+from case import main, require, require_close, require_equal, require_same_snapshots
+from deck import Deck, dump_grains
+from packing import Grain, Packing, number, numbers
+from run import attempt, run, tail
+
+INTEGERS = "id type ix iy iz"
+GIVEN = "shapex shapey shapez blockiness1 blockiness2 density quat1 quat2 quat3 quat4 vx vy vz omegax omegay omegaz"
+DERIVED = "mass radius inertiax inertiay inertiaz"
+PLACES = "x y z"
+SPINS = "angmomx angmomy angmomz"
+ALL = f"{INTEGERS} {GIVEN} {DERIVED} {PLACES} {SPINS}"
+VOLUME = "compute volume all property/atom vol"
+
+
+def unit(quaternion):
+    return tuple(float(q) for q in np.array(quaternion) / np.linalg.norm(quaternion))
+
+
+def grains(seed=3):
+    """Spheres, spheroids, ellipsoids and boxes, turned, thrown and spinning at random, far from each other."""
+    random = np.random.default_rng(seed)
+    shapes = ((1.0, 1.0, 1.0), (1.0, 1.0, 1.5), (1.0, 1.0, 0.4), (0.7, 0.9, 1.3), (0.1, 0.2, 1.7))
+    blockiness = ((2.0, 2.0), (2.0, 2.0), (2.0, 2.0), (2.0, 2.0), (3.5, 2.7))
+    return [Grain((4.2 * (k % 3) + 2.1 + 0.1 * random.uniform(), 4.2 * (k // 3) + 2.1 + 0.1 / 3.0, 4.0 + random.uniform()), shapes[k % 5],
+                  unit(random.normal(size=4)), tuple(random.normal(size=3)), tuple(3.0 * random.normal(size=3)), 1 + k % 2, blockiness[k % 5])
+            for k in range(9)]
+
+
+def packing(tilt):
+    return Packing((12.6, 12.6, 12.6), grains(), tilt=tilt, types=2, triclinic=tilt != 0.0)
+
+
+SETTINGS = ["set type 2 density 1234.5678901234567", "set atom 3 image 2 -1 0", "set atom 4 image -512 511 7", VOLUME]
+
+
+def seen(deck, columns=ALL):
+    return [*dump_grains(deck.packing, 1, columns=columns + " c_volume"), "run 0"]
+
+
+def reading(deck, file, *body):
+    """The deck that starts from a data file."""
+    return "\n".join([*deck.header(), f"read_data {file}", *deck.physics(), VOLUME, *body]) + "\n"
+
+
+def there_and_back(tilt, steps, place, spin):
+    """write_data, read_data on as many ranks: the same grains, but for the rounding of `place` and of `spin`."""
+    def case(ranks):
+        deck = Deck(packing(tilt))
+        moved = [f"run {steps}"] if steps else []
+        deck.body = [*SETTINGS, *moved, *seen(deck), "write_data grains.data"]
+        first = run(deck, ranks)
+        again = run(reading(deck, first.folder / "grains.data", *seen(deck)), ranks)
+        step, written = first.dump("grains.dump")[-1]
+        _, read = again.dump("grains.dump")[-1]
+        require(step == steps and len(written["id"]) == 9, f"{len(written['id'])} grains in step {step}")
+        for name in f"{INTEGERS} {GIVEN} {DERIVED} c_volume".split():
+            require_equal(read[name], written[name], name)
+        for name in PLACES.split():
+            require_close(read[name], written[name], place, name, 12.6)
+        scale = float(max(np.abs(written[name]).max() for name in SPINS.split()))
+        for name in SPINS.split():
+            require_close(read[name], written[name], spin, name, scale)
+        require(np.ptp(written["ix"]) > 100 and float(np.abs(written["angmomx"]).min()) > 0.0, "nothing to lose")
+    return case
+
+
+def columns_of_file(ranks):
+    """What write_data writes, against the grains as they were made: by hand, column by column."""
+    deck = Deck(packing(0.0), body=[*SETTINGS, "write_data grains.data"])
+    lines = run(deck, ranks).file("grains.data").read_text().splitlines()
+    at, end = lines.index("Atoms"), lines.index("Velocities")
+    atoms = {words[0]: words[1:] for words in (line.split() for line in lines[at + 2:end - 1])}
+    velocities = {words[0]: words[1:] for words in (line.split() for line in lines[end + 2:]) if words}
+    require(len(atoms) == len(velocities) == 9, f"{len(atoms)} grains, {len(velocities)} velocities")
+    images = {"3": ["2", "-1", "0"], "4": ["-512", "511", "7"]}
+    for k, grain in enumerate(deck.packing.grains, 1):
+        words = atoms[str(k)]
+        require(len(words) == 17 and words[0] == str(grain.type) and words[14:] == images.get(str(k), ["0"] * 3), f"grain {k}: {words}")
+        density = 1000.0 if grain.type == 1 else 1234.5678901234567
+        expected = (density, *grain.semi_axes, *grain.blockiness, *grain.position)
+        require_equal([float(w) for w in words[1:10]], expected, f"grain {k}")
+        # `set quat_direct` divides a unit quaternion by its length once more: two roundings.
+        require_close([float(w) for w in words[10:14]], grain.quaternion, 4e-16, f"quaternion of grain {k}", 1.0)
+        require_equal([float(w) for w in velocities[str(k)]], (*grain.velocity, *grain.omega), f"velocity of grain {k}")
+
+
+HEADER = """superquadrics: id type density shapex shapey shapez blockiness1 blockiness2 x y z
+
+3 atoms
+2 atom types
+
+-6 6 xlo xhi
+-6 6 ylo yhi
+-6 6 zlo zhi
+2 0 0 xy xz yz
+
+Atoms
+
+"""
+
+
+def write_file(lines, header=HEADER):
+    folder = Path(tempfile.mkdtemp(prefix="data-", dir=os.environ["GRAINSCOPE_SCRATCH"]))
+    (folder / "hand.data").write_text(header + "\n".join(lines) + "\n")
+    return folder / "hand.data"
+
+
+def hand_deck():
+    """The box of HEADER; three grains of it as create_atoms and set make them."""
+    half = math.sqrt(0.5)
+    made = [Grain((-1.99, 0.0, 0.0), (1.0, 1.0, 1.5)), Grain((0.25, 0.0, 0.0), (0.5, 0.75, 1.25), (half, 0.0, 0.0, half), type=2),
+            Grain((3.0, 4.5, 0.0), (1.0, 1.0, 1.5), blockiness=(3.0, 4.0))]
+    return Deck(Packing((12.0, 12.0, 12.0), made, tilt=2.0, types=2, origin=(-6.0, -6.0, -6.0)))
+
+
+def by_hand(quaternions, images, comment=False):
+    """11, 14, 15 or 18 columns: the grains that `create_atoms` and `set` make, to the last bit, and those of the closed forms."""
+    def case(ranks):
+        deck = hand_deck()
+        turned = quaternions
+        if not turned:
+            deck.packing.grains[1] = replace(deck.packing.grains[1], quaternion=(1.0, 0.0, 0.0, 0.0))
+        flags = [(0, 0, 0), (3, -2, 1), (-1, 0, 0)]
+        lines = []
+        for k, grain in enumerate(deck.packing.grains):
+            words = [str(k + 1), str(grain.type), "1000", numbers(grain.semi_axes), numbers(grain.blockiness), numbers(grain.position)]
+            if turned:
+                words.append(["1 0 0 0", "-2 0 0 -2", "1 0 0 0"][k])
+            if images:
+                words.append(" ".join(map(str, flags[k])))
+            lines.append("  ".join(words) + ("\t# grain" if comment else ""))
+        if turned:
+            deck.packing.grains[1] = replace(deck.packing.grains[1], quaternion=(-2.0, 0.0, 0.0, -2.0))
+        made = Deck(deck.packing, body=[VOLUME, *(f"set atom {k + 1} image {numbers(f)}".replace(".0", "") for k, f in enumerate(flags) if images),
+                                        *seen(deck)])
+        expected = run(made, ranks).dump("grains.dump")
+        found = run(reading(deck, write_file(lines), *seen(deck)), ranks).dump("grains.dump")
+        require_same_snapshots(found, expected, "a file by hand against create_atoms and set")
+        grain = found[0][1]
+        a, b, c = 0.5, 0.75, 1.25
+        mass = 1000.0 * 4.0 / 3.0 * math.pi * a * b * c
+        # The host takes volumes and moments of superquadrics from beta functions: some roundings more.
+        require_close([grain[n][1] for n in DERIVED.split()],
+                      [mass, c, *(0.2 * mass * s for s in (b * b + c * c, a * a + c * c, a * a + b * b))], 1e-13, "closed forms")
+        require_close([grain[f"quat{k}"][1] for k in (1, 2, 3, 4)], [-math.sqrt(0.5), 0, 0, -math.sqrt(0.5)] if turned else [1, 0, 0, 0],
+                      2e-16, "quaternion")
+        require([list(grain[n]) for n in ("ix", "iy", "iz")] == ([[0, 3, -1], [0, -2, 0], [0, 1, 0]] if images else [[0] * 3] * 3),
+                f"image flags {[list(grain[n]) for n in ('ix', 'iy', 'iz')]}")
+    return case
+
+
+def spin_of_file(ranks):
+    """A sphere and a spheroid that spins about its own axis go on spinning as the section Velocities has it."""
+    deck = hand_deck()
+    lines = ["1 1 1000 1 1 1 2 2 -1.99 0 0 1 0 0 0", "2 1 1000 1 1 1.5 2 2 1.5 0 0 2 0 2 0", "3 2 1000 1 1 1.5 2 2 3 4.5 0 1 0 0 0",
+             "", "Velocities", "", "3 0 0 0.5 0 0 -2", "1 0 0.25 0 1 2 3", "2 0 0 0 5 0 0"]
+    body = [*dump_grains(deck.packing, 10, columns=f"id {GIVEN} {SPINS}"), "run 10"]
+    first, last = run(reading(deck, write_file(lines), *body), ranks).dump("grains.dump")
+    omega, momentum = ([[snapshot[1][f"{name}{d}"][k] for d in "xyz"] for k in range(3)] for snapshot, name in ((last, "omega"), (first, "angmom")))
+    expected = [[1, 2, 3], [5, 0, 0], [0, 0, -2]]
+    # Ten steps of a free rotation, each with some roundings of a number of size one.
+    require_close(omega, expected, 1e-13, "angular velocities after 10 steps", 5.0)
+    mass, about_axis = 1000.0 * 4.0 / 3.0 * math.pi, 0.4
+    moments = [about_axis * mass, about_axis * 1.5 * mass, about_axis * 1.5 * mass]
+    require_close(momentum, [[m * w for w in row] for m, row in zip(moments, expected)], 1e-13, "angular momenta")
+    require_equal([last[1]["vy"][0], last[1]["vz"][2]], [0.25, 0.5], "velocities")
+
+
+def property_atom(ranks):
+    """Every word, alone and among the host's, for some grains; zero for the others."""
+    words = dict(shapex="shapex", shapey="shapey", shapez="shapez", quatw="quat1", quati="quat2", quatj="quat3", quatk="quat4",
+                 blockiness1="blockiness1", blockiness2="blockiness2")
+    deck = Deck(packing(1.5))
+    mixed = ["mass", *words, "vol", "x", "quatw"]
+    computes = [f"compute {w} few property/atom {w}" for w in words]
+    columns = f"id mass x {' '.join(words.values())} c_volume {' '.join('c_' + w for w in words)} " + \
+        " ".join(f"c_all[{k}]" for k in range(1, len(mixed) + 1))
+    deck.body = [VOLUME, "group few id 2:8", *computes, f"compute all few property/atom {' '.join(mixed)}",
+                 *dump_grains(deck.packing, 5, columns=columns), "run 5"]
+    for step, grain in run(deck, ranks).dump("grains.dump"):
+        inside = (grain["id"] >= 2) & (grain["id"] <= 8)
+        for word, name in words.items():
+            require_equal(grain["c_" + word], grain[name] * inside, f"{word}, step {step}")
+        for k, word in enumerate(mixed, 1):
+            require_equal(grain[f"c_all[{k}]"], grain[words.get(word, {"vol": "c_volume"}.get(word, word))] * inside, f"column {k}, {word}")
+    require_equal(grain["shapez"][4], 1.7, "shapez of grain 5")
+    require(bool((grain["quat1"] != 0.0).all()), "no orientation")
+
+
+def spheres(ranks):
+    """Files of atom style sphere are the host's: 7 columns and image flags."""
+    made = [Grain((2.0 + 3.0 * k, 2.0, 1.0 + 0.1 * k), (0.5 + 0.1 * k,) * 3, velocity=(0.1 * k, 0.2, 0.0), omega=(0.0, 1.0, 0.1 * k)) for k in range(3)]
+    deck = Deck(Packing((12.0, 12.0, 12.0), made, atom_style="sphere", triclinic=False))
+    columns = "id type ix iy iz x y z vx vy vz omegax omegay omegaz radius mass density"
+    deck.body = ["set atom 2 image 3 -2 0", VOLUME, *seen(deck, columns), "write_data grains.data"]
+    first = run(deck, ranks)
+    text = first.file("grains.data").read_text().splitlines()
+    line = next(line.split() for line in text[text.index("Atoms") + 2:] if line.split()[0] == "2")
+    require(len(line) == 10 and line[7:] == ["3", "-2", "0"], f"{line}")
+    require_equal([float(w) for w in line[2:7]], [1.2, 1000.0, 5.0, 2.0, 1.1], "a sphere's line")
+    again = run(reading(deck, first.folder / "grains.data", *seen(deck, columns)), ranks)
+    require_same_snapshots(again.dump("grains.dump"), first.dump("grains.dump"), "spheres through a file")
+
+
+def inserted(ranks, arguments=()):
+    """Superquadrics put in by fix insert/pack."""
+    lines = ["atom_style superquadric", "atom_modify map array", "boundary f f f", "newton off", "communicate single vel yes", "units si",
+             "region box block 0 8 0 8 0 8 units box", "create_box 1 box", *Deck(Packing((8.0,) * 3, [])).physics(),
+             "fix shapes all particletemplate/superquadric 15485863 atom_type 1 density constant 1000 shape constant 0.5 0.5 0.75 "
+             "blockiness constant 2.0 2.0", "fix mix all particledistribution/discrete 15485867 1 shapes 1.0",
+             "region inner block 1 7 1 7 1 7 units box",
+             "fix pack all insert/pack seed 32452843 distributiontemplate mix orientation random insert_every once overlapcheck yes "
+             "all_in yes particles_in_region 20 region inner", VOLUME, *dump_grains(Packing((8.0,) * 3, []), 1, columns=ALL), "run 1",
+             "write_data grains.data"]
+    return attempt("\n".join(lines) + "\n", ranks, arguments=arguments)
+
+
+def inserted_to_file(ranks):
+    """What fix insert/pack made can be written, and comes back."""
+    result = inserted(ranks)
+    require(result.code == 0, tail(result.output))
+    deck = Deck(Packing((8.0,) * 3, []), boundary="f f f")
+    again = run(reading(deck, result.folder / "grains.data", *seen(deck)), ranks).dump("grains.dump")[0][1]
+    written = result.dump("grains.dump")[-1][1]
+    require(len(written["id"]) == 20, f"{len(written['id'])} grains")
+    for name in f"{INTEGERS} {GIVEN} {PLACES}".split():
+        require_equal(again[name], written[name], name)
+    for name in DERIVED.split():  # the template multiplies in another order
+        require_close(again[name], written[name], 1e-14, name)
+
+
+def screen_none(ranks):
+    """fix insert/pack, of which one part prints without asking for a screen; the same grains as with one."""
+    with_screen, without = inserted(ranks), inserted(ranks, ("-screen", "none"))
+    require(without.code == 0, f"code {without.code}: {tail(without.output)}")
+    require(without.output.strip() == "", f"it said on the screen: {tail(without.output)}")
+    require("Resetting random" in with_screen.output, "nothing that printed without asking")
+    require_same_snapshots(without.dump("grains.dump"), with_screen.dump("grains.dump"), "without a screen")
+
+
+CASES = {
+    "there-and-back": there_and_back(0.0, 0, 0.0, 0.0),
+    # A triclinic box: places go to fractions of the box and back, by the writer, the reader and the run: some roundings of an edge.
+    "there-and-back-triclinic": there_and_back(3.1, 0, 1e-15, 0.0),
+    # An integrator keeps the angular momentum and derives the angular velocity; a file holds the latter. Moments differ 70-fold.
+    "there-and-back-after-steps": there_and_back(0.0, 50, 0.0, 1e-13),
+    "columns-of-file": columns_of_file,
+    "by-hand-11-columns": by_hand(False, False),
+    "by-hand-14-columns": by_hand(False, True),
+    "by-hand-15-columns": by_hand(True, False),
+    "by-hand-18-columns": by_hand(True, True),
+    "by-hand-with-comments": by_hand(True, True, comment=True),
+    "spin-of-file": spin_of_file,
+    "property-atom": property_atom,
+    "spheres": spheres,
+    "inserted": inserted_to_file,
+    "screen-none": screen_none,
+}
+
+if __name__ == "__main__":
+    main(CASES)
