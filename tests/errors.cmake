@@ -50,10 +50,13 @@ add_cases(error-ledger errors/ledger.py LABEL error RANKS 1 CASES
   pre-no-at-first time-step-changed)
 add_cases(error-ledger errors/ledger.py LABEL error RANKS 2 CASES ledger-off loose-grains grains-inserted restart-without restart-with)
 add_cases(data-files-refused errors/data_files.py LABEL error STYLES data/files RANKS 1 CASES
-  columns-of-a-sphere a-column-too-few three-numbers-of-a-quaternion-and-images lines-of-several-lengths an-empty-line id-zero id-no-number
-  type-too-large density-zero shape-negative shape-not-finite blockiness-below-2 place-no-number quaternion-zero quaternion-not-finite
-  image-out-of-range image-no-whole-number velocity-of-three velocity-not-finite write-own-inertia write-own-radius)
-add_cases(data-files-refused errors/data_files.py LABEL error STYLES data/files RANKS 2 CASES a-column-too-few quaternion-zero write-own-mass)
+  columns-of-a-sphere a-column-too-few three-numbers-of-a-quaternion-and-images lines-of-several-lengths an-empty-line
+  id-zero id-no-number type-too-large density-zero shape-negative shape-not-finite blockiness-below-2 place-no-number
+  quaternion-zero quaternion-not-finite image-out-of-range image-no-whole-number velocity-of-three velocity-not-finite
+  write-own-inertia write-own-radius)
+add_cases(data-files-refused errors/data_files.py LABEL error STYLES data/files RANKS 2 CASES
+  a-column-too-few quaternion-zero write-own-mass)
 add_cases(error-pair errors/pair.py LABEL error STYLES gran/insitu RANKS 1 CASES
-  superquadrics-with-the-surface-of-spheres boxy-grains-without-a-surface wall-without-a-surface superquadrics-without-a-surface-under-gran)
+  superquadrics-with-the-surface-of-spheres boxy-grains-without-a-surface wall-without-a-surface
+  superquadrics-without-a-surface-under-gran)
 add_cases(error-pair errors/pair.py LABEL error STYLES gran/insitu RANKS 1 2 CASES superquadrics-without-a-surface)

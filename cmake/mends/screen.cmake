@@ -1,6 +1,6 @@
 # A program without a screen.
 
-# Most of the host asks whether there is a screen before it prints, and some forty places do not. Ranks have one each, if only for what is lost.
+# Most of the host asks whether there is a screen before it prints; some forty places do not. They get /dev/null.
 mend(lammps.cpp "\n  // check datatype settings in lmptype.h\n" "
   if (!screen) screen = fopen(\"/dev/null\",\"w\");
 

@@ -7,8 +7,10 @@ mend(atom_vec.h "\n  virtual void data_atom(double *, tagint, char **) = 0;" "
 mend(atom.cpp "\n  if (nwords != avec->size_data_atom && nwords != avec->size_data_atom + 3)" "
   const int columns = avec->columns_of_atoms(n,buf);
   if (nwords != columns && nwords != columns + 3)" "columns of a data file that may or may not be there")
-mend(atom.cpp "\n  if (nwords > avec->size_data_atom) imageflag = 1;" "\n  if (nwords > columns) imageflag = 1;" "likewise")
+mend(atom.cpp "\n  if (nwords > avec->size_data_atom) imageflag = 1;" "\n  if (nwords > columns) imageflag = 1;"
+     "likewise")
 mend(atom.cpp "\n  if (nwords != avec->size_data_vel)" "
   avec->check_velocities(n,buf);
   if (nwords != avec->size_data_vel)" "likewise, of velocities")
-mend(read_data.cpp "\n#define MAXLINE 256\n" "\n#define MAXLINE 1024\n" "a data file's lines are cut after 255 characters")
+mend(read_data.cpp "\n#define MAXLINE 256\n" "\n#define MAXLINE 1024\n"
+     "a data file's lines are cut after 255 characters")

@@ -36,12 +36,14 @@ bool alike(double a, double b) { return std::fabs(a - b) <= 1e-12 * std::fabs(b)
 
 }
 
-AtomVecSuperquadricFiles::AtomVecSuperquadricFiles(LAMMPS *lmp) : AtomVecSuperquadric(lmp), columns_(columns_with_quaternion) {
+AtomVecSuperquadricFiles::AtomVecSuperquadricFiles(LAMMPS *lmp)
+    : AtomVecSuperquadric(lmp), columns_(columns_with_quaternion) {
   size_data_atom = columns_with_quaternion;
 }
 
 void AtomVecSuperquadricFiles::refuse(const char *section, const std::string &id, const std::string &complaint) {
-  error->all(FLERR, ("read_data: " + std::string(section) + " of atom_style superquadric, grain " + id + ": " + complaint).c_str());
+  const std::string where = "read_data: " + std::string(section) + " of atom_style superquadric, grain " + id;
+  error->all(FLERR, (where + ": " + complaint).c_str());
 }
 
 int AtomVecSuperquadricFiles::columns_of_atoms(int n, char *lines) {
@@ -50,7 +52,8 @@ int AtomVecSuperquadricFiles::columns_of_atoms(int n, char *lines) {
     std::string complaint = line::complaint_of_grain(words, atom->ntypes, IMGMAX);
     if (!first) first = words.size();
     if (complaint.empty() && words.size() != first)
-      complaint = "all lines must have as many columns, got " + std::to_string(words.size()) + " after " + std::to_string(first);
+      complaint = "all lines must have as many columns, got " + std::to_string(words.size()) + " after " +
+          std::to_string(first);
     if (!complaint.empty()) refuse("Atoms", id_of(words), complaint);
   });
   columns_ = line::columns_without_images(first);
@@ -75,27 +78,33 @@ void AtomVecSuperquadricFiles::data_atom(double *x, tagint image, char **values)
 
 /** Integrators go on from the angular momentum. */
 void AtomVecSuperquadricFiles::data_vel(int i, char **values) {
+  using MathExtraLiggghtsNonspherical::omega_to_angmom;
   AtomVecSuperquadric::data_vel(i, values);
-  MathExtraLiggghtsNonspherical::omega_to_angmom(atom->quaternion[i], atom->omega[i], atom->inertia[i], atom->angmom[i]);
+  omega_to_angmom(atom->quaternion[i], atom->omega[i], atom->inertia[i], atom->angmom[i]);
 }
 
 /** A file holds no mass and no moments. Collective: every rank names the same grain. */
 void AtomVecSuperquadricFiles::require_grains_of_shape_and_density() {
+  using namespace MathExtraLiggghtsNonspherical;
   int first = INT_MAX;
   for (int i = 0; i < atom->nlocal; i++) {
     double radius, volume, inertia[3];
     double *shape = atom->shape[i], *blockiness = atom->blockiness[i];
-    MathExtraLiggghtsNonspherical::bounding_sphere_radius_superquadric(shape, blockiness, &radius);
-    MathExtraLiggghtsNonspherical::volume_superquadric(shape, blockiness, &volume);
-    MathExtraLiggghtsNonspherical::inertia_superquadric(shape, blockiness, atom->density[i], inertia);
-    bool kept = alike(atom->radius[i], radius) && alike(atom->volume[i], volume) && alike(atom->rmass[i], volume * atom->density[i]);
+    bounding_sphere_radius_superquadric(shape, blockiness, &radius);
+    volume_superquadric(shape, blockiness, &volume);
+    inertia_superquadric(shape, blockiness, atom->density[i], inertia);
+    bool kept = alike(atom->radius[i], radius) && alike(atom->volume[i], volume);
+    kept = kept && alike(atom->rmass[i], volume * atom->density[i]);
     for (int k = 0; k < 3; k++) kept = kept && alike(atom->inertia[i][k], inertia[k]);
     if (!kept) first = std::min(first, atom->tag[i]);
   }
   MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, world);
   if (first == INT_MAX) return;
-  error->all(FLERR, ("write_data: the radius, volume, mass or moments of inertia of grain " + std::to_string(first) + " are not those of its "
-                     "shape and density, and a data file of superquadrics holds no others: set its shape and density, or use write_restart").c_str());
+  const std::string grain = std::to_string(first);
+  const std::string complaint = "write_data: the radius, volume, mass or moments of inertia of grain " + grain + " are "
+      "not those of its shape and density, and a data file of superquadrics holds no others: set its shape and "
+      "density, or use write_restart";
+  error->all(FLERR, complaint.c_str());
 }
 
 void AtomVecSuperquadricFiles::pack_data(double **buf, int tag_offset) {

@@ -15,8 +15,9 @@ AtomStyle(granular_superquadric,AtomVecSuperquadricFiles)
 
 namespace LAMMPS_NS {
 
-/** The host's atom style superquadric, with data files that hold a grain whole: shape, orientation, image flags, spin. See doc/data_files.md.
- *  Two of its members are asked by mended lines of Atom; without them a file must have 15 or 18 columns. */
+/** The host's atom style superquadric, with data files that hold a grain whole: shape, orientation, images, spin.
+ *  Mended lines of Atom ask two of its members; without them a file must have 15 or 18 columns.
+ *  See doc/data_files.md. */
 class AtomVecSuperquadricFiles : public AtomVecSuperquadric {
  public:
   explicit AtomVecSuperquadricFiles(class LAMMPS *lmp);

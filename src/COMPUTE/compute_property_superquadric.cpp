@@ -11,7 +11,8 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-const char *const words[] = {"shapex", "shapey", "shapez", "quatw", "quati", "quatj", "quatk", "blockiness1", "blockiness2"};
+const char *const words[] = {"shapex", "shapey", "shapez", "quatw", "quati", "quatj", "quatk",
+                             "blockiness1", "blockiness2"};
 
 int word_of_ours(const Atom *atom, const char *word) {
   if (!atom->superquadric_flag) return -1;
@@ -20,7 +21,7 @@ int word_of_ours(const Atom *atom, const char *word) {
   return found == std::end(words) ? -1 : static_cast<int>(found - std::begin(words));
 }
 
-/** The words of a command as the host takes them: another in the place of each of ours, whose column is filled afterwards. */
+/** The words of a command as the host takes them: another in place of each of ours, whose column is filled later. */
 struct HostWords {
   std::vector<char *> all;
   HostWords(const Atom *atom, int first, int narg, char **arg) : all(arg, arg + narg) {
@@ -41,9 +42,11 @@ ComputePropertySuperquadric::ComputePropertySuperquadric(LAMMPS *lmp, int &iarg,
 void ComputePropertySuperquadric::init() {
   ComputePropertyAtom::init();
   for (int word : own_)
-    if (word >= 0 && !atom->superquadric_flag)
-      error->all(FLERR, ("compute property/atom: '" + std::string(words[word]) + "' needs atom_style superquadric, got '" +
-                         std::string(atom->atom_style) + "'").c_str());
+    if (word >= 0 && !atom->superquadric_flag) {
+      const std::string name = words[word], style = atom->atom_style;
+      const std::string complaint = "compute property/atom: '" + name + "' needs atom_style superquadric, got '";
+      error->all(FLERR, (complaint + style + "'").c_str());
+    }
 }
 
 double ComputePropertySuperquadric::value(int word, int i) const {

@@ -13,9 +13,9 @@ ComputeStyle(property/atom,ComputePropertySuperquadric)
 
 namespace LAMMPS_NS {
 
-/** The host's compute property/atom, which takes shapes and orientations from atom style ellipsoid alone; with atom style superquadric also:
- *  shapex shapey shapez semi-axes [length], quatw quati quatj quatk quaternion from the grain's frame to the laboratory's [-],
- *  blockiness1 blockiness2 [-]. Zero outside the group. See doc/data_files.md. */
+/** The host's compute property/atom, which knows shapes and orientations of atom style ellipsoid only, and with atom
+ *  style superquadric: shapex shapey shapez semi-axes [length], quatw quati quatj quatk quaternion from the grain's
+ *  frame to the laboratory's [-], blockiness1 blockiness2 [-]. Zero outside the group. See doc/data_files.md. */
 class ComputePropertySuperquadric : public ComputePropertyAtom {
  public:
   ComputePropertySuperquadric(class LAMMPS *lmp, int &iarg, int narg, char **arg);

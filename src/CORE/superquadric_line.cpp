@@ -13,8 +13,8 @@ namespace {
 
 enum Column { id, type, density, shape, blockiness = 6, position = 8, orientation = bare };
 
-const char *const names[] = {"id", "type", "density", "shapex", "shapey", "shapez", "blockiness1", "blockiness2", "x", "y", "z",
-                             "quatw", "quatx", "quaty", "quatz"};
+const char *const names[] = {"id", "type", "density", "shapex", "shapey", "shapez", "blockiness1", "blockiness2",
+                             "x", "y", "z", "quatw", "quatx", "quaty", "quatz"};
 const char *const image_names[] = {"ix", "iy", "iz"};
 const char *const velocity_names[] = {"id", "vx", "vy", "vz", "omegax", "omegay", "omegaz"};
 
@@ -73,8 +73,8 @@ int columns_without_images(int words) {
 std::string complaint_of_grain(const std::vector<std::string> &words, int types, int images_limit) {
   const int columns = columns_without_images(words.size());
   if (!columns)
-    return "expected 11, 14, 15 or 18 columns (id type density shapex shapey shapez blockiness1 blockiness2 x y z, then, if wanted, "
-           "quatw quatx quaty quatz, then, if wanted, ix iy iz), got " + std::to_string(words.size());
+    return "expected 11, 14, 15 or 18 columns (id type density shapex shapey shapez blockiness1 blockiness2 x y z, "
+           "then, if wanted, quatw quatx quaty quatz, then, if wanted, ix iy iz), got " + std::to_string(words.size());
   std::string complaint = whole_number_between("id", words[id], 1, INT_MAX);
   if (complaint.empty()) complaint = whole_number_between("type", words[type], 1, types);
   double length = 0.0;
@@ -84,8 +84,8 @@ std::string complaint_of_grain(const std::vector<std::string> &words, int types,
     if (k >= orientation) length = std::hypot(length, value);
   }
   if (complaint.empty() && columns > bare && !(length > 0.0 && std::isfinite(length)))
-    complaint = "the quaternion " + words[bare] + " " + words[bare + 1] + " " + words[bare + 2] + " " + words[bare + 3] +
-        " must have a length above 0";
+    complaint = wrong("quatw quatx quaty quatz", "of a length above 0",
+                      words[bare] + " " + words[bare + 1] + " " + words[bare + 2] + " " + words[bare + 3]);
   for (int k = columns; k < static_cast<int>(words.size()) && complaint.empty(); k++)
     complaint = whole_number_between(image_names[k - columns], words[k], -images_limit, images_limit - 1);
   return complaint;

@@ -20,7 +20,7 @@ std::vector<std::string> words_of(const char *line);
 /** Columns without image flags of a line of so many words; 0 for a wrong number. */
 int columns_without_images(int words);
 
-/** What is wrong with a line of the section Atoms, or nothing; image flags are from -images_limit to images_limit - 1. */
+/** What is wrong with a line of the section Atoms, or nothing. Image flags: from -images_limit to images_limit - 1. */
 std::string complaint_of_grain(const std::vector<std::string> &words, int types, int images_limit);
 
 /** What is wrong with a line of the section Velocities, or nothing. */

@@ -175,7 +175,8 @@ void PairGranInsitu::init_style() {
   if (impl_->renumbered && comm->me == 0)
     error->warning(FLERR, "grains were given other IDs, and the host keeps tangential springs by ID: some are now those of other contacts. Say "
                           "'compress no' to delete_atoms");
-  grainscope::require_surface_models(lmp, this, impl_->models + (impl_->ledger ? " ledger on" : "") + (impl_->neutral ? " setup neutral" : ""));
+  const std::string ledger = impl_->ledger ? " ledger on" : "", setup = impl_->neutral ? " setup neutral" : "";
+  grainscope::require_surface_models(lmp, this, impl_->models + ledger + setup);
   PairGranProxy::init_style();
   FixRunGuard::make(lmp, impl_->models + (impl_->ledger ? " ledger on" : ""));
   if (impl_->neutral) {

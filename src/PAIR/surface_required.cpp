@@ -17,7 +17,8 @@ std::string with_surface(const std::string &models, const std::string &surface) 
   std::istringstream words(models);
   std::string keyword, value, line;
   while (words >> keyword) {
-    const bool names_a_model = keyword == "model" || keyword == "tangential" || keyword == "cohesion" || keyword == "rolling_friction";
+    const bool law = keyword == "model" || keyword == "tangential";
+    const bool names_a_model = law || keyword == "cohesion" || keyword == "rolling_friction";
     if (keyword == "surface") words >> value;
     if (!names_a_model) break;
     words >> value;
@@ -50,16 +51,17 @@ const char *sphere_surface(Style *style) {
 
 void require_surface_models(LAMMPS *lmp, PairGran *pair, const std::string &models) {
   if (!lmp->atom->superquadric_flag) return;
-  const std::string why = "grains of atom_style superquadric need a surface model of their shape, or they collide as their bounding spheres";
+  const std::string why = "grains of atom_style superquadric need a surface model of their shape, or they collide as "
+                          "their bounding spheres; got surface '";
   if (const char *got = sphere_surface(pair)) {
     const std::string line = "pair_style gran/insitu " + with_surface(models, surface_for(lmp));
-    end_run(lmp, "pair_style gran/insitu: " + why + "; got surface '" + got + "'. Write '" + line + "'");
+    end_run(lmp, "pair_style gran/insitu: " + why + got + "'. Write '" + line + "'");
   }
   for (int k = 0; k < lmp->modify->nfix; k++) {
     FixWallGran *wall = dynamic_cast<FixWallGran *>(lmp->modify->fix[k]);
     if (!wall || std::string(wall->style).compare(0, 9, "wall/gran") != 0) continue;
     if (const char *got = sphere_surface(wall))
-      end_run(lmp, "fix " + std::string(wall->id) + " (" + wall->style + "): " + why + "; got surface '" + got + "'. Add 'surface " +
+      end_run(lmp, "fix " + std::string(wall->id) + " (" + wall->style + "): " + why + got + "'. Add 'surface " +
                    surface_for(lmp) + "' behind its other models");
   }
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Data files of superquadrics: write_data and read_data, files by hand, compute property/atom; and a run without a screen."""
+"""Data files of superquadrics: write_data and read_data, by hand, compute property/atom; and a run without a screen."""
 from dataclasses import replace
 import math
 import os
@@ -10,7 +10,7 @@ import numpy as np
 
 from case import main, require, require_close, require_equal, require_same_snapshots
 from deck import Deck, dump_grains
-from packing import Grain, Packing, number, numbers
+from packing import Grain, Packing, numbers
 from run import attempt, run, tail
 
 INTEGERS = "id type ix iy iz"
@@ -31,9 +31,14 @@ def grains(seed=3):
     random = np.random.default_rng(seed)
     shapes = ((1.0, 1.0, 1.0), (1.0, 1.0, 1.5), (1.0, 1.0, 0.4), (0.7, 0.9, 1.3), (0.1, 0.2, 1.7))
     blockiness = ((2.0, 2.0), (2.0, 2.0), (2.0, 2.0), (2.0, 2.0), (3.5, 2.7))
-    return [Grain((4.2 * (k % 3) + 2.1 + 0.1 * random.uniform(), 4.2 * (k // 3) + 2.1 + 0.1 / 3.0, 4.0 + random.uniform()), shapes[k % 5],
-                  unit(random.normal(size=4)), tuple(random.normal(size=3)), tuple(3.0 * random.normal(size=3)), 1 + k % 2, blockiness[k % 5])
-            for k in range(9)]
+
+    def grain(k):
+        place = (4.2 * (k % 3) + 2.1 + 0.1 * random.uniform(), 4.2 * (k // 3) + 2.1 + 0.1 / 3.0, 4.0 + random.uniform())
+        turned, velocity, omega = (random.normal(size=n) for n in (4, 3, 3))
+        motion = tuple(velocity), tuple(3.0 * omega)
+        return Grain(place, shapes[k % 5], unit(turned), *motion, 1 + k % 2, blockiness[k % 5])
+
+    return [grain(k) for k in range(9)]
 
 
 def packing(tilt):
@@ -85,7 +90,8 @@ def columns_of_file(ranks):
     images = {"3": ["2", "-1", "0"], "4": ["-512", "511", "7"]}
     for k, grain in enumerate(deck.packing.grains, 1):
         words = atoms[str(k)]
-        require(len(words) == 17 and words[0] == str(grain.type) and words[14:] == images.get(str(k), ["0"] * 3), f"grain {k}: {words}")
+        require(len(words) == 17 and words[0] == str(grain.type), f"grain {k}: {words}")
+        require(words[14:] == images.get(str(k), ["0"] * 3), f"image flags of grain {k}: {words}")
         density = 1000.0 if grain.type == 1 else 1234.5678901234567
         expected = (density, *grain.semi_axes, *grain.blockiness, *grain.position)
         require_equal([float(w) for w in words[1:10]], expected, f"grain {k}")
@@ -118,13 +124,15 @@ def write_file(lines, header=HEADER):
 def hand_deck():
     """The box of HEADER; three grains of it as create_atoms and set make them."""
     half = math.sqrt(0.5)
-    made = [Grain((-1.99, 0.0, 0.0), (1.0, 1.0, 1.5)), Grain((0.25, 0.0, 0.0), (0.5, 0.75, 1.25), (half, 0.0, 0.0, half), type=2),
+    made = [Grain((-1.99, 0.0, 0.0), (1.0, 1.0, 1.5)),
+            Grain((0.25, 0.0, 0.0), (0.5, 0.75, 1.25), (half, 0.0, 0.0, half), type=2),
             Grain((3.0, 4.5, 0.0), (1.0, 1.0, 1.5), blockiness=(3.0, 4.0))]
     return Deck(Packing((12.0, 12.0, 12.0), made, tilt=2.0, types=2, origin=(-6.0, -6.0, -6.0)))
 
 
 def by_hand(quaternions, images, comment=False):
-    """11, 14, 15 or 18 columns: the grains that `create_atoms` and `set` make, to the last bit, and those of the closed forms."""
+    """11, 14, 15 or 18 columns: the grains that `create_atoms` and `set` make, to the last bit; mass and moments of the
+    closed forms."""
     def case(ranks):
         deck = hand_deck()
         turned = quaternions
@@ -133,7 +141,8 @@ def by_hand(quaternions, images, comment=False):
         flags = [(0, 0, 0), (3, -2, 1), (-1, 0, 0)]
         lines = []
         for k, grain in enumerate(deck.packing.grains):
-            words = [str(k + 1), str(grain.type), "1000", numbers(grain.semi_axes), numbers(grain.blockiness), numbers(grain.position)]
+            words = [str(k + 1), str(grain.type), "1000"]
+            words += [numbers(values) for values in (grain.semi_axes, grain.blockiness, grain.position)]
             if turned:
                 words.append(["1 0 0 0", "-2 0 0 -2", "1 0 0 0"][k])
             if images:
@@ -141,8 +150,8 @@ def by_hand(quaternions, images, comment=False):
             lines.append("  ".join(words) + ("\t# grain" if comment else ""))
         if turned:
             deck.packing.grains[1] = replace(deck.packing.grains[1], quaternion=(-2.0, 0.0, 0.0, -2.0))
-        made = Deck(deck.packing, body=[VOLUME, *(f"set atom {k + 1} image {numbers(f)}".replace(".0", "") for k, f in enumerate(flags) if images),
-                                        *seen(deck)])
+        wrapped = [f"set atom {k + 1} image {' '.join(map(str, flags[k]))}" for k in range(3) if images]
+        made = Deck(deck.packing, body=[VOLUME, *wrapped, *seen(deck)])
         expected = run(made, ranks).dump("grains.dump")
         found = run(reading(deck, write_file(lines), *seen(deck)), ranks).dump("grains.dump")
         require_same_snapshots(found, expected, "a file by hand against create_atoms and set")
@@ -150,36 +159,42 @@ def by_hand(quaternions, images, comment=False):
         a, b, c = 0.5, 0.75, 1.25
         mass = 1000.0 * 4.0 / 3.0 * math.pi * a * b * c
         # The host takes volumes and moments of superquadrics from beta functions: some roundings more.
-        require_close([grain[n][1] for n in DERIVED.split()],
-                      [mass, c, *(0.2 * mass * s for s in (b * b + c * c, a * a + c * c, a * a + b * b))], 1e-13, "closed forms")
-        require_close([grain[f"quat{k}"][1] for k in (1, 2, 3, 4)], [-math.sqrt(0.5), 0, 0, -math.sqrt(0.5)] if turned else [1, 0, 0, 0],
-                      2e-16, "quaternion")
-        require([list(grain[n]) for n in ("ix", "iy", "iz")] == ([[0, 3, -1], [0, -2, 0], [0, 1, 0]] if images else [[0] * 3] * 3),
-                f"image flags {[list(grain[n]) for n in ('ix', 'iy', 'iz')]}")
+        moments = [0.2 * mass * s for s in (b * b + c * c, a * a + c * c, a * a + b * b)]
+        require_close([grain[n][1] for n in DERIVED.split()], [mass, c, *moments], 1e-13, "closed forms")
+        half = math.sqrt(0.5)
+        found = [grain[f"quat{k}"][1] for k in (1, 2, 3, 4)]
+        require_close(found, [-half, 0, 0, -half] if turned else [1, 0, 0, 0], 2e-16, "quaternion")
+        wanted = np.transpose(flags) if images else np.zeros((3, 3))
+        require_equal([grain[n] for n in ("ix", "iy", "iz")], wanted, "image flags")
     return case
 
 
 def spin_of_file(ranks):
     """A sphere and a spheroid that spins about its own axis go on spinning as the section Velocities has it."""
     deck = hand_deck()
-    lines = ["1 1 1000 1 1 1 2 2 -1.99 0 0 1 0 0 0", "2 1 1000 1 1 1.5 2 2 1.5 0 0 2 0 2 0", "3 2 1000 1 1 1.5 2 2 3 4.5 0 1 0 0 0",
-             "", "Velocities", "", "3 0 0 0.5 0 0 -2", "1 0 0.25 0 1 2 3", "2 0 0 0 5 0 0"]
+    lines = ["1 1 1000 1 1 1 2 2 -1.99 0 0 1 0 0 0", "2 1 1000 1 1 1.5 2 2 1.5 0 0 2 0 2 0",
+             "3 2 1000 1 1 1.5 2 2 3 4.5 0 1 0 0 0", "", "Velocities", "",
+             "3 0 0 0.5 0 0 -2", "1 0 0.25 0 1 2 3", "2 0 0 0 5 0 0"]
     body = [*dump_grains(deck.packing, 10, columns=f"id {GIVEN} {SPINS}"), "run 10"]
     first, last = run(reading(deck, write_file(lines), *body), ranks).dump("grains.dump")
-    omega, momentum = ([[snapshot[1][f"{name}{d}"][k] for d in "xyz"] for k in range(3)] for snapshot, name in ((last, "omega"), (first, "angmom")))
+    def rows(snapshot, name):
+        return [[snapshot[1][f"{name}{d}"][k] for d in "xyz"] for k in range(3)]
+
     expected = [[1, 2, 3], [5, 0, 0], [0, 0, -2]]
     # Ten steps of a free rotation, each with some roundings of a number of size one.
-    require_close(omega, expected, 1e-13, "angular velocities after 10 steps", 5.0)
+    require_close(rows(last, "omega"), expected, 1e-13, "angular velocities after 10 steps", 5.0)
     mass, about_axis = 1000.0 * 4.0 / 3.0 * math.pi, 0.4
     moments = [about_axis * mass, about_axis * 1.5 * mass, about_axis * 1.5 * mass]
-    require_close(momentum, [[m * w for w in row] for m, row in zip(moments, expected)], 1e-13, "angular momenta")
+    momenta = [[m * w for w in row] for m, row in zip(moments, expected)]
+    require_close(rows(first, "angmom"), momenta, 1e-13, "angular momenta")
     require_equal([last[1]["vy"][0], last[1]["vz"][2]], [0.25, 0.5], "velocities")
 
 
 def property_atom(ranks):
     """Every word, alone and among the host's, for some grains; zero for the others."""
-    words = dict(shapex="shapex", shapey="shapey", shapez="shapez", quatw="quat1", quati="quat2", quatj="quat3", quatk="quat4",
-                 blockiness1="blockiness1", blockiness2="blockiness2")
+    words = {name: name for name in ("shapex", "shapey", "shapez", "blockiness1", "blockiness2")}
+    words.update(quatw="quat1", quati="quat2", quatj="quat3", quatk="quat4")
+    named = dict(words, vol="c_volume")
     deck = Deck(packing(1.5))
     mixed = ["mass", *words, "vol", "x", "quatw"]
     computes = [f"compute {w} few property/atom {w}" for w in words]
@@ -192,14 +207,15 @@ def property_atom(ranks):
         for word, name in words.items():
             require_equal(grain["c_" + word], grain[name] * inside, f"{word}, step {step}")
         for k, word in enumerate(mixed, 1):
-            require_equal(grain[f"c_all[{k}]"], grain[words.get(word, {"vol": "c_volume"}.get(word, word))] * inside, f"column {k}, {word}")
+            require_equal(grain[f"c_all[{k}]"], grain[named.get(word, word)] * inside, f"column {k}, {word}")
     require_equal(grain["shapez"][4], 1.7, "shapez of grain 5")
     require(bool((grain["quat1"] != 0.0).all()), "no orientation")
 
 
 def spheres(ranks):
     """Files of atom style sphere are the host's: 7 columns and image flags."""
-    made = [Grain((2.0 + 3.0 * k, 2.0, 1.0 + 0.1 * k), (0.5 + 0.1 * k,) * 3, velocity=(0.1 * k, 0.2, 0.0), omega=(0.0, 1.0, 0.1 * k)) for k in range(3)]
+    made = [Grain((2.0 + 3.0 * k, 2.0, 1.0 + 0.1 * k), (0.5 + 0.1 * k,) * 3, velocity=(0.1 * k, 0.2, 0.0),
+                  omega=(0.0, 1.0, 0.1 * k)) for k in range(3)]
     deck = Deck(Packing((12.0, 12.0, 12.0), made, atom_style="sphere", triclinic=False))
     columns = "id type ix iy iz x y z vx vy vz omegax omegay omegaz radius mass density"
     deck.body = ["set atom 2 image 3 -2 0", VOLUME, *seen(deck, columns), "write_data grains.data"]
@@ -214,15 +230,15 @@ def spheres(ranks):
 
 def inserted(ranks, arguments=()):
     """Superquadrics put in by fix insert/pack."""
-    lines = ["atom_style superquadric", "atom_modify map array", "boundary f f f", "newton off", "communicate single vel yes", "units si",
-             "region box block 0 8 0 8 0 8 units box", "create_box 1 box", *Deck(Packing((8.0,) * 3, [])).physics(),
-             "fix shapes all particletemplate/superquadric 15485863 atom_type 1 density constant 1000 shape constant 0.5 0.5 0.75 "
-             "blockiness constant 2.0 2.0", "fix mix all particledistribution/discrete 15485867 1 shapes 1.0",
-             "region inner block 1 7 1 7 1 7 units box",
-             "fix pack all insert/pack seed 32452843 distributiontemplate mix orientation random insert_every once overlapcheck yes "
-             "all_in yes particles_in_region 20 region inner", VOLUME, *dump_grains(Packing((8.0,) * 3, []), 1, columns=ALL), "run 1",
-             "write_data grains.data"]
-    return attempt("\n".join(lines) + "\n", ranks, arguments=arguments)
+    deck = Deck(Packing((8.0,) * 3, [], triclinic=False), boundary="f f f")
+    template = "density constant 1000 shape constant 0.5 0.5 0.75 blockiness constant 2.0 2.0"
+    deck.body = [f"fix shapes all particletemplate/superquadric 15485863 atom_type 1 {template}",
+                 "fix mix all particledistribution/discrete 15485867 1 shapes 1.0",
+                 "region inner block 1 7 1 7 1 7 units box",
+                 "fix pack all insert/pack seed 32452843 distributiontemplate mix orientation random insert_every once "
+                 "overlapcheck yes all_in yes particles_in_region 20 region inner",
+                 *dump_grains(deck.packing, 1, columns=ALL), "run 1", "write_data grains.data"]
+    return attempt(deck, ranks, arguments=arguments)
 
 
 def inserted_to_file(ranks):
@@ -250,9 +266,9 @@ def screen_none(ranks):
 
 CASES = {
     "there-and-back": there_and_back(0.0, 0, 0.0, 0.0),
-    # A triclinic box: places go to fractions of the box and back, by the writer, the reader and the run: some roundings of an edge.
+    # Places in a triclinic box go to fractions of it and back, in writer, reader and run: roundings of an edge.
     "there-and-back-triclinic": there_and_back(3.1, 0, 1e-15, 0.0),
-    # An integrator keeps the angular momentum and derives the angular velocity; a file holds the latter. Moments differ 70-fold.
+    # An integrator derives the angular velocity, which a file holds, from the angular momentum. Moments differ 70-fold.
     "there-and-back-after-steps": there_and_back(0.0, 50, 0.0, 1e-13),
     "columns-of-file": columns_of_file,
     "by-hand-11-columns": by_hand(False, False),

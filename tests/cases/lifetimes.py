@@ -44,7 +44,8 @@ def asked(kind, style):
         return ["run 0"], []
     where = {"contact/grain": ("compute sum all reduce sum c_it[1]", "c_sum"), "stress/atom": ("compute sum all reduce sum c_it[1]", "c_sum"),
              "coord/atom": ("compute sum all reduce sum c_it", "c_sum"), "contact/local": ("compute sum all reduce sum c_it[1]", "c_sum"),
-             "property/atom": ("compute sum all reduce sum c_it[1]", "c_sum"), "contact/direction": ("", "c_it[1][1]"), "contact/surface": ("", "c_it[1]")}
+             "property/atom": ("compute sum all reduce sum c_it[1]", "c_sum"),
+             "contact/direction": ("", "c_it[1][1]"), "contact/surface": ("", "c_it[1]")}
     define, quantity = where.get(style.split()[0], ("", "c_it"))
     return [*([define] if define else []), f"thermo_style custom step {quantity}", "run 0"], [
         "thermo_style custom step", *(["uncompute sum"] if define else [])]

@@ -34,33 +34,38 @@ def spheroids(old="", new="", *body, **choices):
     return text.replace(old, new)
 
 
-WALL = "fix floor all wall/gran model hertz tangential history primitive type 1 zplane -1.0"
-BOUNDING = "grains of atom_style superquadric need a surface model of their shape, or they collide as their bounding spheres"
+def boxy_without_surface():
+    return spheroids(" surface superquadric", "").replace("blockiness 2.0 2.0", "blockiness 2.0 3.0", 1)
+
+
+MODEL = "model hertz tangential history"
+WALL = f"fix floor all wall/gran {MODEL} primitive type 1 zplane -1.0"
+BOUNDING = ("grains of atom_style superquadric need a surface model of their shape, or they collide as their bounding "
+            "spheres")
 
 
 def warned_under_gran(ranks):
-    """The host's own pair style goes on as it was, and says what it does, once."""
+    """The host's own pair style goes on as it was, and says what it does, once; and nothing where all is well."""
     output = run(spheroids(" surface superquadric", "", pair="gran"), ranks).output
-    text = " ".join(output.split())
-    require("without a surface model collide as their bounding spheres: add 'surface superquadric', or 'surface ellipsoid'" in text, tail(output))
-    require(text.count("bounding spheres") == 1, "it was said more than once")
-    for deck in (spheroids(pair="gran"), deck_of_spheres_under_gran()):
-        require("bounding spheres" not in run(deck, ranks).output, "warned of without a reason")
-
-
-def deck_of_spheres_under_gran():
-    return deck(pair="gran")
+    said = "without a surface model collide as their bounding spheres: add 'surface superquadric', or 'surface ellip"
+    require(said in " ".join(output.split()), tail(output))
+    require(output.count("bounding spheres") == 1, "it was said more than once")
+    for right in (spheroids(pair="gran"), deck(pair="gran")):
+        require("bounding spheres" not in run(right, ranks).output, "warned of without a reason")
 
 
 CASES = {
     "superquadrics-without-a-surface": refusal(
-        lambda: spheroids(" surface superquadric", "", rolling="cdt", extra="tangential_damping off"), f"pair_style gran/insitu: {BOUNDING}; got surface 'default'. ",
-        "Write 'pair_style gran/insitu model hertz tangential history rolling_friction cdt surface ellipsoid tangential_damping off'"),
-    "superquadrics-with-the-surface-of-spheres": refusal(lambda: spheroids("surface superquadric", "surface default", extra="setup neutral"),
-        "Write 'pair_style gran/insitu model hertz tangential history surface ellipsoid setup neutral'"),
-    "boxy-grains-without-a-surface": refusal(lambda: spheroids(" surface superquadric", "").replace("blockiness 2.0 2.0", "blockiness 2.0 3.0", 1),
-        "Write 'pair_style gran/insitu model hertz tangential history surface superquadric'"),
-    "wall-without-a-surface": refusal(lambda: spheroids("", "", WALL).replace("boundary p p p", "boundary p p f"),
+        lambda: spheroids(" surface superquadric", "", rolling="cdt", extra="tangential_damping off"),
+        f"pair_style gran/insitu: {BOUNDING}; got surface 'default'. Write 'pair_style gran/insitu {MODEL} "
+        "rolling_friction cdt surface ellipsoid tangential_damping off'"),
+    "superquadrics-with-the-surface-of-spheres": refusal(
+        lambda: spheroids("surface superquadric", "surface default", extra="setup neutral"),
+        f"Write 'pair_style gran/insitu {MODEL} surface ellipsoid setup neutral'"),
+    "boxy-grains-without-a-surface": refusal(
+        boxy_without_surface, f"Write 'pair_style gran/insitu {MODEL} surface superquadric'"),
+    "wall-without-a-surface": refusal(
+        lambda: spheroids("boundary p p p", "boundary p p f", WALL),
         f"fix floor (wall/gran): {BOUNDING}; got surface 'default'. Add 'surface ellipsoid' behind its other models"),
     "superquadrics-without-a-surface-under-gran": warned_under_gran,
     "hybrid": refusal(lambda: as_text(PAIR, "pair_style hybrid gran/insitu"), "gran/insitu cannot be a sub-style of hybrid",
