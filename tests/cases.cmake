@@ -201,5 +201,5 @@ add_cases(study cases/study_slurm.py LABEL long RANKS 1 SECONDS 900 CASES slurm-
 add_cases(data-files cases/data_files.py LABEL case STYLES data/files RANKS 1 2 CASES
   there-and-back there-and-back-triclinic there-and-back-after-steps by-hand-18-columns property-atom screen-none)
 add_cases(data-files cases/data_files.py LABEL case STYLES data/files RANKS 1 CASES
-  columns-of-file by-hand-11-columns by-hand-14-columns by-hand-15-columns by-hand-with-comments spin-of-file spheres
-  inserted)
+  columns-of-file by-hand-11-columns by-hand-14-columns by-hand-15-columns by-hand-with-comments spin-of-file
+  spin-of-other-moments spheres inserted)

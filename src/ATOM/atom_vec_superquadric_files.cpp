@@ -32,7 +32,10 @@ void for_each_line(int n, const char *lines, Use use) {
 
 std::string id_of(const std::vector<std::string> &words) { return words.empty() ? "(an empty line)" : words[0]; }
 
-bool alike(double a, double b) { return std::fabs(a - b) <= 1e-12 * std::fabs(b); }
+bool alike(double a, double b, double tolerance = 1e-12) { return std::fabs(a - b) <= tolerance * std::fabs(b); }
+
+/** The host makes bounding spheres 1e-4 wider, but not those of grains that were never given a shape. */
+constexpr double margin = 2e-4;
 
 }
 
@@ -93,7 +96,7 @@ void AtomVecSuperquadricFiles::require_grains_of_shape_and_density() {
     bounding_sphere_radius_superquadric(shape, blockiness, &radius);
     volume_superquadric(shape, blockiness, &volume);
     inertia_superquadric(shape, blockiness, atom->density[i], inertia);
-    bool kept = alike(atom->radius[i], radius) && alike(atom->volume[i], volume);
+    bool kept = alike(atom->radius[i], radius, margin) && alike(atom->volume[i], volume);
     kept = kept && alike(atom->rmass[i], volume * atom->density[i]);
     for (int k = 0; k < 3; k++) kept = kept && alike(atom->inertia[i][k], inertia[k]);
     if (!kept) first = std::min(first, atom->tag[i]);
@@ -122,6 +125,20 @@ void AtomVecSuperquadricFiles::pack_data(double **buf, int tag_offset) {
     *to++ = ubuf(static_cast<int64_t>((image & IMGMASK) - IMGMAX)).d;
     *to++ = ubuf(static_cast<int64_t>((image >> IMGBITS & IMGMASK) - IMGMAX)).d;
     *to++ = ubuf(static_cast<int64_t>((image >> IMG2BITS) - IMGMAX)).d;
+  }
+}
+
+/** Angular velocities that do not belong to the angular momentum are not what a run would go on with. */
+void AtomVecSuperquadricFiles::pack_vel(double **buf, int tag_offset) {
+  AtomVecSuperquadric::pack_vel(buf, tag_offset);
+  for (int i = 0; i < atom->nlocal; i++) {
+    double omega[3], off = 0.0, scale = 0.0;
+    MathExtraLiggghtsNonspherical::angmom_to_omega(atom->quaternion[i], atom->angmom[i], atom->inertia[i], omega);
+    for (int k = 0; k < 3; k++) {
+      off = std::max(off, std::fabs(omega[k] - buf[i][4 + k]));
+      scale = std::max(scale, std::fabs(omega[k]));
+    }
+    if (off > 1e-9 * scale) std::copy(omega, omega + 3, buf[i] + 4);
   }
 }
 

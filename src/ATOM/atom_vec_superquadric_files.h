@@ -32,6 +32,8 @@ class AtomVecSuperquadricFiles : public AtomVecSuperquadric {
   void pack_data(double **buf) { pack_data(buf, 0); }
   void pack_data(double **buf, int tag_offset);
   void write_data(FILE *file, int n, double **buf);
+  void pack_vel(double **buf) { pack_vel(buf, 0); }
+  void pack_vel(double **buf, int tag_offset);
 
  private:
   int columns_;  // of the lines that data_atom is given

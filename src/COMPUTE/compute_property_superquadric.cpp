@@ -24,9 +24,9 @@ int word_of_ours(const Atom *atom, const char *word) {
 /** The words of a command as the host takes them: another in place of each of ours, whose column is filled later. */
 struct HostWords {
   std::vector<char *> all;
-  HostWords(const Atom *atom, int first, int narg, char **arg) : all(arg, arg + narg) {
+  HostWords(const Atom *atom, int narg, char **arg) : all(arg, arg + narg) {
     static char other[] = "id";
-    for (int k = first; k < narg; k++)
+    for (int k = 3; k < narg; k++)
       if (word_of_ours(atom, arg[k]) >= 0) all[k] = other;
   }
 };
@@ -34,7 +34,7 @@ struct HostWords {
 }
 
 ComputePropertySuperquadric::ComputePropertySuperquadric(LAMMPS *lmp, int &iarg, int narg, char **arg)
-    : ComputePropertyAtom(lmp, iarg, narg, HostWords(lmp->atom, iarg, narg, arg).all.data()) {
+    : ComputePropertyAtom(lmp, iarg, narg, HostWords(lmp->atom, narg, arg).all.data()) {
   const int columns = std::max(1, size_peratom_cols);
   for (int k = narg - columns; k < narg; k++) own_.push_back(word_of_ours(atom, arg[k]));
 }

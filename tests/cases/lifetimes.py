@@ -17,7 +17,7 @@ from run import run
 ALLOWED = 64.0
 COMPUTES = ["stress/contact", "dissipation", "dissipation mode step", "dissipation mode ledger", "energy/ledger", "nematic",
             "contact/local", "contact/local id force", "contact/solver",
-            "property/atom shapex quatw blockiness2 vol", *(w.command for w in everything(dense_packing(1.5)))]
+            "property/atom shapex quatw blockiness2 volume", *(w.command for w in everything(dense_packing(1.5)))]
 FIXES = ["nve/spheroid", "press/strain axis y target 2e4 shear xy rate 0.02 every 1e-3", "press/strain axis z target v_held every/step 5"]
 MADE_BY_OTHERS = {"grain/record", "ledger/record", "run/guard", "setup/memory"}
 PAIRS = ["surface ellipsoid", "setup neutral surface ellipsoid", "surface ellipsoid ledger on tangential_damping off", "surface superquadric",

@@ -65,7 +65,7 @@ CASES = {
     "boxy-grains-without-a-surface": refusal(
         boxy_without_surface, f"Write 'pair_style gran/insitu {MODEL} surface superquadric'"),
     "wall-without-a-surface": refusal(
-        lambda: spheroids("boundary p p p", "boundary p p f", WALL),
+        lambda: Deck(replace(dense_packing(1.5), triclinic=False), body=[WALL, "run 1"], boundary="p p f"),
         f"fix floor (wall/gran): {BOUNDING}; got surface 'default'. Add 'surface ellipsoid' behind its other models"),
     "superquadrics-without-a-surface-under-gran": warned_under_gran,
     "hybrid": refusal(lambda: as_text(PAIR, "pair_style hybrid gran/insitu"), "gran/insitu cannot be a sub-style of hybrid",
