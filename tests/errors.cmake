@@ -53,7 +53,7 @@ add_cases(data-files-refused errors/data_files.py LABEL error STYLES data/files 
   columns-of-a-sphere a-column-too-few three-numbers-of-a-quaternion-and-images lines-of-several-lengths an-empty-line
   id-zero id-no-number type-too-large density-zero shape-negative shape-not-finite blockiness-below-2 place-no-number
   quaternion-zero quaternion-not-finite image-out-of-range image-no-whole-number velocity-of-three velocity-not-finite
-  write-own-inertia write-own-radius)
+  write-own-inertia write-own-radius write-disk-full)
 add_cases(data-files-refused errors/data_files.py LABEL error STYLES data/files RANKS 2 CASES
   a-column-too-few quaternion-zero write-own-mass)
 add_cases(error-pair errors/pair.py LABEL error STYLES gran/insitu RANKS 1 CASES

@@ -67,6 +67,7 @@ CASES = {
                               "use write_restart"),
     "write-own-inertia": refusal(written("set atom 2 inertiay 3.0", "set atom 7 inertiax 1"), "of grain 2",
                                  NOT_OF_SHAPE),
+    "write-disk-full": refusal(lambda: Deck(packing(0.0), body=["write_data /dev/full"]), "is the disk full?"),
     "write-own-radius": refusal(written("set atom 9 diameter 1.9"), "of grain 9", NOT_OF_SHAPE),
 }
 
