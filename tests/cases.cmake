@@ -199,7 +199,9 @@ add_cases(study cases/study_workflow.py LABEL case RANKS 1 SECONDS 600 CASES
   failing-runs-do-not-stop-others study-goes-on basic-measures bad-configuration)
 add_cases(study cases/study_slurm.py LABEL long RANKS 1 SECONDS 900 CASES slurm-grid)
 add_cases(data-files cases/data_files.py LABEL case STYLES data/files RANKS 1 2 CASES
-  there-and-back there-and-back-triclinic there-and-back-after-steps by-hand-18-columns property-atom screen-none)
+  there-and-back there-and-back-triclinic there-and-back-after-steps by-hand-18-columns property-atom)
 add_cases(data-files cases/data_files.py LABEL case STYLES data/files RANKS 1 CASES
   columns-of-file by-hand-11-columns by-hand-14-columns by-hand-15-columns by-hand-with-comments spin-of-file
-  spin-of-other-moments spheres inserted)
+  spin-of-other-moments spheres)
+add_cases(data-files cases/inserted.py LABEL case STYLES data/files RANKS 1 CASES inserted)
+add_cases(host cases/inserted.py LABEL case STYLES host RANKS 1 2 CASES screen-none)

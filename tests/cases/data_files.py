@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Data files of superquadrics: write_data and read_data, by hand, compute property/atom; and a run without a screen."""
+"""Data files of superquadrics: write_data and read_data, files by hand; compute property/atom."""
 from dataclasses import replace
 import math
 import os
@@ -11,7 +11,7 @@ import numpy as np
 from case import main, require, require_close, require_equal, require_same_snapshots
 from deck import Deck, dump_grains
 from packing import Grain, Packing, numbers
-from run import attempt, run, tail
+from run import run
 
 INTEGERS = "id type ix iy iz"
 GIVEN = "shapex shapey shapez blockiness1 blockiness2 density quat1 quat2 quat3 quat4 vx vy vz omegax omegay omegaz"
@@ -46,7 +46,8 @@ def packing(tilt):
         x, y, z = grain.position
         return replace(grain, position=(x + tilt * y / 12.6, y, z))
 
-    return Packing((12.6, 12.6, 12.6), [sheared(grain) for grain in grains()], tilt=tilt, types=2, triclinic=tilt != 0.0)
+    made = [sheared(grain) for grain in grains()]
+    return Packing((12.6, 12.6, 12.6), made, tilt=tilt, types=2, triclinic=tilt != 0.0)
 
 
 SETTINGS = ["set type 2 density 1234.5678901234567", "set atom 3 image 2 -1 0", "set atom 4 image -512 511 7", VOLUME]
@@ -203,9 +204,10 @@ def spin_of_file(ranks):
 
 
 def spin_of_other_moments(ranks):
-    """`set density` after the spin leaves the angular momentum, and so the spin that a run goes on with: that one is written."""
+    """`set density` after the spin keeps the angular momentum; the spin that belongs to it is written: a run starts with it."""
     grain = Grain((5.0, 5.0, 5.0), (1.0, 1.0, 1.5), omega=(0.0, 0.0, 3.0))
-    deck = Deck(Packing((10.0,) * 3, [grain], triclinic=False), body=["set atom 1 density 2000", "write_data grains.data"])
+    deck = Deck(Packing((10.0,) * 3, [grain], triclinic=False))
+    deck.body = ["set atom 1 density 2000", "write_data grains.data"]
     result = run(deck, ranks)
     words = result.file("grains.data").read_text().split("Velocities")[1].split()
     require_close([float(w) for w in words[4:7]], [0.0, 0.0, 1.5], 4e-16, "half the spin for twice the density", 1.5)
@@ -252,42 +254,6 @@ def spheres(ranks):
         require_close(found[name], expected[name], 4e-16 if name in ("mass", "density") else 0.0, name)
 
 
-def inserted(ranks, arguments=()):
-    """Superquadrics put in by fix insert/pack."""
-    deck = Deck(Packing((8.0,) * 3, [], triclinic=False), boundary="f f f", timestep=1e-5)
-    template = "density constant 1000 shape constant 0.5 0.5 0.75 blockiness constant 2.0 2.0"
-    deck.body = [f"fix shapes all particletemplate/superquadric 15485863 atom_type 1 {template}",
-                 "fix mix all particledistribution/discrete 15485867 1 shapes 1.0",
-                 "region inner block 1 7 1 7 1 7 units box",
-                 "fix pack all insert/pack seed 32452843 distributiontemplate mix orientation random insert_every once "
-                 "overlapcheck yes all_in yes particles_in_region 20 region inner",
-                 *dump_grains(deck.packing, 1, columns=ALL), "run 1", "write_data grains.data"]
-    return attempt(deck, ranks, arguments=arguments)
-
-
-def inserted_to_file(ranks):
-    """What fix insert/pack made can be written, and comes back."""
-    result = inserted(ranks)
-    require(result.code == 0, tail(result.output))
-    deck = Deck(Packing((8.0,) * 3, []), boundary="f f f", timestep=1e-5)
-    again = run(reading(deck, result.folder / "grains.data", *seen(deck)), ranks).dump("grains.dump")[0][1]
-    written = result.dump("grains.dump")[-1][1]
-    require(len(written["id"]) == 20, f"{len(written['id'])} grains")
-    for name in f"{INTEGERS} {GIVEN} {PLACES}".split():
-        require_equal(again[name], written[name], name)
-    for name in DERIVED.split():  # the template multiplies in another order
-        require_close(again[name], written[name], 1e-14, name)
-
-
-def screen_none(ranks):
-    """fix insert/pack, of which one part prints without asking for a screen; the same grains as with one."""
-    with_screen, without = inserted(ranks), inserted(ranks, ("-screen", "none"))
-    require(without.code == 0, f"code {without.code}: {tail(without.output)}")
-    require(without.output.strip() == "", f"it said on the screen: {tail(without.output)}")
-    require("Resetting random" in with_screen.output, "nothing that printed without asking")
-    require_same_snapshots(without.dump("grains.dump"), with_screen.dump("grains.dump"), "without a screen")
-
-
 CASES = {
     "there-and-back": there_and_back(0.0, 0, 0.0, 0.0),
     # Places in a triclinic box go to fractions of it and back, in writer, reader and run: roundings of an edge.
@@ -304,8 +270,6 @@ CASES = {
     "spin-of-other-moments": spin_of_other_moments,
     "property-atom": property_atom,
     "spheres": spheres,
-    "inserted": inserted_to_file,
-    "screen-none": screen_none,
 }
 
 if __name__ == "__main__":
