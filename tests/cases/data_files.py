@@ -204,7 +204,7 @@ def spin_of_file(ranks):
 
 
 def spin_of_other_moments(ranks):
-    """`set density` after the spin keeps the angular momentum; the spin that belongs to it is written: a run starts with it."""
+    """`set density` after the spin keeps the angular momentum; the spin that belongs to it is written."""
     grain = Grain((5.0, 5.0, 5.0), (1.0, 1.0, 1.5), omega=(0.0, 0.0, 3.0))
     deck = Deck(Packing((10.0,) * 3, [grain], triclinic=False))
     deck.body = ["set atom 1 density 2000", "write_data grains.data"]
