@@ -65,8 +65,10 @@ function(write_if_changed file text)
   file(WRITE "${file}" "${text}")
 endfunction()
 
-# style_<list>.h: every header named <prefix>*.h, the host's or ours, that carries <marker>. Of two commands of one name the host takes the last: ours.
-file(GLOB our_headers "${CMAKE_SOURCE_DIR}/src/PAIR/*.h" "${CMAKE_SOURCE_DIR}/src/FIX/*.h" "${CMAKE_SOURCE_DIR}/src/COMPUTE/*.h" "${CMAKE_SOURCE_DIR}/src/COMMAND/*.h")
+# style_<list>.h: every header named <prefix>*.h, the host's or ours, that carries <marker>. Of two styles of one name
+# the host takes the last, but of two atom styles the first: either way ours.
+file(GLOB our_headers "${CMAKE_SOURCE_DIR}/src/PAIR/*.h" "${CMAKE_SOURCE_DIR}/src/FIX/*.h"
+     "${CMAKE_SOURCE_DIR}/src/COMPUTE/*.h" "${CMAKE_SOURCE_DIR}/src/COMMAND/*.h" "${CMAKE_SOURCE_DIR}/src/ATOM/*.h")
 set(marked "")
 foreach(name IN LISTS staged)
   if(name MATCHES "\\.h$")
@@ -93,7 +95,11 @@ foreach(entry
   list(GET entry 2 list)
   string(REPLACE "-" "" prefix "${prefix}")
   set(text "")
-  foreach(header IN LISTS marked our_headers)
+  set(headers ${marked} ${our_headers})
+  if(list STREQUAL "atom")
+    set(headers ${our_headers} ${marked})
+  endif()
+  foreach(header IN LISTS headers)
     get_filename_component(name "${header}" NAME)
     if(name MATCHES "^${prefix}" AND "${markers_of_${name}}" MATCHES "${marker}")
       string(APPEND text "#include \"${name}\"\n")

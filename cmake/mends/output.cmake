@@ -11,3 +11,5 @@ endforeach()
 foreach(name fix_ave_time fix_ave_histo fix_ave_spatial fix_ave_correlate fix_print)
   mend(${name}.cpp "fflush(fp);" "if (fflush(fp) != 0 || ferror(fp)) ${unwritten}" "a table that is not written is no error")
 endforeach()
+mend(write_data.cpp "\n  if (me == 0) fclose(fp);\n" "\n  if (me == 0 && (ferror(fp) | fclose(fp))) ${unwritten}\n"
+     "a data file that is not written is no error")

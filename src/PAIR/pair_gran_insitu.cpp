@@ -9,6 +9,7 @@
 #include "kept_history.h"
 #include "sphere_geometry.h"
 #include "stop_signal.h"
+#include "surface_required.h"
 #include "symmetry_axis.h"
 #include "tangential_bound.h"
 #include "time_step_watch.h"
@@ -181,6 +182,8 @@ void PairGranInsitu::init_style() {
   if (impl_->renumbered && comm->me == 0)
     error->warning(FLERR, "grains were given other IDs, and the host keeps tangential springs by ID: some are now those of other contacts. Say "
                           "'compress no' to delete_atoms");
+  const std::string ledger = impl_->ledger ? " ledger on" : "", setup = impl_->neutral ? " setup neutral" : "";
+  grainscope::require_surface_models(lmp, this, impl_->models + ledger + setup);
   PairGranProxy::init_style();
   FixRunGuard::make(lmp, impl_->models + (impl_->ledger ? " ledger on" : ""));
   if (impl_->neutral) {

@@ -16,7 +16,8 @@ from run import run
 # these tests are run under it too.
 ALLOWED = 64.0
 COMPUTES = ["stress/contact", "dissipation", "dissipation mode step", "dissipation mode ledger", "energy/ledger", "nematic",
-            "contact/local", "contact/local id force", "contact/solver", *(w.command for w in everything(dense_packing(1.5)))]
+            "contact/local", "contact/local id force", "contact/solver",
+            "property/atom shapex quatw blockiness2 volume", *(w.command for w in everything(dense_packing(1.5)))]
 FIXES = ["nve/spheroid", "press/strain axis y target 2e4 shear xy rate 0.02 every 1e-3", "press/strain axis z target v_held every/step 5"]
 MADE_BY_OTHERS = {"grain/record", "ledger/record", "run/guard", "setup/memory"}
 PAIRS = ["surface ellipsoid", "setup neutral surface ellipsoid", "surface ellipsoid ledger on tangential_damping off", "surface superquadric",
@@ -43,6 +44,7 @@ def asked(kind, style):
         return ["run 0"], []
     where = {"contact/grain": ("compute sum all reduce sum c_it[1]", "c_sum"), "stress/atom": ("compute sum all reduce sum c_it[1]", "c_sum"),
              "coord/atom": ("compute sum all reduce sum c_it", "c_sum"), "contact/local": ("compute sum all reduce sum c_it[1]", "c_sum"),
+             "property/atom": ("compute sum all reduce sum c_it[1]", "c_sum"),
              "contact/direction": ("", "c_it[1][1]"), "contact/surface": ("", "c_it[1]")}
     define, quantity = where.get(style.split()[0], ("", "c_it"))
     return [*([define] if define else []), f"thermo_style custom step {quantity}", "run 0"], [

@@ -83,7 +83,7 @@ def styles_are_listed(ranks):
               ("surface_model", "surface_model_superquadric.h"), ("normal_model", "normal_model_hertz.h")]
     for kind, header in ours + theirs:
         require(f'#include "{header}"' in (stage / f"style_{kind}.h").read_text(), f"{header} is missing in style_{kind}.h")
-    require((stage / "update.cpp").is_symlink(), "an unmended file is a copy")
+    require((stage / "angle.cpp").is_symlink(), "an unmended file is a copy")
 
 
 def set_mends(copy, value, half_value):

@@ -2,10 +2,11 @@
 """What pair_style gran/insitu refuses."""
 from dataclasses import replace
 
-from case import main
+from case import main, require
 from deck import Deck
 from packing import dense_packing
 from refusal import refusal
+from run import run, tail
 
 
 def deck(*body, **choices):
@@ -27,7 +28,46 @@ def small_box():
     return Deck(replace(packing, grains=one_layer, edges=(*packing.edges[:2], 4.0)), body=["run 1"])
 
 
+def spheroids(old="", new="", *body, **choices):
+    text = Deck(dense_packing(1.5), body=[*body, "run 1"], **choices).text()
+    assert old in text
+    return text.replace(old, new)
+
+
+def boxy_without_surface():
+    return spheroids(" surface superquadric", "").replace("blockiness 2.0 2.0", "blockiness 2.0 3.0", 1)
+
+
+MODEL = "model hertz tangential history"
+WALL = f"fix floor all wall/gran {MODEL} primitive type 1 zplane -1.0"
+BOUNDING = ("grains of atom_style superquadric need a surface model of their shape, or they collide as their bounding "
+            "spheres")
+
+
+def warned_under_gran(ranks):
+    """The host's own pair style goes on as it was, and says what it does, once; and nothing where all is well."""
+    output = run(spheroids(" surface superquadric", "", pair="gran"), ranks).output
+    said = "without a surface model collide as their bounding spheres: add 'surface superquadric', or 'surface ellip"
+    require(said in " ".join(output.split()), tail(output))
+    require(output.count("bounding spheres") == 1, "it was said more than once")
+    for right in (spheroids(pair="gran"), deck(pair="gran")):
+        require("bounding spheres" not in run(right, ranks).output, "warned of without a reason")
+
+
 CASES = {
+    "superquadrics-without-a-surface": refusal(
+        lambda: spheroids(" surface superquadric", "", rolling="cdt", extra="tangential_damping off"),
+        f"pair_style gran/insitu: {BOUNDING}; got surface 'default'. Write 'pair_style gran/insitu {MODEL} "
+        "rolling_friction cdt surface ellipsoid tangential_damping off'"),
+    "superquadrics-with-the-surface-of-spheres": refusal(
+        lambda: spheroids("surface superquadric", "surface default", extra="setup neutral"),
+        f"Write 'pair_style gran/insitu {MODEL} surface ellipsoid setup neutral'"),
+    "boxy-grains-without-a-surface": refusal(
+        boxy_without_surface, f"Write 'pair_style gran/insitu {MODEL} surface superquadric'"),
+    "wall-without-a-surface": refusal(
+        lambda: Deck(replace(dense_packing(1.5), triclinic=False), body=[WALL, "run 1"], boundary="p p f"),
+        f"fix floor (wall/gran): {BOUNDING}; got surface 'default'. Add 'surface ellipsoid' behind its other models"),
+    "superquadrics-without-a-surface-under-gran": warned_under_gran,
     "hybrid": refusal(lambda: as_text(PAIR, "pair_style hybrid gran/insitu"), "gran/insitu cannot be a sub-style of hybrid",
                       "use it alone"),
     "misspelt-model": refusal(lambda: as_text("model hertz", "model hurtz"), "pair_style gran/insitu: invalid contact model"),

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifdef ATOM_CLASS
+
+AtomStyle(superquadric,AtomVecSuperquadricFiles)
+
+AtomStyle(granular_superquadric,AtomVecSuperquadricFiles)
+
+#else
+
+#ifndef LMP_ATOM_VEC_SUPERQUADRIC_FILES_H
+#define LMP_ATOM_VEC_SUPERQUADRIC_FILES_H
+
+#include "atom_vec_superquadric.h"
+#include <string>
+
+namespace LAMMPS_NS {
+
+/** The host's atom style superquadric, with data files that hold a grain whole: shape, orientation, images, spin.
+ *  Mended lines of Atom ask two of its members; without them a file must have 15 or 18 columns.
+ *  See doc/data_files.md. */
+class AtomVecSuperquadricFiles : public AtomVecSuperquadric {
+ public:
+  explicit AtomVecSuperquadricFiles(class LAMMPS *lmp);
+
+  /** Looks at `n` lines of the section Atoms; how many columns they have, image flags apart. Collective. */
+  virtual int columns_of_atoms(int n, char *lines);
+  /** Looks at `n` lines of the section Velocities. Collective. */
+  virtual void check_velocities(int n, char *lines);
+
+  void data_atom(double *x, tagint image, char **values);
+  void data_vel(int i, char **values);
+  void pack_data(double **buf) { pack_data(buf, 0); }
+  void pack_data(double **buf, int tag_offset);
+  void write_data(FILE *file, int n, double **buf);
+  void pack_vel(double **buf) { pack_vel(buf, 0); }
+  void pack_vel(double **buf, int tag_offset);
+
+ private:
+  int columns_;  // of the lines that data_atom is given
+
+  void refuse(const char *section, const std::string &id, const std::string &complaint);
+  void require_grains_of_shape_and_density();
+};
+
+}
+
+#endif
+#endif

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifdef COMPUTE_CLASS
+
+ComputeStyle(property/atom,ComputePropertySuperquadric)
+
+#else
+
+#ifndef LMP_COMPUTE_PROPERTY_SUPERQUADRIC_H
+#define LMP_COMPUTE_PROPERTY_SUPERQUADRIC_H
+
+#include "compute_property_atom.h"
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/** The host's compute property/atom, which knows shapes and orientations of atom style ellipsoid only, and with atom
+ *  style superquadric: shapex shapey shapez semi-axes [length], quatw quati quatj quatk quaternion from the grain's
+ *  frame to the laboratory's [-], blockiness1 blockiness2 [-]. Zero outside the group. See doc/data_files.md. */
+class ComputePropertySuperquadric : public ComputePropertyAtom {
+ public:
+  ComputePropertySuperquadric(class LAMMPS *lmp, int &iarg, int narg, char **arg);
+  void init();
+  void compute_peratom();
+
+ private:
+  std::vector<int> own_;  // for each column, which word of ours it is, or -1
+
+  double value(int word, int i) const;
+};
+
+}
+
+#endif
+#endif
