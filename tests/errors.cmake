@@ -49,3 +49,5 @@ add_cases(error-ledger errors/ledger.py LABEL error RANKS 1 CASES
   other-integrator box-without-flow box-of-some-grains record-taken record-gone record-by-hand grains-inserted restart-without restart-with
   pre-no-at-first time-step-changed)
 add_cases(error-ledger errors/ledger.py LABEL error RANKS 2 CASES ledger-off loose-grains grains-inserted restart-without restart-with)
+add_cases(installed cases/installed.py LABEL error STYLES build RANKS 1 CASES
+  links-of-source links-of-installed broken-links-are-found program-is-found run-of-installed study-of-installed)

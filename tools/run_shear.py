@@ -10,6 +10,8 @@ import subprocess
 import sys
 import time
 
+from program import NoProgram, find_program
+
 DECK = Path(__file__).resolve().parents[1] / "examples" / "simple_shear" / "in.simple_shear"
 NONE_WHOLE = "ERROR: read_restart: '"
 STOPPED = 3
@@ -124,10 +126,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("out", type=Path, help="output folder of the run")
     parser.add_argument("variables", nargs="+", type=variable, metavar="name=value", help="variables of the deck, such as alpha=1.5")
-    parser.add_argument("--binary", default="grainscope", help="the program (default: grainscope, on the PATH)")
+    parser.add_argument("--binary", help="the program (default: grainscope of this source tree, beside the installed tools, or on PATH)")
     parser.add_argument("--ranks", type=int, default=1, help="MPI ranks (default: 1, without mpirun)")
     arguments = parser.parse_args()
     try:
+        arguments.binary = arguments.binary or str(find_program())
         arguments.out.mkdir(parents=True, exist_ok=True)
         locked = lock(arguments.out)
         files = list(arguments.out.glob("*.restart"))
@@ -142,7 +145,7 @@ def main():
         if status and len(files) == 1 and NONE_WHOLE in output:
             print(f"run_shear.py: {arguments.out}: the first restart file was not whole yet, starting again", file=sys.stderr)
             status, output = attempt(arguments, False, locked)
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, NoProgram) as error:
         sys.exit(f"run_shear.py: {arguments.out}: {error}")
     if status:
         reason = [line for line in output.splitlines() if line.startswith("ERROR")] or output.splitlines()[-1:]
