@@ -198,4 +198,5 @@ add_cases(study cases/study_runs.py LABEL case RANKS 1 CASES
 add_cases(study cases/study_workflow.py LABEL case RANKS 1 SECONDS 600 CASES
   failing-runs-do-not-stop-others study-goes-on basic-measures bad-configuration)
 add_cases(study cases/study_slurm.py LABEL long RANKS 1 SECONDS 900 CASES slurm-grid)
-add_cases(study cases/study_runs.py LABEL case STYLES study RANKS 1 2 CASES longer-strain-continues-basic)
+add_cases(study cases/study_runs.py LABEL case STYLES study RANKS 1 CASES longer-strain-continues-basic)
+add_cases(study cases/study_runs.py LABEL long STYLES study RANKS 2 4 CASES longer-strain-continues-basic)

@@ -19,9 +19,17 @@ MAY_CHANGE = ("strain", "steady")
 COST = "# from[step] to[step] ranks wall[s] cpu[s] memory[B]\n"
 
 
+def grid(ranks):
+    """The grid of ranks that cuts a cube into the most compact parts. It is named since LIGGGHTS would choose one for the box that it finds:
+    another for the flat box of a resumed run, and with it other bits."""
+    grids = [(x, y, ranks // (x * y)) for x in range(1, ranks + 1) for y in range(1, ranks + 1) if ranks % (x * y) == 0]
+    return " ".join(map(str, min(grids, key=sum)))
+
+
 def command(arguments, resume):
     launcher = ["mpirun", "-np", str(arguments.ranks)] if arguments.ranks > 1 else []
-    variables = [f"{name}={value}" for name, value in arguments.variables] + [f"out={arguments.out}", f"resume={int(resume)}"]
+    values = {"grid": grid(arguments.ranks), **dict(arguments.variables), "out": arguments.out, "resume": int(resume)}
+    variables = [f"{name}={value}" for name, value in values.items()]
     options = [word for variable in variables for word in ("-var", *variable.split("=", 1))]
     return [*launcher, arguments.binary, "-in", str(DECK), "-log", "none", *options]
 
