@@ -200,3 +200,4 @@ add_cases(study cases/study_workflow.py LABEL case RANKS 1 SECONDS 600 CASES
 add_cases(study cases/study_slurm.py LABEL long RANKS 1 SECONDS 900 CASES slurm-grid)
 add_cases(study cases/study_runs.py LABEL case STYLES study RANKS 1 CASES longer-strain-continues-basic)
 add_cases(study cases/study_runs.py LABEL long STYLES study RANKS 2 4 CASES longer-strain-continues-basic)
+add_cases(bare-debian cases/bare_debian.py LABEL long STYLES build RANKS 1 SECONDS 14400 CASES demos-are-equal tests-on-bookworm tests-on-trixie clang-of-trixie)

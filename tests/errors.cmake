@@ -51,3 +51,5 @@ add_cases(error-ledger errors/ledger.py LABEL error RANKS 1 CASES
 add_cases(error-ledger errors/ledger.py LABEL error RANKS 2 CASES ledger-off loose-grains grains-inserted restart-without restart-with)
 add_cases(installed cases/installed.py LABEL error STYLES build RANKS 1 CASES
   links-of-source links-of-installed broken-links-are-found program-is-found run-of-installed study-of-installed)
+add_cases(compilers errors/compilers.py LABEL error STYLES build RANKS 1 CASES configured-without-a-warning)
+add_cases(compilers errors/compilers.py LABEL long STYLES build RANKS 1 CASES clang-takes-the-host-as-c++17 every-file-for-this-processor)
