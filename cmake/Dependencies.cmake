@@ -15,8 +15,10 @@ if(GRAINSCOPE_HOST)
 endif()
 find_package(Eigen3 3.3 QUIET NO_MODULE)
 need(Eigen3_FOUND "Eigen 3" libeigen3-dev)
-find_package(Boost QUIET)
-need(Boost_FOUND "Boost headers" libboost-dev)
+# Headers alone, by what is included: CMake 3.30 and later warn of the module that find_package(Boost) would take.
+find_path(Boost_INCLUDE_DIR boost/math/special_functions/beta.hpp HINTS ${BOOST_ROOT} ${Boost_ROOT} ENV BOOST_ROOT ENV Boost_ROOT
+          PATH_SUFFIXES include)
+need(Boost_INCLUDE_DIR "Boost headers" libboost-dev)
 if(GRAINSCOPE_HOST)
   find_path(FFTW_INCLUDE_DIR fftw3-mpi.h)
   find_library(FFTW_LIBRARY fftw3)

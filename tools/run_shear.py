@@ -11,6 +11,7 @@ import sys
 import time
 
 from open_mpi import session
+from program import NoProgram, find_program
 
 DECK = Path(__file__).resolve().parents[1] / "examples" / "simple_shear" / "in.simple_shear"
 NONE_WHOLE = "ERROR: read_restart: '"
@@ -19,9 +20,17 @@ MAY_CHANGE = ("strain", "steady")
 COST = "# from[step] to[step] ranks wall[s] cpu[s] memory[B]\n"
 
 
+def grid(ranks):
+    """The grid of ranks that cuts a cube into the most compact parts. It is named since LIGGGHTS would choose one for the box that it finds:
+    another for the flat box of a resumed run, and with it other bits."""
+    grids = [(x, y, ranks // (x * y)) for x in range(1, ranks + 1) for y in range(1, ranks + 1) if ranks % (x * y) == 0]
+    return " ".join(map(str, min(grids, key=sum)))
+
+
 def command(arguments, resume):
     launcher = ["mpirun", "-np", str(arguments.ranks)] if arguments.ranks > 1 else []
-    variables = [f"{name}={value}" for name, value in arguments.variables] + [f"out={arguments.out}", f"resume={int(resume)}"]
+    values = {"grid": grid(arguments.ranks), **dict(arguments.variables), "out": arguments.out, "resume": int(resume)}
+    variables = [f"{name}={value}" for name, value in values.items()]
     options = [word for variable in variables for word in ("-var", *variable.split("=", 1))]
     return [*launcher, arguments.binary, "-in", str(DECK), "-log", "none", *options]
 
@@ -127,10 +136,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("out", type=Path, help="output folder of the run")
     parser.add_argument("variables", nargs="+", type=variable, metavar="name=value", help="variables of the deck, such as alpha=1.5")
-    parser.add_argument("--binary", default="grainscope", help="the program (default: grainscope, on the PATH)")
+    parser.add_argument("--binary", help="the program (default: grainscope of this source tree, beside the installed tools, or on PATH)")
     parser.add_argument("--ranks", type=int, default=1, help="MPI ranks (default: 1, without mpirun)")
     arguments = parser.parse_args()
     try:
+        arguments.binary = arguments.binary or str(find_program())
         arguments.out.mkdir(parents=True, exist_ok=True)
         locked = lock(arguments.out)
         files = list(arguments.out.glob("*.restart"))
@@ -145,7 +155,7 @@ def main():
         if status and len(files) == 1 and NONE_WHOLE in output:
             print(f"run_shear.py: {arguments.out}: the first restart file was not whole yet, starting again", file=sys.stderr)
             status, output = attempt(arguments, False, locked)
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, NoProgram) as error:
         sys.exit(f"run_shear.py: {arguments.out}: {error}")
     if status:
         reason = [line for line in output.splitlines() if line.startswith("ERROR")] or output.splitlines()[-1:]

@@ -3,10 +3,11 @@ from dataclasses import dataclass
 from itertools import product
 
 from cost_model import memory_of, seconds_of
+from program import NAME
 
 LISTS = ("alpha", "mu", "I", "N", "seed")
 NUMBERS = {"e": 0.1, "strain": 16.0, "steady": 6.0, "part": 0.125, "ranks": 1, "speed": 1.0}
-OTHERS = {"measure": "all", "exceptions": (), "output": "study-output", "program": "build/release/bin/grainscope", "partial": 0}
+OTHERS = {"measure": "all", "exceptions": (), "output": "study-output", "program": NAME, "partial": 0}
 WHOLE = ("N", "seed", "ranks")
 MAY_BE_ZERO = ("mu", "steady")
 
