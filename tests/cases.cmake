@@ -198,3 +198,12 @@ add_cases(study cases/study_runs.py LABEL case RANKS 1 CASES
 add_cases(study cases/study_workflow.py LABEL case RANKS 1 SECONDS 600 CASES
   failing-runs-do-not-stop-others study-goes-on basic-measures bad-configuration)
 add_cases(study cases/study_slurm.py LABEL long RANKS 1 SECONDS 900 CASES slurm-grid)
+add_cases(displacement/shear-faces cases/moving_faces.py LABEL case STYLES displacement/shear RANKS 1 2 CASES
+  shrink-wrapped changed-periodic changed-tilt)
+add_cases(displacement/shear-faces cases/moving_faces.py LABEL case STYLES displacement/shear RANKS 1 CASES
+  shrink-wrapped-grains-at-rest shrink-wrapped-all-around shrink-wrapped-with-minimum shrink-wrapped-above in-a-shear-flow changed changed-and-back
+  changed-with-remap changed-periodic-with-remap changed-tilt-with-remap changed-boundary)
+add_cases(fluctuation-faces cases/moving_faces.py LABEL case STYLES fluctuation layering RANKS 1 2 CASES top-layer)
+add_cases(gran/insitu-faces cases/moving_faces.py LABEL case STYLES gran/insitu run/guard RANKS 1 CASES
+  neutral-with-minimum neutral-changed-beyond-grains neutral-notices-periodic)
+add_cases(gran/insitu-faces cases/moving_faces.py LABEL case STYLES gran/insitu RANKS 1 2 CASES neutral-shrink-wrapped neutral-restart)

@@ -49,3 +49,8 @@ add_cases(error-ledger errors/ledger.py LABEL error RANKS 1 CASES
   other-integrator box-without-flow box-of-some-grains record-taken record-gone record-by-hand grains-inserted restart-without restart-with
   pre-no-at-first time-step-changed)
 add_cases(error-ledger errors/ledger.py LABEL error RANKS 2 CASES ledger-off loose-grains grains-inserted restart-without restart-with)
+add_cases(displacement/shear-faces cases/moving_faces.py LABEL error STYLES displacement/shear RANKS 1 CASES remap-none deform-of-some)
+add_cases(not-finite errors/not_finite.py LABEL error STYLES layering fluctuation velocity/memory velocity/correlation contact/direction contact/surface
+  RANKS 1 2 CASES layering correlation-mesh)
+add_cases(not-finite errors/not_finite.py LABEL error STYLES layering fluctuation velocity/memory velocity/correlation contact/direction contact/surface
+  RANKS 1 CASES fluctuation-profile fluctuation-layers memory-layers correlation contact-direction contact-surface contact-surface-ellipsoid)

@@ -29,6 +29,8 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
   void require_known_losses() const;
   /** Errors unless the current step was tallied. */
   void require_tally() const;
+  /** Errors unless `contacts`, the number over all ranks of those whose place or direction is no number, is 0. */
+  void require_finite(double contacts) const;
   /** Sums `values` over all ranks, in place. */
   void sum_over_ranks(double *values, int n) const;
 
