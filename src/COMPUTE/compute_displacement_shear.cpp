@@ -48,7 +48,8 @@ struct Box {
       rest[k] = 0.0;
     }
   }
-  /** Position of grain i from the point at rest (from 0 across faces that follow the grains), unwrapped with the edges that its image flags count. */
+  /** Position of grain i from the point at rest (from 0 across faces that follow the grains), unwrapped with the edges
+   *  that its image flags count. */
   Vector3d position(const Atom &atom, int i) const {
     const tagint image = atom.image[i];
     const Vector3d boxes((image & IMGMASK) - IMGMAX, (image >> IMGBITS & IMGMASK) - IMGMAX, (image >> IMG2BITS) - IMGMAX);
@@ -57,7 +58,7 @@ struct Box {
 
   Matrix3d edges, wrapped;
   Vector3d rest;
-  bool follows_grains[3];           // faces across this edge: they move with the outermost grain, and no other grain moves with them
+  bool follows_grains[3];              // faces across this edge move with the outermost grain, and no other with them
   Vector3d middle = Vector3d::Zero();  // of such edges now
 };
 
@@ -107,13 +108,15 @@ void ComputeDisplacementShear::require_flow_of_all() {
     const std::string which = std::string("fix ") + deform->id + " (" + deform->style + ")";
     const grainscope::Arguments complaints(lmp, name, 0, 0, nullptr);
     if (deform->remapflag == no_remap)
-      complaints.fail(which + " must move grains along with the box, 'remap v' or 'remap x', got 'remap none': displacements against its flow "
-                      "would be wrong");
+      complaints.fail(which + " must move grains along with the box, 'remap v' or 'remap x', got 'remap none': "
+                      "displacements against its flow would be wrong");
     int others = 0;
-    for (int i = 0; i < atom->nlocal && !others; i++) others = atom->mask[i] & groupbit && !(atom->mask[i] & deform->groupbit);
+    for (int i = 0; i < atom->nlocal && !others; i++)
+      others = atom->mask[i] & groupbit && !(atom->mask[i] & deform->groupbit);
     MPI_Allreduce(MPI_IN_PLACE, &others, 1, MPI_INT, MPI_MAX, world);
     if (others)
-      complaints.fail(which + " must move all grains of group '" + group->names[igroup] + "', got group '" + group->names[deform->igroup] + "'");
+      complaints.fail(which + " must move all grains of group '" + group->names[igroup] + "', got group '" +
+                      group->names[deform->igroup] + "'");
   }
 }
 

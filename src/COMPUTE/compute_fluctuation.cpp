@@ -78,7 +78,8 @@ void ComputeFluctuation::compute_array() {
   const BoxState box(lmp);
   const int across = impl_->flow.plane.gradient;
   const Fluctuations motion(lmp, groupbit, box, impl_->with(MeanFlow::Kind::box));
-  std::vector<double> sums(width * impl_->layers + 1, 0.0);  // per layer m, grains, m u; then grains that no layer holds
+  // Per layer m, grains, m u; then grains that no layer holds.
+  std::vector<double> sums(width * impl_->layers + 1, 0.0);
   for (const Fluctuations::Grain &g : motion.local()) {
     const int layer = box.layer(Map<const Vector3d>(atom->x[g.index]), across, impl_->layers);
     if (layer < 0) {

@@ -104,7 +104,8 @@ void ComputeVelocityMemory::sample(double strain) {
   const long count = grainscope::whole_count(impl_->shared()[SAMPLES], 1e15);
   if (count < 0)
     grainscope::Arguments(lmp, name, 0, 0, nullptr)
-        .fail("the number of samples in its memory is damaged, got " + grainscope::Arguments::text(impl_->shared()[SAMPLES]));
+        .fail("the number of samples in its memory is damaged, got " +
+              grainscope::Arguments::text(impl_->shared()[SAMPLES]));
   const int known = std::min<long>(count, lags);  // lags that reach back to a sample
   std::vector<double> sums(2 * (known + 1), 0.0);  // products, pairs
   const Fluctuations motion(lmp, groupbit, grainscope::BoxState(lmp), impl_->flow);

@@ -4,10 +4,12 @@
 
 namespace grainscope {
 
-// The places where a double becomes an index or a number of things. A conversion of NaN, or of what an int does not hold, is undefined in C++: on x86 it is
-// the most negative int. The choice is made among doubles, so that loops over many numbers run on several at once.
+// The places where a double becomes an index or a number of things. A conversion of NaN, or of what an int does not
+// hold, is undefined in C++: on x86 it is the most negative int. The choice is made among doubles, so that loops over
+// many numbers run on several at once.
 
-/** The bin, of `bins` equal ones of width 1 from 0 on, that holds `at`; `none` for what lies outside, is infinite or no number. */
+/** The bin, of `bins` equal ones of width 1 from 0 on, that holds `at`; `none` for what lies outside, is infinite or
+ *  no number. */
 inline int bin_index(double at, int bins, int none = -1) {
   return static_cast<int>(at >= 0.0 && at < bins ? at : static_cast<double>(none));
 }
@@ -18,7 +20,8 @@ inline int nearest_bin_index(double at, int bins) {
   return static_cast<int>(least < bins ? least : bins - 1.0);
 }
 
-/** A number of things kept as a double, 0 to `most` (at most 2^53), from a file that may be damaged; -1 when it is no such number. */
+/** A number of things kept as a double, 0 to `most` (at most 2^53), from a file that may be damaged; -1 when it is no
+ *  such number. */
 inline long long whole_count(double value, double most) {
   if (!(value >= 0.0 && value <= most)) return -1;
   const long long whole = static_cast<long long>(value);

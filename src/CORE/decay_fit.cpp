@@ -59,7 +59,8 @@ double root(const Squares &squares, double a, double slope_a, double b, double s
   return std::fabs(squares.slope(bracket.first)) < std::fabs(squares.slope(bracket.second)) ? bracket.first : bracket.second;
 }
 
-/** The length of the least sum of squares; 0 when none is better than an endless one, or none but lengths as good as endless. */
+/** The length of the least sum of squares; 0 when none is better than an endless one, or none but lengths as good as
+ *  endless. */
 double best_length(const Squares &squares) {
   const auto [from, to] = search_range(squares);
   const int intervals = nearest_bin_index(std::ceil((to - from) / 0.1), most_intervals);

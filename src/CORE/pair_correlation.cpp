@@ -81,7 +81,8 @@ class Grid {
   }
 };
 
-/** Points in the order of their cells; cell c holds those from first[c] to first[c + 1]. Those whose place is not finite are left out. */
+/** Points in the order of their cells; cell c holds those from first[c] to first[c + 1]. Those whose place is not finite
+ *  are left out. */
 PointValues sorted(const PointValues &points, const Grid &grid, std::vector<std::size_t> &first) {
   const std::size_t n = points.size();
   std::vector<int> cell(n);

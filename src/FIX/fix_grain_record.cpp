@@ -146,7 +146,9 @@ int FixGrainRecord::pack_restart(int i, double *buffer) {
 
 void FixGrainRecord::unpack_restart(int i, int nth) {
   const double *numbers = grainscope::restart_numbers(atom, i, nth, width_);
-  if (!numbers) error->one(FLERR, (std::string(id) + ": the restart file does not hold the " + std::to_string(width_) + " numbers of each grain").c_str());
+  if (!numbers)
+    error->one(FLERR, (std::string(id) + ": the restart file does not hold the " + std::to_string(width_) +
+                       " numbers of each grain").c_str());
   std::copy(numbers, numbers + width_, of(i));
 }
 

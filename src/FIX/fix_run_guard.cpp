@@ -137,7 +137,8 @@ std::string FixRunGuard::not_finite(bool forces) const {
   return message.str();
 }
 
-/** Grains that are beyond a face that is fixed may go: thermo_modify lost. One that follows the grains will be moved beyond them. */
+/** Grains that are beyond a face that is fixed may go: thermo_modify lost. One that follows the grains will be moved
+ *  beyond them. */
 void FixRunGuard::pre_exchange() {
   grains_ = atom->nlocal;
   const auto open = [this](int k, int side) { return domain->boundary[k][side] == fixed_face; };

@@ -203,8 +203,8 @@ double FixSetupMemory::movers_now() const {
   return sum;
 }
 
-/** Whether images are where they were. A face that is not periodic pushes no grain, wherever it is: one that follows the grains is set again
- *  when the run begins. */
+/** Whether images are where they were. A face that is not periodic pushes no grain, wherever it is: one that follows the
+ *  grains is set again when the run begins. */
 bool FixSetupMemory::same_box() const {
   const Box box = box_now(), &then = shared_.ended;
   const int periodic[3] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
@@ -215,7 +215,8 @@ bool FixSetupMemory::same_box() const {
 
 /** Collective. */
 bool FixSetupMemory::unchanged() const {
-  int changed = shared_.grains != static_cast<double>(atom->natoms) || shared_.dt != update->dt || shared_.movers != movers_now() || !same_box();
+  int changed = shared_.grains != static_cast<double>(atom->natoms) || shared_.dt != update->dt ||
+      shared_.movers != movers_now() || !same_box();
   for (int i = 0; i < atom->nlocal && !changed; i++) changed = !same(i);
   const bool nothing = shared_.grains < 0.0;
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, world);
@@ -335,7 +336,9 @@ int FixSetupMemory::pack_restart(int i, double *buffer) {
 
 void FixSetupMemory::unpack_restart(int i, int nth) {
   const double *numbers = grainscope::restart_numbers(atom, i, nth, width);
-  if (!numbers) error->one(FLERR, "pair_style gran/insitu: the restart file holds another kind of memory of the set-up: say 'setup host'");
+  if (!numbers)
+    error->one(FLERR, "pair_style gran/insitu: the restart file holds another kind of memory of the set-up: say "
+                      "'setup host'");
   std::copy(numbers, numbers + width, of(i));
 }
 

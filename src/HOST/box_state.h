@@ -30,8 +30,9 @@ struct BoxState {
   double height(int k) const;
   /** x in units of the box edges, 0 to 1 inside. */
   Eigen::Vector3d fraction(const Eigen::Vector3d &x) const;
-  /** Which of `layers` layers of equal height across edge k holds x, 0 to layers - 1. Periodic where the box is; elsewhere what is beyond a
-   *  face, as a grain may be until a face that follows the grains is moved, belongs to the layer there. -1 for a place that is not finite. */
+  /** Which of `layers` layers of equal height across edge k holds x, 0 to layers - 1. Periodic where the box is;
+   *  elsewhere what is beyond a face, as a grain may be until a face that follows the grains is moved, belongs to the
+   *  layer there. -1 for a place that is not finite. */
   int layer(const Eigen::Vector3d &x, int k, int layers) const;
   /** Mean velocity of the affine flow at x; zero at the box centre. */
   Eigen::Vector3d flow(const Eigen::Vector3d &x) const {

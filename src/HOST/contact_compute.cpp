@@ -48,8 +48,8 @@ void ContactCompute::require_tally() const {
 void ContactCompute::require_finite(double contacts) const {
   if (contacts == 0.0) return;
   const Arguments complaints(lmp, name_ + " " + id, 0, 0, nullptr);
-  complaints.fail("step " + std::to_string(update->ntimestep) + ": the place or direction of " + Arguments::text(contacts) +
-                  " contacts is not finite: look at what moves or pushes these grains");
+  complaints.fail("step " + std::to_string(update->ntimestep) + ": the place or direction of " +
+                  Arguments::text(contacts) + " contacts is not finite: look at what moves or pushes these grains");
 }
 
 void ContactCompute::sum_over_ranks(double *values, int n) const {

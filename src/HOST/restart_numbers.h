@@ -7,8 +7,8 @@
 
 namespace grainscope {
 
-/** The `count` numbers that a restart file holds of grain i for the nth of the fixes that store such; null when there are not so many. Each
- *  fix's are preceded by how many there are, with this one. */
+/** The `count` numbers that a restart file holds of grain i for the nth of the fixes that store such; null when there
+ *  are not so many. Each fix's are preceded by how many there are, with this one. */
 inline const double *restart_numbers(const LAMMPS_NS::Atom *atom, int i, int nth, int count) {
   const double *at = atom->extra[i], *const end = at + atom->nextra_store;
   for (int k = 0; k < nth && at < end; k++) {
