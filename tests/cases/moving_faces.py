@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Faces that move and no grain with them (boundary s and m, change_box without remap) are no flow and no change of the grains."""
+"""Faces that move and no grain with them (boundary s and m, change_box without remap) are no flow and no change."""
 from dataclasses import replace
 
 import numpy as np
@@ -16,14 +16,16 @@ RATE, DT = 0.2, 1e-3
 
 def scene(flyer=(0.0, 0.0, 1.0), drift=(0.0, 0.0, 0.0), triclinic=False, **choices):
     """Eight spheres two layers deep, and a ninth above them that flies: nothing touches."""
-    grains = [Grain((x, y, z), (0.5,) * 3, velocity=drift) for z in (1.0, 5.0) for y in (-3.0, 3.0) for x in (-3.0, 3.0)]
+    places = [(x, y, z) for z in (1.0, 5.0) for y in (-3.0, 3.0) for x in (-3.0, 3.0)]
+    grains = [Grain(place, (0.5,) * 3, velocity=drift) for place in places]
     grains.append(Grain((0.0, 0.0, 6.0), (0.5,) * 3, velocity=flyer))
     packing = Packing((12.0, 12.0, 10.0), grains, atom_style="sphere", origin=(-6.0, -6.0, 0.0), triclinic=triclinic)
     return Deck(packing, timestep=DT, **choices)
 
 
 def measured(deck, ranks, *lines, group="all", every=100, told=()):
-    strain = ["group rest id 1:8", f"variable strain equal step*dt*{number(RATE)}", f"compute moved {group} displacement/shear strain v_strain"]
+    strain = ["group rest id 1:8", f"variable strain equal step*dt*{number(RATE)}",
+              f"compute moved {group} displacement/shear strain v_strain"]
     table = thermo(every, "zlo", "zhi", *MOVED, *told)
     return run(replace(deck, body=[*strain, *lines[:1], *table, *lines[1:]]), ranks).thermo()
 
@@ -42,7 +44,8 @@ def follows_the_flyer(boundary, group="all"):
 
 
 def top_layer(ranks):
-    """Between neighbour lists the flyer is above the face that will follow it: it belongs to the highest of four layers, not to the lowest."""
+    """Between neighbour lists the flyer is above the face that will follow it: it belongs to the highest of four layers,
+    not to the lowest."""
     told = [f"c_profile[{k}][2]" for k in range(1, 5)] + ["c_smectic[4]", "c_layered[3]"]
     lines = ["compute profile all fluctuation plane xz layers 4\ncompute smectic all layering axis z layers 4\n"
              "compute layered all fluctuation plane xz flow layers 4 layers 4"]
@@ -58,7 +61,8 @@ def top_layer(ranks):
 
 
 def in_a_shear_flow(ranks):
-    """The box is sheared along x over y, and grains with it; across z the face follows one of them. d = 0 but for that one's own t."""
+    """The box is sheared along x over y, and grains with it; across z the face follows one of them. d = 0 but for that
+    one's own t."""
     deck = scene(boundary="p p s", triclinic=True)
     grains = [replace(g, velocity=(RATE * g.position[1], 0.0, g.velocity[2])) for g in deck.packing.grains]
     deck = replace(deck, packing=replace(deck.packing, grains=grains))
@@ -86,7 +90,8 @@ def change_box(words, boundary="p p f", **choices):
 def refuses(line, *words):
     def case(ranks):
         deck = scene(boundary="p p p", triclinic=True)
-        lines = ["group some id 1:4", "variable strain equal step", line, "compute moved all displacement/shear strain v_strain", "run 1"]
+        lines = ["group some id 1:4", "variable strain equal step", line,
+                 "compute moved all displacement/shear strain v_strain", "run 1"]
         require_refused(replace(deck, body=lines), ranks, *words)
     return case
 
@@ -127,7 +132,8 @@ def is_a_change(words):
         deck = opened("p p f")
         dump = dump_grains(deck.packing, 40)
         lines = [*room("p p f"), "run 20", f"change_box all {words}", *dump, "run 20"]
-        found, expected = run(replace(deck, body=lines), ranks), run(replace(deck, body=lines, extra="ledger on"), ranks)
+        found = run(replace(deck, body=lines), ranks)
+        expected = run(replace(deck, body=lines, extra="ledger on"), ranks)
         require("were changed since" in found.output, "the run does not say that something was changed")
         require_same_snapshots(found.dump("grains.dump"), expected.dump("grains.dump"), "against setup host")
     return case
@@ -158,9 +164,10 @@ CASES = {
     "changed-tilt": change_box("xy final 4 units box", "p p p", drift=(0.0, 30.0, -30.0)),
     "changed-tilt-with-remap": change_box("xy final 4 remap units box", "p p p", drift=(0.0, 30.0, -30.0)),
     "changed-boundary": change_box("boundary p p s", flyer=(0.0, 0.0, 1.0)),
-    "remap-none": refuses("fix flow all deform 1 xy erate 0.1 remap none", "compute displacement/shear: fix flow (deform) must move grains along",
-                          "got 'remap none'"),
-    "deform-of-some": refuses("fix flow some deform 1 xy erate 0.1 remap v", "must move all grains of group 'all', got group 'some'"),
+    "remap-none": refuses("fix flow all deform 1 xy erate 0.1 remap none",
+                          "compute displacement/shear: fix flow (deform) must move grains along", "got 'remap none'"),
+    "deform-of-some": refuses("fix flow some deform 1 xy erate 0.1 remap v",
+                              "must move all grains of group 'all', got group 'some'"),
     "neutral-shrink-wrapped": is_no_change("p p s"),
     "neutral-with-minimum": is_no_change("p p m"),
     "neutral-changed-beyond-grains": is_no_change("p p f", "change_box all z delta -5 5 units box"),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A grain whose place is no number: a measure that sorts grains or contacts by place ends the run with a message, and writes nowhere else."""
+"""A grain whose place is no number: a measure that sorts by place ends the run with a message, and writes nowhere else."""
 from dataclasses import replace
 
 from case import main
@@ -16,13 +16,15 @@ NO_LIST = "neigh_modify delay 1000 every 1000"
 def measured(command, quantity, *words, packing=SPHERES, pair="gran", surface="superquadric"):
     def case(ranks):
         deck = Deck(packing, pair=pair, surface=surface)
-        lines = [NO_LIST, "variable step equal step", f"compute gone all {command}", *thermo(1, quantity), "thermo_modify lost ignore", GONE]
+        lines = [NO_LIST, "variable step equal step", f"compute gone all {command}", *thermo(1, quantity),
+                 "thermo_modify lost ignore", GONE]
         require_refused(replace(deck, body=lines), ranks, *words)
     return case
 
 
 def guarded(command, quantity, packing=SPHERES, surface="superquadric"):
-    return measured(command, quantity, "the", "of grains", "is not finite", packing=packing, pair="gran/insitu", surface=surface)
+    words = "the", "of grains", "is not finite"
+    return measured(command, quantity, *words, packing=packing, pair="gran/insitu", surface=surface)
 
 
 GRAINS = "the positions of 1 grains are not finite"

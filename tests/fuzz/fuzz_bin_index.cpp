@@ -34,7 +34,8 @@ void check_places(fuzz::Input &input) {
   points.add(s, 1.0);
   const std::array<int, 3> cell = mesh.cell_of(points, 0);
   for (int k = 0; k < 3; k++)
-    require(std::isfinite(s[k]) ? cell[k] >= 0 && cell[k] < mesh.size[k] : cell[k] == -1, "a cell of the mesh, or none", s[k], mesh.size[k]);
+    require(std::isfinite(s[k]) ? cell[k] >= 0 && cell[k] < mesh.size[k] : cell[k] == -1, "a cell of the mesh, or none",
+            s[k], mesh.size[k]);
   const int bands = input.whole(1, 1000);
   const double psi = input.any();
   const int band = band_of(psi, bands);
@@ -50,8 +51,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
   check_bins(place(input, bins), bins);
   const double value = input.any(), most = input.logarithmic(1.0, 9e15);
   const long long whole = whole_count(value, most);
-  require(whole >= 0 ? value == static_cast<double>(whole) && value <= most : !(value >= 0.0 && value <= most && value == std::floor(value)),
-          "a whole number, or refused", value, most);
+  const bool taken = value >= 0.0 && value <= most && value == std::floor(value);
+  require(taken ? value == static_cast<double>(whole) : whole == -1, "a whole number, or refused", value, most);
   check_places(input);
   return 0;
 }

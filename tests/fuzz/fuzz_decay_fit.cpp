@@ -31,7 +31,8 @@ void check_frozen(fuzz::Input &input, const std::vector<double> &r) {
     farthest = std::max(farthest, x);
   }
   // A point so near that its decay would be seen decides for itself.
-  if (farthest < 2.0 * nearest) require(fit_decay(r, c).length == 0.0, "what does not decay has no length", fit_decay(r, c).length, eps);
+  const double length = fit_decay(r, c).length;
+  if (farthest < 2.0 * nearest) require(length == 0.0, "what does not decay has no length", length, eps);
 }
 
 /** A fit of whatever a correlation may be: no length has a smaller sum of squares, and another unit of r changes nothing. */

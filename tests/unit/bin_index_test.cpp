@@ -55,5 +55,6 @@ TEST(bin_index, counts_are_whole_and_bounded) {
   EXPECT_EQ(whole_count(0.0, 10.0), 0);
   EXPECT_EQ(whole_count(10.0, 10.0), 10);
   EXPECT_EQ(whole_count(9007199254740992.0, 9007199254740992.0), 9007199254740992LL);
-  for (double value : {-1.0, 0.5, 10.5, 11.0, 1e300, infinite, -infinite, nan_value}) EXPECT_EQ(whole_count(value, 10.0), -1) << value;
+  for (double value : {-1.0, 0.5, 10.5, 11.0, 1e300, infinite, -infinite, nan_value})
+    EXPECT_EQ(whole_count(value, 10.0), -1) << value;
 }
