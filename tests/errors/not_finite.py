@@ -9,7 +9,7 @@ from refusal import require_refused
 
 SPHERES = dense_packing(atom_style="sphere")
 SPHEROIDS = dense_packing(1.5)
-GONE = 'run 4 every 2 "set atom 3 y 1e999"'   # without a set-up in between, which the host would not survive
+GONE = 'run 4 pre no every 2 "set atom 3 y 1e999"'   # without a set-up in between, which the host would not survive
 NO_LIST = "neigh_modify delay 1000 every 1000"
 
 
@@ -29,12 +29,12 @@ def guarded(command, quantity, packing=SPHERES, surface="superquadric"):
 
 GRAINS = "the positions of 1 grains are not finite"
 CASES = {
-    "layering": measured("layering", "c_gone[1]", "compute layering: step 3: " + GRAINS),
-    "fluctuation-profile": measured("fluctuation", "c_gone[1][2]", "compute fluctuation: step 3: " + GRAINS),
-    "fluctuation-layers": measured("fluctuation flow layers 4", "c_gone[1]", "flow layers: step 3: " + GRAINS),
-    "memory-layers": measured("velocity/memory strain v_step flow layers 4", "c_gone", "flow layers: step 3: " + GRAINS),
-    "correlation": measured("velocity/correlation", "c_gone", "compute velocity/correlation: step 3: " + GRAINS),
-    "correlation-mesh": measured("velocity/correlation method mesh", "c_gone", "compute velocity/correlation: step 3: " + GRAINS),
+    "layering": measured("layering", "c_gone[1]", "compute layering: step", GRAINS),
+    "fluctuation-profile": measured("fluctuation", "c_gone[1][2]", "compute fluctuation: step", GRAINS),
+    "fluctuation-layers": measured("fluctuation flow layers 4", "c_gone[1]", "flow layers: step", GRAINS),
+    "memory-layers": measured("velocity/memory strain v_step flow layers 4", "c_gone", "flow layers: step", GRAINS),
+    "correlation": measured("velocity/correlation", "c_gone", "compute velocity/correlation: step", GRAINS),
+    "correlation-mesh": measured("velocity/correlation method mesh", "c_gone", "compute velocity/correlation: step", GRAINS),
     "contact-direction": guarded("contact/direction", "c_gone[1][2]"),
     "contact-surface": guarded("contact/surface", "c_gone[1][3]", SPHEROIDS),
     "contact-surface-ellipsoid": guarded("contact/surface", "c_gone[1][3]", SPHEROIDS, "ellipsoid"),
