@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_contact_direction.h"
 #include "arguments.h"
+#include "bin_index.h"
 #include "contact.h"
 #include "plane.h"
 #include "rows.h"
@@ -22,7 +23,7 @@ enum { CONTACTS, NORMAL, TANGENTIAL, ALONG, SUMS };
 struct ComputeContactDirection::Impl {
   grainscope::Plane plane;
   int half = 36;             // bins from 0 to pi; the other half is their mirror image
-  std::vector<double> sums;  // half x SUMS
+  std::vector<double> sums;  // half x SUMS, and contacts whose direction is no number
   grainscope::Rows rows;
 };
 
@@ -43,7 +44,7 @@ ComputeContactDirection::ComputeContactDirection(LAMMPS *lmp, int &iarg, int nar
 
 ComputeContactDirection::~ComputeContactDirection() {}
 
-void ComputeContactDirection::begin_contacts() { impl_->sums.assign(impl_->half * SUMS, 0.0); }
+void ComputeContactDirection::begin_contacts() { impl_->sums.assign(impl_->half * SUMS + 1, 0.0); }
 
 void ComputeContactDirection::add_contact(const Contact &c) {
   if (!both_in_group(c.i, c.j)) return;
@@ -54,7 +55,12 @@ void ComputeContactDirection::add_contact(const Contact &c) {
   // beta and beta + pi are one line; the component along (-sin beta, cos beta) is the same for both grains.
   double beta = std::atan2(c.normal[b], c.normal[a]);
   if (beta < 0.0) beta += M_PI;
-  const int bin = static_cast<int>(beta / M_PI * impl_->half) % impl_->half;
+  const int upto_pi = grainscope::bin_index(beta / M_PI * impl_->half, impl_->half + 1);
+  if (upto_pi < 0) {
+    impl_->sums.back() += c.weight;
+    return;
+  }
+  const int bin = upto_pi % impl_->half;
   const double along = (c.tangential_force[b] * c.normal[a] - c.tangential_force[a] * c.normal[b]) / length;
   double *s = &impl_->sums[bin * SUMS];
   s[CONTACTS] += c.weight;
@@ -68,6 +74,7 @@ void ComputeContactDirection::compute_array() {
   invoked_array = update->ntimestep;
   std::vector<double> all = impl_->sums;
   sum_over_ranks(all.data(), all.size());
+  require_finite(all.back());
   double contacts = 0.0;
   for (int k = 0; k < impl_->half; k++) contacts += all[k * SUMS + CONTACTS];
   const double bin = M_PI / impl_->half;

@@ -48,7 +48,7 @@ struct ComputeContactSurface::Impl {
   double unit_area = 0.0;             // their sum
   double grains = 0.0, mean_square = 0.0;  // of the group: number, mean of (semi-axis along the axis)^2
   bigint build = -1;                  // the neighbour list that the four above are of
-  std::vector<double> sums;           // bins x SUMS, then the sum of F_y r_y over contacts
+  std::vector<double> sums;           // bins x SUMS, sum of F_y r_y over contacts, contacts whose place is no number
   bool reduced = false;
   grainscope::Rows rows;
 
@@ -166,19 +166,21 @@ void ComputeContactSurface::measure_grains() {
 
 void ComputeContactSurface::begin_contacts() {
   measure_grains();
-  impl_->sums.assign(impl_->bins * SUMS + 1, 0.0);
+  impl_->sums.assign(impl_->bins * SUMS + 2, 0.0);
   impl_->reduced = false;
 }
 
 void ComputeContactSurface::add_contact(const Contact &c) {
   if (!both_in_group(c.i, c.j)) return;
-  impl_->sums.back() += c.weight * c.force[1] * c.branch[1];
+  impl_->sums[impl_->bins * SUMS] += c.weight * c.force[1] * c.branch[1];
   const auto add_to = [&](int grain, const Vector3d &arm) {
     const double *shape = atom->shape[grain], *q = atom->quaternion[grain];
     const int axis = axis_of(shape);
     const Vector3d point = along(axis, Eigen::Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * arm);
     const double psi = grainscope::surface_angle(point, along(axis, Map<const Vector3d>(shape)), impl_->angle);
-    impl_->add(c, grainscope::band_of(psi, impl_->bins), impl_->unit_area * shape[axis] * shape[axis]);
+    const int band = grainscope::band_of(psi, impl_->bins);
+    if (band < 0) impl_->sums.back() += c.weight;
+    else impl_->add(c, band, impl_->unit_area * shape[axis] * shape[axis]);
   };
   const Vector3d arm = c.point - Map<const Vector3d>(atom->x[c.i]);
   add_to(c.i, arm);
@@ -190,7 +192,8 @@ void ComputeContactSurface::reduce() {
   if (impl_->reduced) return;
   impl_->reduced = true;
   sum_over_ranks(impl_->sums.data(), impl_->sums.size());
-  const double pressure = impl_->sums.back() / observer_->box().volume;
+  require_finite(impl_->sums[impl_->bins * SUMS + 1]);
+  const double pressure = impl_->sums[impl_->bins * SUMS] / observer_->box().volume;
   const double per_pressure = pressure > 0.0 ? 1.0 / pressure : 0.0;
   double contacts = 0.0, power = 0.0;
   for (int k = 0; k < impl_->bins; k++) {

@@ -7,7 +7,9 @@
 #include "surroundings.h"
 #include "atom.h"
 #include "domain.h"
+#include "fix_deform.h"
 #include "group.h"
+#include "modify.h"
 #include "update.h"
 #include <Eigen/LU>
 #include <algorithm>
@@ -30,13 +32,24 @@ enum { POSITION = 0, DISPLACEMENT = 3, TRACKED = 6, WIDTH };
 enum { STARTED = 0, STRAIN_0, STRAIN_1, STEP, EDGES, CALLS = EDGES + 9, STRAIN, STRAIN_STRAIN, SQUARE, STRAIN_SQUARE = SQUARE + 3,
        MEAN = STRAIN_SQUARE + 3, GRAINS = MEAN + 3, SHARED };
 
+const int no_remap = 0;          // of the host's numbers for none x v
+const int last_that_stands = 1;  // of the host's numbers for p f s m
+
 /** The box now, and where grains are in it. */
 struct Box {
   Box(const Domain &domain, const FixGrainRecord &record) : edges(grainscope::upper_triangular(domain.h)), wrapped(grainscope::upper_triangular(record.edges())) {
     // The point that the flow leaves at rest: middle heights, and along the flow a place that does not follow the tilt.
     rest = Map<const Vector3d>(domain.boxlo) + 0.5 * edges.diagonal();
+    for (int k = 0; k < 3; k++) {
+      follows_grains[k] = domain.boundary[k][0] > last_that_stands || domain.boundary[k][1] > last_that_stands;
+      if (!follows_grains[k]) continue;
+      edges.col(k) /= edges(k, k);
+      middle[k] = rest[k];
+      rest[k] = 0.0;
+    }
   }
-  /** Position of grain i from the point at rest, unwrapped with the edges that its image flags count. */
+  /** Position of grain i from the point at rest (from 0 across faces that follow the grains), unwrapped with the edges
+   *  that its image flags count. */
   Vector3d position(const Atom &atom, int i) const {
     const tagint image = atom.image[i];
     const Vector3d boxes((image & IMGMASK) - IMGMAX, (image >> IMGBITS & IMGMASK) - IMGMAX, (image >> IMG2BITS) - IMGMAX);
@@ -45,6 +58,8 @@ struct Box {
 
   Matrix3d edges, wrapped;
   Vector3d rest;
+  bool follows_grains[3];              // faces across this edge move with the outermost grain, and no other with them
+  Vector3d middle = Vector3d::Zero();  // of such edges now
 };
 
 }
@@ -82,6 +97,27 @@ ComputeDisplacementShear::~ComputeDisplacementShear() {
 void ComputeDisplacementShear::init() {
   impl_->strain.init();
   impl_->record = FixGrainRecord::find(lmp, id);
+  require_flow_of_all();
+}
+
+/** The grains of the group must move with the faces that fix deform moves. Collective. */
+void ComputeDisplacementShear::require_flow_of_all() {
+  for (int k = 0; k < modify->nfix; k++) {
+    const FixDeform *deform = dynamic_cast<FixDeform *>(modify->fix[k]);
+    if (!deform) continue;
+    const std::string which = std::string("fix ") + deform->id + " (" + deform->style + ")";
+    const grainscope::Arguments complaints(lmp, name, 0, 0, nullptr);
+    if (deform->remapflag == no_remap)
+      complaints.fail(which + " must move grains along with the box, 'remap v' or 'remap x', got 'remap none': "
+                      "displacements against its flow would be wrong");
+    int others = 0;
+    for (int i = 0; i < atom->nlocal && !others; i++)
+      others = atom->mask[i] & groupbit && !(atom->mask[i] & deform->groupbit);
+    MPI_Allreduce(MPI_IN_PLACE, &others, 1, MPI_INT, MPI_MAX, world);
+    if (others)
+      complaints.fail(which + " must move all grains of group '" + group->names[igroup] + "', got group '" +
+                      group->names[deform->igroup] + "'");
+  }
 }
 
 void ComputeDisplacementShear::begin(double strain) {
@@ -107,36 +143,65 @@ void ComputeDisplacementShear::begin(double strain) {
 }
 
 /** Carries every grain's displacement on to now. */
-void ComputeDisplacementShear::follow(double strain) {
+void ComputeDisplacementShear::advance() {
   const Box box(*domain, *impl_->record);
   double *shared = impl_->shared();
-  const Matrix3d before = Map<Matrix3d>(shared + EDGES);
+  Matrix3d before = Map<Matrix3d>(shared + EDGES);
   Matrix3d after = box.edges;
   double turns[3];
   impl_->record->take_turns(turns);
   after.col(2) -= turns[0] * after.col(1) + turns[1] * after.col(0);  // edges as if the box had not flipped
   after.col(1) -= turns[2] * after.col(0);
+  for (int k = 0; k < 3; k++)
+    if (box.follows_grains[k]) before.col(k) = after.col(k);
 
   const Matrix3d to_s1 = before.inverse(), to_s2 = after.inverse(), mean = 0.5 * (before + after);
   const double turn = 2.0 * IMGMAX;  // the host's image flags count modulo this
-  double sums[4] = {0.0, 0.0, 0.0, 0.0};
   for (int i = 0; i < atom->nlocal; i++) {
     double *record = impl_->record->of(i);
     if (record[TRACKED] == 0.0) continue;
     const Vector3d now = box.position(*atom, i);
     Map<Vector3d> last(record + POSITION), d(record + DISPLACEMENT);
-    Vector3d ds = to_s2 * now - to_s1 * last;
-    for (int k = 0; k < 3; k++) ds[k] = std::remainder(ds[k], turn);
+    Vector3d ds = to_s2 * (now - box.middle) - to_s1 * (last - box.middle);
+    for (int k = 0; k < 3; k++)
+      if (!box.follows_grains[k]) ds[k] = std::remainder(ds[k], turn);
     d += mean * ds;
     last = now;
-    Map<Vector3d>(sums + 0) += d.cwiseAbs2();
+  }
+  Map<Matrix3d>(shared + EDGES) = box.edges;
+}
+
+void ComputeDisplacementShear::follow(double strain) {
+  advance();
+  double *shared = impl_->shared();
+  double sums[4] = {0.0, 0.0, 0.0, 0.0};
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double *record = impl_->record->of(i);
+    if (record[TRACKED] == 0.0) continue;
+    Map<Vector3d>(sums + 0) += Map<const Vector3d>(record + DISPLACEMENT).cwiseAbs2();
     sums[3] += 1.0;
   }
   MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, world);
   for (int k = 0; k < 3; k++) shared[MEAN + k] = sums[3] > 0.0 ? sums[k] / sums[3] : 0.0;
   shared[GRAINS] = sums[3];
   shared[STRAIN_1] = strain;
-  Map<Matrix3d>(shared + EDGES) = box.edges;
+}
+
+void ComputeDisplacementShear::before_change_box() {
+  impl_->record = FixGrainRecord::find(lmp, id);
+  if (impl_->shared()[STARTED] != 0.0) advance();
+}
+
+/** With `remap` grains moved affinely, without they stayed: in neither case do they come any farther. */
+void ComputeDisplacementShear::after_change_box() {
+  impl_->record = FixGrainRecord::find(lmp, id);
+  impl_->record->take_box();
+  const Box box(*domain, *impl_->record);
+  for (int i = 0; i < atom->nlocal; i++) {
+    double *record = impl_->record->of(i);
+    if (record[TRACKED] != 0.0) Map<Vector3d>(record + POSITION) = box.position(*atom, i);
+  }
+  if (impl_->shared()[STARTED] != 0.0) Map<Matrix3d>(impl_->shared() + EDGES) = box.edges;
 }
 
 /** A point of the least squares. */

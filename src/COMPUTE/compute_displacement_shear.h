@@ -8,6 +8,7 @@ ComputeStyle(displacement/shear,ComputeDisplacementShear)
 #ifndef LMP_COMPUTE_DISPLACEMENT_SHEAR_H
 #define LMP_COMPUTE_DISPLACEMENT_SHEAR_H
 
+#include "box_watcher.h"
 #include "compute.h"
 #include <memory>
 
@@ -18,17 +19,21 @@ class FixGrainRecord;
 /** How far grains have moved against the affine motion of a sheared box since a given strain. Between two calls, X is a grain's position
  *  with image flags from boxlo + (L_x, L_y, L_z)/2, H the box edges with the driven tilt continued through flips, s = H^-1 X:
  *  d += (H_1 + H_2)/2 (s_2 - s_1).
+ *  Along an axis whose faces follow the grains (boundary s or m) there is no affine motion: its edge is taken as it is
+ *  at the second call.
  *  scalar: <d_y^2> [distance^2], intensive.
  *  vector (8, intensive): 1 strain since the start, 2-4 <d_x^2> <d_y^2> <d_z^2> [distance^2], 5-7 D_x D_y D_z, half the slope of 2-4 over
  *  strain, least squares with free intercept over all calls [distance^2], 8 grains. Zero before the start and for an empty group.
  *  Source: Bilotto, Trulsson & Molinari 2025, App. E, Fig. 16; doi 10.1103/tj41-6qqk. */
-class ComputeDisplacementShear : public Compute {
+class ComputeDisplacementShear : public Compute, public grainscope::BoxWatcher {
  public:
   ComputeDisplacementShear(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeDisplacementShear();
   void init();
   double compute_scalar();
   void compute_vector();
+  void before_change_box();
+  void after_change_box();
 
  private:
   struct Impl;
@@ -36,6 +41,8 @@ class ComputeDisplacementShear : public Compute {
 
   void begin(double strain);
   void follow(double strain);
+  void advance();
+  void require_flow_of_all();
   void measure(double strain);
 };
 

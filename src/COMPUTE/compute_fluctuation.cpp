@@ -78,14 +78,21 @@ void ComputeFluctuation::compute_array() {
   const BoxState box(lmp);
   const int across = impl_->flow.plane.gradient;
   const Fluctuations motion(lmp, groupbit, box, impl_->with(MeanFlow::Kind::box));
-  std::vector<double> sums(width * impl_->layers, 0.0);  // per layer m, grains, m u
+  // Per layer m, grains, m u; then grains that no layer holds.
+  std::vector<double> sums(width * impl_->layers + 1, 0.0);
   for (const Fluctuations::Grain &g : motion.local()) {
-    double *at = &sums[width * box.layer(Map<const Vector3d>(atom->x[g.index]), across, impl_->layers)];
+    const int layer = box.layer(Map<const Vector3d>(atom->x[g.index]), across, impl_->layers);
+    if (layer < 0) {
+      sums.back() += 1.0;
+      continue;
+    }
+    double *at = &sums[width * layer];
     at[0] += g.mass;
     at[1] += 1.0;
     Map<Vector3d>(at + 2) += g.mass * g.velocity;
   }
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM, world);
+  grainscope::require_layers(lmp, "compute fluctuation", sums.back());
   const double length = box.edges(across, across);
   for (int k = 0; k < impl_->layers; k++) {
     const double *at = &sums[width * k];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_layering.h"
 #include "arguments.h"
-#include "box_state.h"
+#include "fluctuations.h"
 #include "rows.h"
 #include "atom.h"
 #include "update.h"
@@ -42,10 +42,15 @@ void ComputeLayering::compute_array() {
   invoked_array = update->ntimestep;
   const grainscope::BoxState box(lmp);
   const int m = impl_->layers;
-  std::vector<double> counts(m, 0.0);
-  for (int i = 0; i < atom->nlocal; i++)
-    if (atom->mask[i] & groupbit) counts[box.layer(Eigen::Map<const Eigen::Vector3d>(atom->x[i]), impl_->axis, m)] += 1.0;
-  MPI_Allreduce(MPI_IN_PLACE, counts.data(), m, MPI_DOUBLE, MPI_SUM, world);
+  std::vector<double> counts(m + 1, 0.0);  // of each layer; then grains that none holds
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const int layer = box.layer(Eigen::Map<const Eigen::Vector3d>(atom->x[i]), impl_->axis, m);
+    counts[layer < 0 ? m : layer] += 1.0;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, counts.data(), m + 1, MPI_DOUBLE, MPI_SUM, world);
+  grainscope::require_layers(lmp, "compute layering", counts[m]);
+  counts.pop_back();
   impl_->grains = 0.0;
   for (double count : counts) impl_->grains += count;
 

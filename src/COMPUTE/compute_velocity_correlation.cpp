@@ -99,6 +99,7 @@ struct ComputeVelocityCorrelation::Impl {
   void add_to_record(const Totals &now, bigint step);
 
   Totals measure(LAMMPS *lmp, int groupbit);
+  void require_finite(LAMMPS *lmp, const PointValues &points) const;
   PairSums share_of_pairs(LAMMPS *lmp, const PeriodicCell &cell, const PointValues &points, const DistanceBins &distances);
 };
 
@@ -210,6 +211,18 @@ PairSums ComputeVelocityCorrelation::Impl::share_of_pairs(LAMMPS *lmp, const Per
   return sums;
 }
 
+/** Collective. */
+void ComputeVelocityCorrelation::Impl::require_finite(LAMMPS *lmp, const PointValues &points) const {
+  double strays = 0.0;
+  for (std::size_t i = 0; i < points.size(); i++)
+    strays += std::isfinite(points.s[0][i] + points.s[1][i] + points.s[2][i]) ? 0.0 : 1.0;
+  MPI_Allreduce(MPI_IN_PLACE, &strays, 1, MPI_DOUBLE, MPI_SUM, lmp->world);
+  if (strays == 0.0) return;
+  Arguments(lmp, name, 0, 0, nullptr)
+      .fail("step " + std::to_string(lmp->update->ntimestep) + ": the positions of " + Arguments::text(strays) +
+            " grains are not finite: look at what moves or pushes them");
+}
+
 ComputeVelocityCorrelation::Impl::Totals ComputeVelocityCorrelation::Impl::measure(LAMMPS *lmp, int groupbit) {
   const grainscope::BoxState box(lmp);
   const PeriodicCell cell = periodic_cell(box, *lmp->domain);
@@ -224,7 +237,12 @@ ComputeVelocityCorrelation::Impl::Totals ComputeVelocityCorrelation::Impl::measu
     smallest = std::min(smallest, 2.0 * grainscope::semi_axes(*lmp->atom, g.index).minCoeff());
     now.squares += value * value;
   }
-  now.sums = share_of_pairs(lmp, cell, points, distances);
+  require_finite(lmp, points);
+  try {
+    now.sums = share_of_pairs(lmp, cell, points, distances);
+  } catch (const std::length_error &reason) {
+    Arguments(lmp, name, 0, 0, nullptr).fail(reason.what());
+  }
   MPI_Allreduce(MPI_IN_PLACE, &smallest, 1, MPI_DOUBLE, MPI_MIN, lmp->world);
   MPI_Allreduce(MPI_IN_PLACE, &now.squares, 1, MPI_DOUBLE, MPI_SUM, lmp->world);
   MPI_Allreduce(MPI_IN_PLACE, now.sums.products.data(), bins, MPI_DOUBLE, MPI_SUM, lmp->world);

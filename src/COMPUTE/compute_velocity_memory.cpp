@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_velocity_memory.h"
 #include "arguments.h"
+#include "bin_index.h"
 #include "decay_fit.h"
 #include "fix_grain_record.h"
 #include "fluctuations.h"
@@ -69,7 +70,7 @@ ComputeVelocityMemory::ComputeVelocityMemory(LAMMPS *lmp, int &iarg, int narg, c
   grainscope::require_box(lmp, arguments);
   scalar_flag = vector_flag = array_flag = 1;
   extscalar = extvector = extarray = 0;
-  size_vector = 3;
+  size_vector = 4;
   vector = new double[size_vector]();
   size_array_rows = impl_->lags + 1;
   size_array_cols = width;
@@ -100,7 +101,11 @@ void ComputeVelocityMemory::sample_if_due() {
 
 void ComputeVelocityMemory::sample(double strain) {
   const int lags = impl_->lags;
-  const long count = std::lround(impl_->shared()[SAMPLES]);
+  const long count = grainscope::whole_count(impl_->shared()[SAMPLES], 1e15);
+  if (count < 0)
+    grainscope::Arguments(lmp, name, 0, 0, nullptr)
+        .fail("the number of samples in its memory is damaged, got " +
+              grainscope::Arguments::text(impl_->shared()[SAMPLES]));
   const int known = std::min<long>(count, lags);  // lags that reach back to a sample
   std::vector<double> sums(2 * (known + 1), 0.0);  // products, pairs
   const Fluctuations motion(lmp, groupbit, grainscope::BoxState(lmp), impl_->flow);
@@ -158,6 +163,7 @@ void ComputeVelocityMemory::compute_vector() {
   vector[0] = fit.length;
   vector[1] = fit.error;
   vector[2] = impl_->shared()[SAMPLES];
+  vector[3] = fit.points;
   scalar = vector[0];
 }
 

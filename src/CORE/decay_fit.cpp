@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "decay_fit.h"
+#include "bin_index.h"
 #include <boost/math/tools/toms748_solve.hpp>
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,8 @@
 namespace grainscope {
 
 namespace {
+
+const int most_intervals = 20000;  // all lengths that a double can be are 15000
 
 /** The points of a fit, with r in units of the largest, and the sum of squares at a length given by its logarithm. */
 struct Squares {
@@ -56,10 +59,11 @@ double root(const Squares &squares, double a, double slope_a, double b, double s
   return std::fabs(squares.slope(bracket.first)) < std::fabs(squares.slope(bracket.second)) ? bracket.first : bracket.second;
 }
 
-/** The length of the least sum of squares, 0 when none is better than an endless one. */
+/** The length of the least sum of squares; 0 when none is better than an endless one, or none but lengths as good as
+ *  endless. */
 double best_length(const Squares &squares) {
   const auto [from, to] = search_range(squares);
-  const int intervals = static_cast<int>(std::ceil((to - from) / 0.1));
+  const int intervals = nearest_bin_index(std::ceil((to - from) / 0.1), most_intervals);
   double best = 0.0, least = squares.sum(std::numeric_limits<double>::infinity());
   double a = from, slope_a = squares.slope(a);
   for (int k = 1; k <= intervals; k++) {
@@ -74,7 +78,7 @@ double best_length(const Squares &squares) {
     a = b;
     slope_a = slope_b;
   }
-  return best;
+  return best <= longest_decay ? best : 0.0;
 }
 
 }

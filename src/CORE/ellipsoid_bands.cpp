@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ellipsoid_bands.h"
+#include "bin_index.h"
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <algorithm>
 #include <cmath>
@@ -45,10 +46,7 @@ double surface_angle(const Vector3d &x, const Vector3d &semi_axes, SurfaceAngle 
   return std::atan2(y.head<2>().norm(), std::fabs(y[2]));
 }
 
-int band_of(double psi, int bands) {
-  const double at = psi / M_PI_2 * bands;
-  return at < bands ? static_cast<int>(at) : bands - 1;
-}
+int band_of(double psi, int bands) { return nearest_bin_index(psi / M_PI_2 * bands, bands); }
 
 std::vector<double> band_areas(const Vector3d &semi_axes, int bands, SurfaceAngle angle) {
   const bool round = semi_axes[0] == semi_axes[1];

@@ -2,13 +2,23 @@
 #include "lag_mesh.h"
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
+#include <string>
 
 namespace grainscope {
 
 using Eigen::Vector3d;
 
 namespace {
+
+const int most_along = 1 << 30;
+
+std::string as_text(double cells) {
+  char text[32];
+  std::snprintf(text, sizeof text, std::fabs(cells) < 1e15 ? "%.0f" : "%g", cells);
+  return text;
+}
 
 bool is_fast(int n) {
   for (int factor : {2, 3, 5, 7})
@@ -30,11 +40,14 @@ int fast_length(int at_least) {
 std::array<int, 3> mesh_size(const PeriodicCell &cell, const DistanceBins &bins, int per_bin, double most) {
   std::array<double, 3> wanted;
   for (int k = 0; k < 3; k++) wanted[k] = std::ceil(per_bin * cell.height(k) / bins.width() - 1e-6);  // rounding must not add a cell
-  if (!(wanted[0] * wanted[1] * wanted[2] <= most))
-    throw std::length_error(std::to_string(std::llround(wanted[0])) + " x " + std::to_string(std::llround(wanted[1])) + " x " +
-                            std::to_string(std::llround(wanted[2])));
   std::array<int, 3> size;
-  for (int k = 0; k < 3; k++) size[k] = fast_length(static_cast<int>(wanted[k]));
+  bool too_many = !(wanted[0] * wanted[1] * wanted[2] <= most);
+  for (int k = 0; k < 3; k++) {
+    size[k] = bin_index(std::max(wanted[k], 0.0), most_along);
+    too_many = too_many || size[k] < 0;
+  }
+  if (too_many) throw std::length_error(as_text(wanted[0]) + " x " + as_text(wanted[1]) + " x " + as_text(wanted[2]));
+  for (int &cells : size) cells = fast_length(cells);
   return size;
 }
 
@@ -65,7 +78,7 @@ void add_lags(const PeriodicCell &cell, const LagMesh &mesh, const double *corre
       const double *values = correlation + (plane * mesh.size[1] + b) * mesh.row;
       for (int c = 0; c < n; c++) {
         if (!(r2[c] < range2)) continue;
-        const int bin = std::min(static_cast<int>(std::sqrt(r2[c]) * per_length), bins.count - 1);
+        const int bin = nearest_bin_index(std::sqrt(r2[c]) * per_length, bins.count);
         sums[bin] += whole ? std::nearbyint(values[c]) : values[c];
       }
     }

@@ -21,6 +21,7 @@ struct LagMesh {
   std::array<int, 3> size;
   std::ptrdiff_t first_plane, planes, row;
 
+  /** -1 along an edge where the place is not finite. */
   std::array<int, 3> cell_of(const PointValues &points, std::size_t i) const;
   /** Where a cell stands within its plane. */
   std::ptrdiff_t in_plane(const std::array<int, 3> &cell) const { return cell[1] * row + cell[2]; }

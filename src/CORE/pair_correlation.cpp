@@ -33,12 +33,14 @@ class Grid {
 
   int cells() const { return n_[0] * n_[1] * n_[2]; }
 
+  /** -1 for a place that is not finite. */
   int cell_of(const PointValues &points, std::size_t i) const {
     int at[3];
     for (int k = 0; k < 3; k++) {
       double s = points.s[k][i];
       if (periodic_[k]) s -= std::floor(s);
       at[k] = cell_along(s, n_[k]);
+      if (at[k] < 0) return -1;
     }
     return index(at);
   }
@@ -79,17 +81,20 @@ class Grid {
   }
 };
 
-/** Points in the order of their cells; cell c holds those from first[c] to first[c + 1]. */
+/** Points in the order of their cells; cell c holds those from first[c] to first[c + 1]. Those whose place is not finite
+ *  are left out. */
 PointValues sorted(const PointValues &points, const Grid &grid, std::vector<std::size_t> &first) {
   const std::size_t n = points.size();
   std::vector<int> cell(n);
   first.assign(grid.cells() + 1, 0);
-  for (std::size_t i = 0; i < n; i++) first[(cell[i] = grid.cell_of(points, i)) + 1]++;
+  for (std::size_t i = 0; i < n; i++)
+    if ((cell[i] = grid.cell_of(points, i)) >= 0) first[cell[i] + 1]++;
   for (int c = 0; c < grid.cells(); c++) first[c + 1] += first[c];
   std::vector<std::size_t> next(first.begin(), first.end() - 1);
   PointValues out;
-  for (auto *column : {&out.s[0], &out.s[1], &out.s[2], &out.value}) column->resize(n);
+  for (auto *column : {&out.s[0], &out.s[1], &out.s[2], &out.value}) column->resize(first.back());
   for (std::size_t i = 0; i < n; i++) {
+    if (cell[i] < 0) continue;
     const std::size_t to = next[cell[i]]++;
     for (int k = 0; k < 3; k++) out.s[k][to] = points.s[k][i];
     out.value[to] = points.value[i];
@@ -158,11 +163,7 @@ class RowSums {
   }
 
   void to_bins(int n) {
-    const double end = bins_;
-    for (int m = 0; m < n; m++) {
-      const double at = std::sqrt(r2_[m]) * per_length_;
-      bin_[m] = static_cast<int>(at < end ? at : end);
-    }
+    for (int m = 0; m < n; m++) bin_[m] = bin_index(std::sqrt(r2_[m]) * per_length_, bins_, bins_);
   }
 
   void add_batch(const double *value, int n) {

@@ -4,10 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace grainscope {
 
 using Eigen::Vector3d;
+
+namespace {
+
+const int most_images = 1000000;  // along an edge: beyond what could be looked through
+
+}
 
 double PeriodicCell::height(int k) const {
   const Vector3d normal = edges.col((k + 1) % 3).cross(edges.col((k + 2) % 3)).normalized();
@@ -28,7 +35,10 @@ NearestImages::NearestImages(const PeriodicCell &cell, double range) {
   for (int k = 0; k < 3; k++) largest[k] = cell.periodic[k] ? 0.5 : 1.5;
   const double longest = (cell.edges.cwiseAbs() * largest).norm();
   int most[3];
-  for (int k = 0; k < 3; k++) most[k] = cell.periodic[k] ? static_cast<int>(2.0 * longest / cell.height(k)) : 0;
+  for (int k = 0; k < 3; k++) {
+    most[k] = cell.periodic[k] ? bin_index(2.0 * longest / cell.height(k), most_images) : 0;
+    if (most[k] < 0) throw std::length_error("the box is so narrow or so tilted that its images cannot be told apart");
+  }
   for (int a = -most[0]; a <= most[0]; a++)
     for (int b = -most[1]; b <= most[1]; b++)
       for (int c = -most[2]; c <= most[2]; c++) {

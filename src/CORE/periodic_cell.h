@@ -2,8 +2,8 @@
 #ifndef GRAINSCOPE_PERIODIC_CELL_H
 #define GRAINSCOPE_PERIODIC_CELL_H
 
+#include "bin_index.h"
 #include <Eigen/Core>
-#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -21,11 +21,9 @@ struct PeriodicCell {
   double rounding_radius() const;
 };
 
-/** The cell, of n along an edge, of a place in units of the edge; what lies beyond the edge in the one at its end, what is no number in the last. */
-inline int cell_along(double s, int n) {
-  const double at = s * n;
-  return at < n ? static_cast<int>(std::max(at, 0.0)) : n - 1;
-}
+/** The cell, of n along an edge, of a place in units of the edge; what lies beyond the edge in the one at its end, -1 for
+ *  what is no number. */
+inline int cell_along(double s, int n) { return nearest_bin_index(s * n, n); }
 
 /** Nearest images at any distance up to a range: those with rounded components, moved by the few lattice vectors that bring one of them
  *  nearer. There are none up to the rounding radius, nor in a box with right angles. */

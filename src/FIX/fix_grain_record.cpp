@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_grain_record.h"
+#include "restart_numbers.h"
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
@@ -71,6 +72,11 @@ void FixGrainRecord::take_turns(double turns[3]) {
   std::fill(turns_, turns_ + 3, 0.0);
 }
 
+void FixGrainRecord::take_box() {
+  std::copy(domain->h, domain->h + 6, edges_);
+  std::fill(turns_, turns_ + 3, 0.0);
+}
+
 std::string FixGrainRecord::id_for(const char *compute) { return std::string(compute) + "_record"; }
 
 FixGrainRecord *FixGrainRecord::make(LAMMPS *lmp, const char *id, int igroup, int width, int shared, const std::string &meaning, int step_at) {
@@ -139,9 +145,11 @@ int FixGrainRecord::pack_restart(int i, double *buffer) {
 }
 
 void FixGrainRecord::unpack_restart(int i, int nth) {
-  const double *extra = atom->extra[i];
-  for (int k = 0; k < nth; k++) extra += static_cast<int>(extra[0]);
-  std::copy(extra + 1, extra + 1 + width_, of(i));
+  const double *numbers = grainscope::restart_numbers(atom, i, nth, width_);
+  if (!numbers)
+    error->one(FLERR, (std::string(id) + ": the restart file does not hold the " + std::to_string(width_) +
+                       " numbers of each grain").c_str());
+  std::copy(numbers, numbers + width_, of(i));
 }
 
 void FixGrainRecord::write_restart(FILE *file) {

@@ -43,6 +43,8 @@ class FixGrainRecord : public Fix {
   const double *edges() const { return edges_; }
   /** How often the tilts yz, xz, xy were turned back by one edge since this was asked last, positive when they grew. */
   void take_turns(double turns[3]);
+  /** The box was changed between runs: image flags now count edges of this one, and no tilt was turned back. */
+  void take_box();
 
   double memory_usage();
   void grow_arrays(int nmax);

@@ -28,6 +28,7 @@ char guard_id[] = "gran_insitu_guard", group_all[] = "all", guard_style[] = "run
 bool making = false;
 bool warned_of_damping = false;  // since there is a pair style of ours
 
+const int fixed_face = 1; // of the host's numbers for p f s m
 const int seldom = 100;   // steps between looks at what a run can do without for a while
 
 struct Quantity {
@@ -169,13 +170,14 @@ std::string FixRunGuard::not_finite(bool forces) const {
   return message.str();
 }
 
-/** Grains that are beyond a face that is not periodic may go: thermo_modify lost. */
+/** Grains that are beyond a face that is fixed may go: thermo_modify lost. One that follows the grains will be moved
+ *  beyond them. */
 void FixRunGuard::pre_exchange() {
   grains_ = atom->nlocal;
-  const int periodic[3] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
+  const auto open = [this](int k, int side) { return domain->boundary[k][side] == fixed_face; };
   for (int i = 0; i < atom->nlocal; i++)
     for (int k = 0; k < 3; k++)
-      if (!periodic[k] && !(atom->x[i][k] >= domain->boxlo[k] && atom->x[i][k] < domain->boxhi[k])) {
+      if ((open(k, 0) && !(atom->x[i][k] >= domain->boxlo[k])) || (open(k, 1) && !(atom->x[i][k] < domain->boxhi[k]))) {
         grains_--;
         break;
       }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_setup_memory.h"
 #include "grain_state.h"
+#include "restart_numbers.h"
 #include "atom.h"
 #include "atom_vec.h"
 #include "comm.h"
@@ -202,12 +203,20 @@ double FixSetupMemory::movers_now() const {
   return sum;
 }
 
+/** Whether images are where they were. A face that is not periodic pushes no grain, wherever it is: one that follows the
+ *  grains is set again when the run begins. */
+bool FixSetupMemory::same_box() const {
+  const Box box = box_now(), &then = shared_.ended;
+  const int periodic[3] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
+  for (int k = 0; k < 3; k++)
+    if (periodic[k] && (box.low[k] != then.low[k] || box.high[k] != then.high[k])) return false;
+  return std::equal(box.tilts, box.tilts + 3, then.tilts);
+}
+
 /** Collective. */
 bool FixSetupMemory::unchanged() const {
-  const Box box = box_now(), &then = shared_.ended;
-  const auto differ = [](const double (&a)[3], const double (&b)[3]) { return !std::equal(a, a + 3, b); };
-  int changed = shared_.grains != static_cast<double>(atom->natoms) || shared_.dt != update->dt || shared_.movers != movers_now() ||
-      differ(box.low, then.low) || differ(box.high, then.high) || differ(box.tilts, then.tilts);
+  int changed = shared_.grains != static_cast<double>(atom->natoms) || shared_.dt != update->dt ||
+      shared_.movers != movers_now() || !same_box();
   for (int i = 0; i < atom->nlocal && !changed; i++) changed = !same(i);
   const bool nothing = shared_.grains < 0.0;
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, world);
@@ -326,10 +335,11 @@ int FixSetupMemory::pack_restart(int i, double *buffer) {
 }
 
 void FixSetupMemory::unpack_restart(int i, int nth) {
-  const double *extra = atom->extra[i];
-  for (int k = 0; k < nth; k++) extra += static_cast<int>(extra[0]);
-  if (extra[0] != width + 1) error->one(FLERR, "pair_style gran/insitu: the restart file holds another kind of memory of the set-up: say 'setup host'");
-  std::copy(extra + 1, extra + 1 + width, of(i));
+  const double *numbers = grainscope::restart_numbers(atom, i, nth, width);
+  if (!numbers)
+    error->one(FLERR, "pair_style gran/insitu: the restart file holds another kind of memory of the set-up: say "
+                      "'setup host'");
+  std::copy(numbers, numbers + width, of(i));
 }
 
 /** Comes before the grains are written. */

@@ -94,6 +94,7 @@ class FixSetupMemory : public Fix {
   void wrap_now();
   bool unchanged() const;
   bool same(int i) const;
+  bool same_box() const;
   double movers_now() const;
   Box box_now() const;
   void set_box(const Box &box);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "box_state.h"
+#include "bin_index.h"
 #include "domain.h"
 #include "lammps.h"
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 
 namespace grainscope {
@@ -25,6 +25,7 @@ BoxState::BoxState(LAMMPS_NS::LAMMPS *lmp) {
   velocity_gradient = edge_velocities * edges.inverse();
   centre = Eigen::Map<const Eigen::Vector3d>(domain->boxlo) + 0.5 * edges.rowwise().sum();
   volume = h[0] * h[1] * h[2];
+  periodic = {{domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0}};
 }
 
 Eigen::Vector3d BoxState::fraction(const Eigen::Vector3d &x) const {
@@ -33,7 +34,7 @@ Eigen::Vector3d BoxState::fraction(const Eigen::Vector3d &x) const {
 
 int BoxState::layer(const Eigen::Vector3d &x, int k, int layers) const {
   const double s = fraction(x)[k];
-  return std::min(static_cast<int>((s - std::floor(s)) * layers), layers - 1);
+  return nearest_bin_index((periodic[k] ? s - std::floor(s) : s) * layers, layers);
 }
 
 double BoxState::height(int k) const {

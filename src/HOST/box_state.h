@@ -3,6 +3,7 @@
 #define GRAINSCOPE_BOX_STATE_H
 
 #include <Eigen/Core>
+#include <array>
 
 namespace LAMMPS_NS { class LAMMPS; }
 
@@ -20,6 +21,7 @@ struct BoxState {
   Eigen::Matrix3d velocity_gradient = Eigen::Matrix3d::Zero();
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double volume = 1.0;
+  std::array<bool, 3> periodic{{true, true, true}};
 
   BoxState() = default;
   explicit BoxState(LAMMPS_NS::LAMMPS *lmp);
@@ -28,7 +30,9 @@ struct BoxState {
   double height(int k) const;
   /** x in units of the box edges, 0 to 1 inside. */
   Eigen::Vector3d fraction(const Eigen::Vector3d &x) const;
-  /** Which of `layers` layers of equal height across edge k holds x, 0 to layers - 1; periodic. */
+  /** Which of `layers` layers of equal height across edge k holds x, 0 to layers - 1. Periodic where the box is;
+   *  elsewhere what is beyond a face, as a grain may be until a face that follows the grains is moved, belongs to the
+   *  layer there. -1 for a place that is not finite. */
   int layer(const Eigen::Vector3d &x, int k, int layers) const;
   /** Mean velocity of the affine flow at x; zero at the box centre. */
   Eigen::Vector3d flow(const Eigen::Vector3d &x) const {

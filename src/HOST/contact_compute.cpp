@@ -56,6 +56,13 @@ void ContactCompute::require_tally() const {
   error->all(FLERR, message.c_str());
 }
 
+void ContactCompute::require_finite(double contacts) const {
+  if (contacts == 0.0) return;
+  const Arguments complaints(lmp, name_ + " " + id, 0, 0, nullptr);
+  complaints.fail("step " + std::to_string(update->ntimestep) + ": the place or direction of " +
+                  Arguments::text(contacts) + " contacts is not finite: look at what moves or pushes these grains");
+}
+
 void ContactCompute::sum_over_ranks(double *values, int n) const {
   MPI_Allreduce(MPI_IN_PLACE, values, n, MPI_DOUBLE, MPI_SUM, world);
 }

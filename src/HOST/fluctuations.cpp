@@ -3,6 +3,7 @@
 #include "arguments.h"
 #include "atom.h"
 #include "lammps.h"
+#include "update.h"
 #include <cmath>
 #include <mpi.h>
 
@@ -17,6 +18,13 @@ void sum_over_ranks(LAMMPS_NS::LAMMPS *lmp, double *values, int n) {
   MPI_Allreduce(MPI_IN_PLACE, values, n, MPI_DOUBLE, MPI_SUM, lmp->world);
 }
 
+}
+
+void require_layers(LAMMPS_NS::LAMMPS *lmp, const std::string &who, double grains) {
+  if (grains == 0.0) return;
+  const Arguments complaints(lmp, who, 0, 0, nullptr);
+  complaints.fail("step " + std::to_string(lmp->update->ntimestep) + ": the positions of " + Arguments::text(grains) +
+                  " grains are not finite, so that no layer holds them: look at what moves or pushes them");
 }
 
 void MeanFlow::read(Arguments &arguments) {
@@ -88,10 +96,14 @@ void Fluctuations::subtract_line(int gradient) {
 
 void Fluctuations::subtract_layers(const BoxState &box, int gradient, int layers) {
   std::vector<int> layer(local_.size());
-  std::vector<double> sums(8 * layers, 0.0);  // per layer, as in subtract_means
+  std::vector<double> sums(8 * layers + 1, 0.0);  // per layer, as in subtract_means; then grains that no layer holds
   for (std::size_t k = 0; k < local_.size(); k++) {
     const Grain &g = local_[k];
     layer[k] = box.layer(Map<const Vector3d>(lmp_->atom->x[g.index]), gradient, layers);
+    if (layer[k] < 0) {
+      sums.back() += 1.0;
+      continue;
+    }
     double *at = &sums[8 * layer[k]];
     Map<Vector3d>(at + 0) += g.mass * g.velocity;
     at[3] += g.mass;
@@ -99,6 +111,7 @@ void Fluctuations::subtract_layers(const BoxState &box, int gradient, int layers
     at[7] += 1.0;
   }
   sum_over_ranks(lmp_, sums.data(), sums.size());
+  require_layers(lmp_, "flow layers", sums.back());
   for (int k = 0; k < layers; k++) grains_ += sums[8 * k + 7];
   for (std::size_t k = 0; k < local_.size(); k++) {
     const double *at = &sums[8 * layer[k]];

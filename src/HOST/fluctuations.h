@@ -4,6 +4,7 @@
 
 #include "box_state.h"
 #include "plane.h"
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS { class LAMMPS; }
@@ -52,6 +53,9 @@ class Fluctuations {
   void subtract_line(int gradient);
   void subtract_layers(const BoxState &box, int gradient, int layers);
 };
+
+/** Ends the run unless `grains`, the number over all ranks of those that no layer holds, is 0. */
+void require_layers(LAMMPS_NS::LAMMPS *lmp, const std::string &who, double grains);
 
 }
 

@@ -51,6 +51,7 @@ std::vector<MeshCorrelation::Deposit> MeshCorrelation::slab_deposits(const Point
   std::vector<std::vector<Deposit>> outgoing(ranks_);
   for (std::size_t i = 0; i < points.size(); i++) {
     const std::array<int, 3> cell = mesh_.cell_of(points, i);
+    if (*std::min_element(cell.begin(), cell.end()) < 0) continue;
     const int rank = owner_[cell[0]];
     outgoing[rank].push_back({(cell[0] - first_[rank]) * mesh_.size[1] * mesh_.row + mesh_.in_plane(cell), points.value[i]});
   }

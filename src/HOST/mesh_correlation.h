@@ -17,7 +17,8 @@ class MeshCorrelation {
   MeshCorrelation(const MeshCorrelation &) = delete;
   MeshCorrelation &operator=(const MeshCorrelation &) = delete;
 
-  /** The share of the pair sums that this rank's slab holds; `points` are this rank's own. */
+  /** The share of the pair sums that this rank's slab holds; `points` are this rank's own; those whose
+   *  place is not finite are left out. */
   PairSums pair_sums(const PeriodicCell &cell, const PointValues &points, const DistanceBins &bins, const std::array<int, 3> &size);
   /** On this rank. */
   double memory_usage() const { return numbers_ * sizeof(double); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "strain_source.h"
 #include "arguments.h"
+#include "bin_index.h"
 #include "fix_press_strain.h"
 #include "input.h"
 #include "modify.h"
@@ -25,9 +26,9 @@ void StrainSource::read(Arguments &arguments) {
   double element = 0.0;
   const bool element_given = text_.compare(0, 2, "f_") == 0 && open != std::string::npos && open > 2 && text_[close] == ']' &&
       Arguments::is_number(text_.substr(open + 1, close - open - 1), element);
-  if (!element_given || element < 1.0 || element > 1e6 || element != static_cast<int>(element)) arguments.fail("strain", requirement, text_);
+  element_ = element_given ? static_cast<int>(whole_count(element, 1e6)) - 1 : -1;
+  if (element_ < 0) arguments.fail("strain", requirement, text_);
   name_ = text_.substr(2, open - 2);
-  element_ = static_cast<int>(element) - 1;
 }
 
 void StrainSource::find_press_strain(const Arguments &complaints) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pair_gran_insitu.h"
+#include "bin_index.h"
 #include "contact_ids.h"
 #include "contact_observer.h"
 #include "ellipsoid_surface.h"
@@ -163,7 +164,8 @@ void PairGranInsitu::require_same_columns_in_restart() {
   if (!state) return;
   double columns[2];  // the host writes the number of columns, and one more
   memcpy(columns, state, sizeof columns);
-  const int found = static_cast<int>(columns[0]), wanted = dnum_pairgran, past = ContactObserver::past_columns;
+  const int found = static_cast<int>(grainscope::whole_count(columns[0], 1e6)), wanted = dnum_pairgran;
+  const int past = ContactObserver::past_columns;
   const std::string numbers = std::to_string(found) + " numbers per contact, and this pair_style has " + std::to_string(wanted) + ": ";
   if (found == wanted) return;
   if (found == wanted - past && impl_->ledger)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "decay_fit.h"
 #include "input.h"
+#include <algorithm>
 
 using grainscope::DecayFit;
 using grainscope::fit_decay;
@@ -17,6 +18,21 @@ double squares(const std::vector<double> &r, const std::vector<double> &c, doubl
   return sum;
 }
 
+}
+
+/** Which is 1 within `eps` at every distance. */
+void check_frozen(fuzz::Input &input, const std::vector<double> &r) {
+  const double eps = input.logarithmic(1e-17, 1e-7);
+  std::vector<double> c;
+  for (std::size_t k = 0; k < r.size(); k++) c.push_back(1.0 + eps * input.small());
+  double nearest = HUGE_VAL, farthest = 0.0;
+  for (double x : r) {
+    if (x > 0.0) nearest = std::min(nearest, x);
+    farthest = std::max(farthest, x);
+  }
+  // A point so near that its decay would be seen decides for itself.
+  const double length = fit_decay(r, c).length;
+  if (farthest < 2.0 * nearest) require(length == 0.0, "what does not decay has no length", length, eps);
 }
 
 /** A fit of whatever a correlation may be: no length has a smaller sum of squares, and another unit of r changes nothing. */
@@ -39,10 +55,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
   if (anything) return 0;
   require(std::isfinite(fit.length) && fit.length >= 0.0, "a length is finite and not negative", fit.length);
   require(std::isfinite(fit.error) && fit.error >= 0.0, "its error too", fit.error);
+  double largest = 0.0;
+  for (int k = 0; k < n; k++)
+    if (c[k] > 0.05) largest = std::max(largest, r[k]);
+  require_below(fit.length, grainscope::longest_decay * largest * (1.0 + 1e-12), "longer lengths are endless");
+  check_frozen(input, r);
   const double least = squares(r, c, fit.length > 0.0 ? fit.length : HUGE_VAL);
+  // Where the best length is beyond a million times the largest r, endless is as good up to n (r/length)^2.
+  const double rounding = fit.length > 0.0 ? 1e-15 : 1e-15 + n * 1e-12;
   for (double factor : {0.01, 0.3, 0.8, 0.99, 1.01, 1.25, 3.0, 100.0}) {
     const double other = (fit.length > 0.0 ? fit.length : true_length) * factor;
-    require_below(least, squares(r, c, other) * (1.0 + 1e-12) + 1e-15, "no other length fits better");
+    if (other > grainscope::longest_decay * largest) continue;
+    require_below(least, squares(r, c, other) * (1.0 + 1e-12) + rounding, "no other length fits better");
   }
   if (fit.points) require_below(least, squares(r, c, HUGE_VAL) * (1.0 + 1e-12) + 1e-15, "an endless length fits no better");
   const DecayFit other = fit_decay(scaled, c);

@@ -105,6 +105,41 @@ TEST(decay_fit, what_does_not_decay_has_no_length) {
   EXPECT_EQ(fit_decay({1.0, 2.0}, {1.2, 1.1}).points, 2);
 }
 
+TEST(decay_fit, has_no_length_whatever_the_rounding_of_what_does_not_decay) {
+  // A frozen velocity field: C is 1 up to rounding, below or above, evenly or not.
+  const std::vector<double> r = middles(50, 0.5);
+  for (double eps = 1e-17; eps < 1e-7; eps *= 3.0) {
+    std::vector<double> below, above, either, growing;
+    for (std::size_t k = 0; k < r.size(); k++) {
+      below.push_back(1.0 - eps);
+      above.push_back(1.0 + eps);
+      either.push_back(1.0 + (k % 3 - 1.0) * eps);
+      growing.push_back(1.0 + k * eps);
+    }
+    for (const std::vector<double> &c : {below, above, either, growing}) {
+      const DecayFit fit = fit_decay(r, c);
+      EXPECT_EQ(fit.length, 0.0) << eps;
+      EXPECT_EQ(fit.error, 0.0) << eps;
+      EXPECT_EQ(fit.points, 50) << eps;
+    }
+  }
+}
+
+TEST(decay_fit, tells_a_slow_decay_from_none) {
+  // One point is met exactly: -r/ln(1 - eps), a length up to a million times the largest r.
+  for (double eps = 1.01e-6; eps <= 1.01e-3; eps *= 10.0) {
+    EXPECT_NEAR(fit_decay({2.0}, {1.0 - eps}).length * -std::log1p(-eps) / 2.0, 1.0, 2e-16 / eps) << eps;
+    EXPECT_EQ(fit_decay({2.0}, {1.0 + eps}).length, 0.0) << eps;
+  }
+  EXPECT_EQ(fit_decay({2.0}, {1.0 - 0.99e-6}).length, 0.0);
+}
+
+TEST(decay_fit, what_grows_or_is_negative_has_no_length) {
+  for (const std::vector<double> &c : {std::vector<double>{1.0, 1.5, 2.0}, {1.1, 3.0, 40.0}, {-1.0, -0.5, -0.2}, {0.04, -3.0, 0.0}})
+    EXPECT_EQ(fit_decay({1.0, 2.0, 3.0}, c).length, 0.0);
+  EXPECT_EQ(fit_decay({1.0, 2.0, 3.0}, {-1.0, -0.5, -0.2}).points, 0);
+}
+
 TEST(decay_fit, points_at_no_finite_distance_do_not_count) {
   const double infinite = std::numeric_limits<double>::infinity();
   EXPECT_EQ(fit_decay({infinite, std::nan("")}, {0.5, 0.5}).points, 0);

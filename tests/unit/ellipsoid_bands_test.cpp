@@ -83,4 +83,4 @@ TEST(ellipsoid_bands, long_and_flat_triaxial_grains_have_one_area) {
   }
 }
 
-TEST(ellipsoid_bands, what_is_no_number_is_in_the_last_band) { EXPECT_EQ(band_of(std::nan(""), 10), 9); }
+TEST(ellipsoid_bands, what_is_no_number_is_in_no_band) { EXPECT_EQ(band_of(std::nan(""), 10), -1); }
