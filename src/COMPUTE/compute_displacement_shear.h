@@ -26,9 +26,9 @@ class ComputeDisplacementShear : public Compute {
  public:
   ComputeDisplacementShear(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeDisplacementShear();
-  void init();
-  double compute_scalar();
-  void compute_vector();
+  void init() override;
+  double compute_scalar() override;
+  void compute_vector() override;
 
  private:
   struct Impl;

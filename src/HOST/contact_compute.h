@@ -16,8 +16,8 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
  public:
   ContactCompute(LAMMPS_NS::LAMMPS *lmp, int &iarg, int narg, char **arg);
 
-  void init();
-  bool wants_contacts();
+  void init() override;
+  bool wants_contacts() override;
 
  protected:
   ContactObserver *observer_;
