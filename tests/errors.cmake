@@ -49,3 +49,5 @@ add_cases(error-ledger errors/ledger.py LABEL error RANKS 1 CASES
   other-integrator box-without-flow box-of-some-grains record-taken record-gone record-by-hand grains-inserted restart-without restart-with
   pre-no-at-first time-step-changed)
 add_cases(error-ledger errors/ledger.py LABEL error RANKS 2 CASES ledger-off loose-grains grains-inserted restart-without restart-with)
+add_cases(build-fork errors/hosts.py LABEL error STYLES build CASES
+  what-is-missing-is-named all-of-it-at-once what-was-not-foreseen a-header-that-is-not-there checked-again-when-a-header-changes)

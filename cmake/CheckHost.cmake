@@ -1,0 +1,62 @@
+# Whether our styles fit this host, before anything is built: compiles cmake/host_probe.cpp against the staged headers,
+# and refuses other forks in one sentence that says what they lack. Two seconds; the answer is kept until a header changes.
+
+set(probe "${CMAKE_BINARY_DIR}/host-probe")
+file(GLOB overriding src/PAIR/pair_*.h src/FIX/fix_*.h src/COMPUTE/compute_*.h src/COMMAND/*.h)
+set(text "")
+set(probe_key "${CMAKE_CXX_COMPILER} ${CMAKE_CXX_FLAGS}")
+foreach(header IN LISTS overriding)
+  get_filename_component(name "${header}" NAME)
+  string(APPEND text "#include \"${name}\"\n")
+endforeach()
+write_if_changed("${probe}/our_headers.h" "${text}")
+file(GLOB probed "${HOST_STAGE}/*.h" src/*/*.h cmake/host_probe.cpp)
+foreach(file IN LISTS probed)
+  file(SHA1 "${file}" sum)
+  string(APPEND probe_key "${file} ${sum}\n")
+endforeach()
+string(SHA1 probe_key "${probe_key}")
+
+function(compile_host_probe result output)
+  set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
+  set(folders "${probe}" "${HOST_STAGE}")
+  foreach(folder CORE HOST PAIR FIX COMPUTE COMMAND)
+    list(APPEND folders "${CMAKE_SOURCE_DIR}/src/${folder}")
+  endforeach()
+  try_compile(compiled "${probe}" SOURCES "${CMAKE_SOURCE_DIR}/cmake/host_probe.cpp"
+    CMAKE_FLAGS "-DINCLUDE_DIRECTORIES=${folders}"
+    COMPILE_DEFINITIONS -w -DSUPERQUADRIC_ACTIVE_FLAG -DNONSPHERICAL_ACTIVE_FLAG
+    LINK_LIBRARIES MPI::MPI_CXX Eigen3::Eigen OUTPUT_VARIABLE said CXX_STANDARD 17 CXX_STANDARD_REQUIRED ON)
+  set(${result} "${compiled}" PARENT_SCOPE)
+  unset(compiled CACHE)
+  set(${output} "${said}" PARENT_SCOPE)
+endfunction()
+
+# What is missing, as the probe names it; or else the compiler's first complaint.
+function(what_host_lacks output result)
+  string(REPLACE ";" "," output "${output}")
+  string(REGEX MATCHALL "host probe: [^|\n\"]*\\|" lacking "${output}")
+  list(REMOVE_DUPLICATES lacking)
+  list(TRANSFORM lacking REPLACE "host probe: (.*)\\|" "\\1")
+  list(JOIN lacking "; " lacking)
+  if(NOT lacking)
+    string(REGEX MATCH "[^/\n]*error:[^\n]*" lacking "${output}")
+    set(lacking "its headers do not compile with ours: ${lacking}")
+  endif()
+  set(${result} "${lacking}" PARENT_SCOPE)
+endfunction()
+
+if(NOT HOST_PROBE_PASSED STREQUAL probe_key)
+  compile_host_probe(fits output)
+  if(NOT fits)
+    set(fork LIGGGHTS)
+    if(EXISTS "${HOST_SOURCE}/version_liggghts_branch.txt")
+      file(STRINGS "${HOST_SOURCE}/version_liggghts_branch.txt" fork LIMIT_COUNT 1)
+    endif()
+    file(WRITE "${probe}/output.txt" "${output}")
+    what_host_lacks("${output}" lacking)
+    message(FATAL_ERROR "LIGGGHTS_SOURCE_DIR: '${HOST_SOURCE}' (${fork} ${host_version}) is not supported: ${lacking}. "
+                        "doc/hosts.md lists the hosts that are.")
+  endif()
+  set(HOST_PROBE_PASSED "${probe_key}" CACHE INTERNAL "Headers of the host that the probe was compiled with")
+endif()
