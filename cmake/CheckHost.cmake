@@ -1,5 +1,5 @@
 # Whether our styles fit this host, before anything is built: compiles cmake/host_probe.cpp against the staged headers,
-# and refuses other forks in one sentence that says what they lack. Two seconds; the answer is kept until a header changes.
+# and refuses other forks in one sentence that says what they lack. Two seconds; kept until a header changes.
 
 set(probe "${CMAKE_BINARY_DIR}/host-probe")
 file(GLOB overriding src/PAIR/pair_*.h src/FIX/fix_*.h src/COMPUTE/compute_*.h src/COMMAND/*.h)
