@@ -360,6 +360,65 @@ add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study LONG_RA
   failing-runs-do-not-stop-others study-goes-on)
 add_cases(study-slurm cases/study_slurm.py LABEL long STYLES study CASES slurm-grid)
 
+# What ends between runs: the last step of a run is known after it
+add_cases(stress/contact-last-step cases/last_step.py LABEL case
+  STYLES stress/contact fabric dissipation contact/surface contact/direction RANKS 1 2 CASES
+  after-a-run by-update-on-run-end)
+add_cases(stress/contact-last-step cases/last_step.py LABEL case
+  STYLES stress/contact fabric dissipation contact/surface contact/direction CASES
+  grains-move-as-without in-formulas loops thermo-changed stays-until-the-next-run)
+add_cases(contact/local-last-step cases/last_step.py LABEL case STYLES contact/local CASES rows-after-a-run)
+add_cases(energy/ledger-last-step cases/last_step.py LABEL case
+  STYLES energy/ledger displacement/shear velocity/memory dissipation CASES sums-are-not-asked-twice)
+
+# The first evaluation of a run, the friction limit, cohesion
+add_cases(gran/insitu-first-evaluation cases/first_evaluation.py LABEL case
+  STYLES gran/insitu run/guard contact/local contact/grain dissipation stress/contact CASES
+  neutral repeated-row after-a-change below-the-limit spin-on-a-frictionless-plane spin-on-a-frictionless-mesh
+  friction-of-a-plane friction-of-a-mesh)
+add_cases(gran/insitu-first-evaluation cases/first_evaluation.py LABEL case
+  STYLES gran/insitu run/guard contact/local contact/grain dissipation stress/contact RANKS 1 2 CASES
+  as-the-host packings)
+add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation gran/insitu CASES
+  sjkr sjkr2 sjkr-reduces-friction sjkr-no-history sjkr-limit-force neutral neutral-slippery neutral-two-types)
+add_cases(contact/local+contact/grain+contact/surface-friction-limit cases/friction_limit.py LABEL case
+  STYLES contact/local contact/grain contact/surface dissipation CASES
+  spheroids-cohesion-reduces balls-that-slide liquid-bridge-washino liquid-bridge-easo)
+add_cases(contact/local+contact/grain+contact/surface-friction-limit cases/friction_limit.py LABEL case
+  STYLES contact/local contact/grain contact/surface dissipation RANKS 1 2 CASES spheroids)
+add_cases(surface/ellipsoid-cohesion cases/sphere_cohesion.py LABEL case STYLES surface/ellipsoid gran/insitu CASES
+  poles sides pole-on-side sizes sphere-and-spheroid poles-sjkr2 sizes-sjkr2 poles-by-curvature sides-by-curvature
+  sizes-by-curvature poles-under-gran spheres softened-spheres pole-on-a-plane pole-on-a-mesh
+  pole-on-a-plane-by-curvature sphere-on-a-plane sphere-on-a-mesh superquadrics as-spheres-sjkr as-spheres-sjkr2
+  as-spheres-edinburgh)
+add_cases(surface/ellipsoid-history-columns cases/history_columns.py LABEL case STYLES surface/ellipsoid gran/insitu
+  CASES flat spheres under-gran counted without-a-trace without-a-trace-under-gran without-a-trace-cohesive)
+add_cases(surface/ellipsoid-history-columns cases/history_columns.py LABEL case STYLES surface/ellipsoid RANKS 1 2
+  CASES spheroids)
+
+# Faces that move alone
+add_cases(displacement/shear-faces cases/moving_faces.py LABEL case STYLES displacement/shear change_box RANKS 1 2
+  CASES shrink-wrapped changed-periodic changed-tilt)
+add_cases(displacement/shear-faces cases/moving_faces.py LABEL case STYLES displacement/shear change_box CASES
+  shrink-wrapped-grains-at-rest shrink-wrapped-all-around shrink-wrapped-with-minimum shrink-wrapped-above
+  in-a-shear-flow changed changed-and-back changed-with-remap changed-periodic-with-remap changed-tilt-with-remap
+  changed-boundary)
+add_cases(fluctuation+layering-faces cases/moving_faces.py LABEL case STYLES fluctuation layering RANKS 1 2 CASES
+  top-layer)
+add_cases(gran/insitu-faces cases/moving_faces.py LABEL case STYLES gran/insitu run/guard setup/memory CASES
+  neutral-with-minimum neutral-changed-beyond-grains neutral-notices-periodic)
+add_cases(gran/insitu-faces cases/moving_faces.py LABEL case STYLES gran/insitu setup/memory RANKS 1 2 CASES
+  neutral-shrink-wrapped neutral-restart)
+
+# Data files
+add_cases(superquadric-data-file cases/data_files.py LABEL case STYLES superquadric RANKS 1 2 CASES
+  there-and-back there-and-back-triclinic there-and-back-after-steps by-hand-18-columns property-atom)
+add_cases(superquadric-data-file cases/data_files.py LABEL case STYLES superquadric CASES
+  columns-of-file by-hand-11-columns by-hand-14-columns by-hand-15-columns by-hand-with-comments spin-of-file
+  spin-of-other-moments spheres)
+add_cases(superquadric-data-file cases/inserted.py LABEL case STYLES superquadric CASES inserted)
+add_cases(build-mends cases/inserted.py LABEL case STYLES build RANKS 1 2 CASES screen-none)
+
 # The tests themselves
 add_cases(suite-starts cases/starts.py LABEL case STYLES suite CASES
   alone-shares-no-directory mpirun-has-its-own killed-leaves-nothing note-of-a-killed-one
@@ -367,3 +426,7 @@ add_cases(suite-starts cases/starts.py LABEL case STYLES suite CASES
 add_cases(suite-starts cases/starts.py LABEL long STYLES suite CASES side-by-side)
 add_cases(suite-order cases/suite.py LABEL case STYLES suite CASES
   every-style-has-tests names-begin-with-a-style unknown-word-refused short-words)
+add_cases(study-runs cases/study_runs.py LABEL case STYLES study RANKS 1 LONG_RANKS 2 4 CASES
+  longer-strain-continues-basic)
+add_cases(build-bare-debian cases/bare_debian.py LABEL long STYLES build CASES
+  demos-are-equal tests-on-bookworm tests-on-trixie clang-of-trixie)

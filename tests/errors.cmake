@@ -20,7 +20,7 @@ endforeach()
 # Right words in surroundings that are not
 add_cases(every-style-surroundings errors/surroundings.py LABEL error STYLES ALL CASES
   no-pair-style pair-style-gran memory-before-box atom-style atom-style-changed-later group-deleted compute-deleted
-  variable-becomes-nan variable-becomes-infinite box-changed asked-between-runs)
+  variable-becomes-nan variable-becomes-infinite box-changed asked-between-runs asked-on-a-step-of-no-one)
 add_cases(every-style-surroundings errors/surroundings.py LABEL error STYLES ALL RANKS 2 CASES variable-becomes-nan)
 add_cases(gran/insitu-surroundings errors/surroundings.py LABEL error STYLES gran/insitu RANKS 1 2 LONG_RANKS 4 CASES
   words-before-hybrid)
@@ -98,3 +98,52 @@ add_cases(energy/ledger-refused errors/ledger.py LABEL error STYLES energy/ledge
 add_cases(build-host errors/build.py LABEL error STYLES build CASES
   folder-without-liggghts root-or-src source-left-untouched styles-are-listed mended-where-needed
   not-mended-where-right configured-twice-rebuilds-nothing own-whitelist missing-whitelist)
+add_cases(build-fork errors/hosts.py LABEL error STYLES build CASES
+  what-is-missing-is-named all-of-it-at-once what-was-not-foreseen a-header-that-is-not-there
+  checked-again-when-a-header-changes)
+add_cases(build-installed cases/installed.py LABEL error STYLES build CASES
+  links-of-source links-of-installed broken-links-are-found program-is-found run-of-installed study-of-installed)
+add_cases(build-compilers errors/compilers.py LABEL error STYLES build CASES configured-without-a-warning)
+add_cases(build-compilers errors/compilers.py LABEL long STYLES build CASES
+  clang-takes-the-host-as-c++17 every-file-for-this-processor)
+
+# Messages, whoever writes them
+add_cases(run/guard-messages errors/messages.py LABEL error STYLES run/guard RANKS 1 2 LONG_RANKS 4 CASES one-rank)
+add_cases(run/guard-messages errors/messages.py LABEL error STYLES run/guard RANKS 1 2 CASES
+  all-ranks no-screen screen-in-a-file no-log log-by-a-command once-where-both-are-one when-the-program-starts)
+add_cases(run/guard-messages errors/messages.py LABEL error STYLES run/guard CASES second-signal exception)
+add_cases(stress/contact-messages errors/messages.py LABEL error
+  STYLES stress/contact contact/grain contact/local velocity/memory CASES
+  beyond-the-end of-another-kind index-that-is-none name-that-is-none misspelt-style)
+add_cases(stress/contact-messages errors/messages.py LABEL error STYLES stress/contact RANKS 1 2 CASES
+  only-the-wrong-one)
+add_cases(press/strain-messages errors/messages.py LABEL error STYLES press/strain CASES of-a-fix)
+
+# What is refused where grains, box or surface do not allow it
+add_cases(surface/ellipsoid-cohesion errors/ellipsoid.py LABEL error STYLES surface/ellipsoid CASES
+  bridge-washino bridge-easo bridge-under-gran bridge-of-spheres-is-taken)
+add_cases(surface/ellipsoid-cohesion errors/ellipsoid.py LABEL error STYLES surface/ellipsoid RANKS 1 2 CASES
+  bridge-of-one-spheroid)
+add_cases(superquadric-data-file-refused errors/data_files.py LABEL error STYLES superquadric CASES
+  columns-of-a-sphere three-numbers-of-a-quaternion-and-images lines-of-several-lengths an-empty-line
+  id-zero id-no-number type-too-large density-zero shape-negative shape-not-finite blockiness-below-2 place-no-number
+  quaternion-not-finite image-out-of-range image-no-whole-number velocity-of-three velocity-not-finite
+  write-own-inertia write-own-radius write-disk-full)
+add_cases(superquadric-data-file-refused errors/data_files.py LABEL error STYLES superquadric RANKS 1 2 CASES
+  a-column-too-few quaternion-zero)
+add_cases(superquadric-data-file-refused errors/data_files.py LABEL error STYLES superquadric RANKS 2 CASES
+  write-own-mass)
+add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu CASES
+  superquadrics-with-the-surface-of-spheres boxy-grains-without-a-surface wall-without-a-surface
+  superquadrics-without-a-surface-under-gran)
+add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu RANKS 1 2 CASES
+  superquadrics-without-a-surface)
+add_cases(displacement/shear-faces cases/moving_faces.py LABEL error STYLES displacement/shear CASES
+  remap-none deform-of-some)
+add_cases(layering+velocity/correlation-not-finite errors/not_finite.py LABEL error
+  STYLES layering fluctuation velocity/memory velocity/correlation contact/direction contact/surface RANKS 1 2 CASES
+  layering correlation-mesh)
+add_cases(layering+velocity/correlation-not-finite errors/not_finite.py LABEL error
+  STYLES layering fluctuation velocity/memory velocity/correlation contact/direction contact/surface CASES
+  fluctuation-profile fluctuation-layers memory-layers correlation contact-direction contact-surface
+  contact-surface-ellipsoid)

@@ -24,11 +24,11 @@ class ComputeContactDirection : public grainscope::ContactCompute {
  public:
   ComputeContactDirection(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeContactDirection();
-  void compute_array();
+  void compute_array() override;
 
-  void begin_contacts();
-  void add_contact(const grainscope::Contact &contact);
-  bool needs_details() const { return false; }
+  void begin_contacts() override;
+  void add_contact(const grainscope::Contact &contact) override;
+  bool needs_details() const override { return false; }
 
  private:
   struct Impl;

@@ -21,12 +21,12 @@ class ComputeContactGrain : public grainscope::ContactCompute {
  public:
   ComputeContactGrain(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeContactGrain();
-  void init();
-  void compute_peratom();
-  double memory_usage();
+  void init() override;
+  void compute_peratom() override;
+  double memory_usage() override;
 
-  void begin_contacts();
-  void add_contact(const grainscope::Contact &contact);
+  void begin_contacts() override;
+  void add_contact(const grainscope::Contact &contact) override;
 
  private:
   struct Impl;

@@ -20,12 +20,12 @@ class ComputeContactLocal : public grainscope::ContactCompute {
  public:
   ComputeContactLocal(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeContactLocal();
-  void compute_local();
-  double memory_usage();
+  void compute_local() override;
+  double memory_usage() override;
 
-  void begin_contacts();
-  void add_contact(const grainscope::Contact &contact);
-  bool needs_images() const { return true; }
+  void begin_contacts() override;
+  void add_contact(const grainscope::Contact &contact) override;
+  bool needs_images() const override { return true; }
 
  private:
   struct Impl;

@@ -19,9 +19,9 @@ class ComputeContactSolver : public Compute {
  public:
   ComputeContactSolver(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeContactSolver();
-  void init();
-  double compute_scalar();
-  void compute_vector();
+  void init() override;
+  double compute_scalar() override;
+  void compute_vector() override;
 };
 
 }

@@ -25,12 +25,12 @@ class ComputeContactSurface : public grainscope::ContactCompute {
  public:
   ComputeContactSurface(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeContactSurface();
-  void init();
-  void compute_array();
-  void compute_vector();
+  void init() override;
+  void compute_array() override;
+  void compute_vector() override;
 
-  void begin_contacts();
-  void add_contact(const grainscope::Contact &contact);
+  void begin_contacts() override;
+  void add_contact(const grainscope::Contact &contact) override;
 
  private:
   struct Impl;

@@ -29,11 +29,11 @@ class ComputeDisplacementShear : public Compute, public grainscope::BoxWatcher {
  public:
   ComputeDisplacementShear(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeDisplacementShear();
-  void init();
-  double compute_scalar();
-  void compute_vector();
-  void before_change_box();
-  void after_change_box();
+  void init() override;
+  double compute_scalar() override;
+  void compute_vector() override;
+  void before_change_box() override;
+  void after_change_box() override;
 
  private:
   struct Impl;

@@ -25,13 +25,13 @@ class ComputeDissipation : public grainscope::ContactCompute {
  public:
   ComputeDissipation(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeDissipation();
-  void init();
-  double compute_scalar();
-  void compute_vector();
+  void init() override;
+  double compute_scalar() override;
+  void compute_vector() override;
 
-  void begin_contacts();
-  void add_contact(const grainscope::Contact &contact);
-  bool needs_images() const;
+  void begin_contacts() override;
+  void add_contact(const grainscope::Contact &contact) override;
+  bool needs_images() const override;
 
  private:
   struct Impl;

@@ -21,9 +21,9 @@ class ComputeEnergyLedger : public Compute {
  public:
   ComputeEnergyLedger(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeEnergyLedger();
-  void init();
-  double compute_scalar();
-  void compute_vector();
+  void init() override;
+  double compute_scalar() override;
+  void compute_vector() override;
 };
 
 }

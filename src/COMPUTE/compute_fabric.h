@@ -24,13 +24,13 @@ class ComputeFabric : public grainscope::ContactCompute {
  public:
   ComputeFabric(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeFabric();
-  double compute_scalar();
-  void compute_vector();
-  double memory_usage();
+  double compute_scalar() override;
+  void compute_vector() override;
+  double memory_usage() override;
 
-  void begin_contacts();
-  void add_contact(const grainscope::Contact &contact);
-  bool needs_details() const { return false; }
+  void begin_contacts() override;
+  void add_contact(const grainscope::Contact &contact) override;
+  bool needs_details() const override { return false; }
 
  private:
   struct Impl;

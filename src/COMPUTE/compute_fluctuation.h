@@ -25,10 +25,10 @@ class ComputeFluctuation : public Compute {
  public:
   ComputeFluctuation(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeFluctuation();
-  void init();
-  double compute_scalar();
-  void compute_vector();
-  void compute_array();
+  void init() override;
+  double compute_scalar() override;
+  void compute_vector() override;
+  void compute_array() override;
 
  private:
   struct Impl;

@@ -22,10 +22,10 @@ class ComputeLayering : public Compute {
  public:
   ComputeLayering(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeLayering();
-  void init();
-  double compute_scalar();
-  void compute_vector();
-  void compute_array();
+  void init() override;
+  double compute_scalar() override;
+  void compute_vector() override;
+  void compute_array() override;
 
  private:
   struct Impl;

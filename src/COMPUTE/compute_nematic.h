@@ -22,9 +22,9 @@ class ComputeNematic : public Compute {
  public:
   ComputeNematic(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeNematic();
-  void init();
-  double compute_scalar();
-  void compute_vector();
+  void init() override;
+  double compute_scalar() override;
+  void compute_vector() override;
 };
 
 }

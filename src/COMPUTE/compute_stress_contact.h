@@ -28,13 +28,13 @@ class ComputeStressContact : public grainscope::ContactCompute {
  public:
   ComputeStressContact(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeStressContact();
-  void init();
-  double compute_scalar();
-  void compute_vector();
+  void init() override;
+  double compute_scalar() override;
+  void compute_vector() override;
 
-  void begin_contacts();
-  void add_contact(const grainscope::Contact &contact);
-  bool needs_details() const { return false; }
+  void begin_contacts() override;
+  void add_contact(const grainscope::Contact &contact) override;
+  bool needs_details() const override { return false; }
 
  private:
   grainscope::RangeWarning soft_;

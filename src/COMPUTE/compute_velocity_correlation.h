@@ -23,11 +23,11 @@ class ComputeVelocityCorrelation : public Compute {
  public:
   ComputeVelocityCorrelation(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeVelocityCorrelation();
-  void init();
-  double compute_scalar();
-  void compute_vector();
-  void compute_array();
-  double memory_usage();
+  void init() override;
+  double compute_scalar() override;
+  void compute_vector() override;
+  void compute_array() override;
+  double memory_usage() override;
 
  private:
   struct Impl;

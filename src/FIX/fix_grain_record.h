@@ -22,10 +22,10 @@ class FixGrainRecord : public Fix {
  public:
   FixGrainRecord(class LAMMPS *lmp, int narg, char **arg);
   ~FixGrainRecord();
-  int setmask();
-  void reset_timestep(bigint now, bigint before);
-  void setup_pre_force(int) { note_box(); }
-  void pre_force(int) { note_box(); }
+  int setmask() override;
+  void reset_timestep(bigint now, bigint before) override;
+  void setup_pre_force(int) override { note_box(); }
+  void pre_force(int) override { note_box(); }
 
   /** Makes the record of compute `id`, in its constructor; what a restart file holds of it is restored, and refused when `meaning` (style
    *  and keywords of the compute) was another. `step_at`: where the shared numbers hold a step, which `reset_timestep` renumbers.
@@ -46,18 +46,18 @@ class FixGrainRecord : public Fix {
   /** The box was changed between runs: image flags now count edges of this one, and no tilt was turned back. */
   void take_box();
 
-  double memory_usage();
-  void grow_arrays(int nmax);
-  void copy_arrays(int from, int to, int delflag);
-  void set_arrays(int i);
-  int pack_exchange(int i, double *buffer);
-  int unpack_exchange(int i, double *buffer);
-  int pack_restart(int i, double *buffer);
-  void unpack_restart(int i, int nth);
-  int size_restart(int) { return width_ + 1; }
-  int maxsize_restart() { return width_ + 1; }
-  void write_restart(FILE *file);
-  void restart(char *buffer);
+  double memory_usage() override;
+  void grow_arrays(int nmax) override;
+  void copy_arrays(int from, int to, int delflag) override;
+  void set_arrays(int i) override;
+  int pack_exchange(int i, double *buffer) override;
+  int unpack_exchange(int i, double *buffer) override;
+  int pack_restart(int i, double *buffer) override;
+  void unpack_restart(int i, int nth) override;
+  int size_restart(int) override { return width_ + 1; }
+  int maxsize_restart() override { return width_ + 1; }
+  void write_restart(FILE *file) override;
+  void restart(char *buffer) override;
 
  private:
   int width_;

@@ -27,16 +27,16 @@ class FixLedgerRecord : public Fix, public grainscope::ContactSink {
  public:
   FixLedgerRecord(class LAMMPS *lmp, int narg, char **arg);
   ~FixLedgerRecord();
-  int setmask();
-  void init();
-  void pre_initial_integrate();
-  void pre_final_integrate();
-  void write_restart(FILE *file);
-  void restart(char *buffer);
+  int setmask() override;
+  void init() override;
+  void pre_initial_integrate() override;
+  void pre_final_integrate() override;
+  void write_restart(FILE *file) override;
+  void restart(char *buffer) override;
 
-  bool wants_contacts() { return true; }
-  void begin_contacts();
-  void add_contact(const grainscope::Contact &contact);
+  bool wants_contacts() override { return true; }
+  void begin_contacts() override;
+  void add_contact(const grainscope::Contact &contact) override;
 
   /** Makes the record of compute `id`, in its constructor; `style` is for messages. Collective. */
   static FixLedgerRecord *make(class LAMMPS *lmp, const char *id, int igroup, const std::string &style);

@@ -17,12 +17,12 @@ namespace LAMMPS_NS {
 class FixNVESpheroid : public FixNVE {
  public:
   FixNVESpheroid(class LAMMPS *lmp, int narg, char **arg);
-  int setmask();
-  void init();
-  void initial_integrate(int vflag);
-  void final_integrate();
-  void setup_pre_neighbor() { require_symmetric_tops(); }
-  void pre_neighbor() { require_symmetric_tops(); }
+  int setmask() override;
+  void init() override;
+  void initial_integrate(int vflag) override;
+  void final_integrate() override;
+  void setup_pre_neighbor() override { require_symmetric_tops(); }
+  void pre_neighbor() override { require_symmetric_tops(); }
 
  private:
   int grains() const;

@@ -23,18 +23,18 @@ class FixPressStrain : public FixDeform, public grainscope::ContactSink {
   FixPressStrain(class LAMMPS *lmp, int narg, char **arg);
   ~FixPressStrain();
 
-  void init();
-  void setup(int vflag);
-  void pre_exchange();
-  void end_of_step();
-  void write_restart(FILE *file);
-  void restart(char *buffer);
-  double compute_scalar();
-  double compute_vector(int n);
+  void init() override;
+  void setup(int vflag) override;
+  void pre_exchange() override;
+  void end_of_step() override;
+  void write_restart(FILE *file) override;
+  void restart(char *buffer) override;
+  double compute_scalar() override;
+  double compute_vector(int n) override;
 
-  bool wants_contacts() { return true; }
-  void begin_contacts();
-  void add_contact(const grainscope::Contact &contact);
+  bool wants_contacts() override { return true; }
+  void begin_contacts() override;
+  void add_contact(const grainscope::Contact &contact) override;
 
  private:
   struct Impl;

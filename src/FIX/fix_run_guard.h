@@ -20,18 +20,18 @@ namespace LAMMPS_NS {
 class FixRunGuard : public Fix {
  public:
   FixRunGuard(class LAMMPS *lmp, int narg, char **arg);
-  int setmask();
-  void init();
-  void setup_pre_exchange() { pre_exchange(); }
-  void setup_pre_neighbor() { pre_neighbor(); }
-  void setup(int);
-  void pre_exchange();
-  void pre_neighbor();
-  void end_of_step();
-  void post_run();
-  void write_restart(FILE *file);
-  void restart(char *buffer);
-  void write_restart_file(char *file);
+  int setmask() override;
+  void init() override;
+  void setup_pre_exchange() override { pre_exchange(); }
+  void setup_pre_neighbor() override { pre_neighbor(); }
+  void setup(int) override;
+  void pre_exchange() override;
+  void pre_neighbor() override;
+  void end_of_step() override;
+  void post_run() override;
+  void write_restart(FILE *file) override;
+  void restart(char *buffer) override;
+  void write_restart_file(char *file) override;
 
   /** Makes the one of this run, behind all other fixes; `settings`: the words of the pair style. Collective. */
   static void make(class LAMMPS *lmp, const std::string &settings);

@@ -22,14 +22,14 @@ class FixSetupMemory : public Fix {
  public:
   FixSetupMemory(class LAMMPS *lmp, int narg, char **arg);
   ~FixSetupMemory();
-  int setmask();
-  void init();
-  void setup_pre_exchange();
-  void setup_pre_force(int);
-  void setup(int);
-  void pre_exchange();
-  void pre_force(int);
-  void post_run();
+  int setmask() override;
+  void init() override;
+  void setup_pre_exchange() override;
+  void setup_pre_force(int) override;
+  void setup(int) override;
+  void pre_exchange() override;
+  void pre_force(int) override;
+  void post_run() override;
 
   /** Makes it, or moves it behind all other fixes, so that its `setup` has the last word; collective. */
   static FixSetupMemory *make(class LAMMPS *lmp);
@@ -45,18 +45,18 @@ class FixSetupMemory : public Fix {
   double stamp() const { return shared_.stamp; }
   void set_stamp(double stamp) { shared_.stamp = stamp; }
 
-  double memory_usage() { return values_.capacity() * sizeof(double); }
-  void grow_arrays(int nmax);
-  void copy_arrays(int from, int to, int);
-  void set_arrays(int i);
-  int pack_exchange(int i, double *buffer);
-  int unpack_exchange(int i, double *buffer);
-  int pack_restart(int i, double *buffer);
-  void unpack_restart(int i, int nth);
-  int size_restart(int) { return width + 1; }
-  int maxsize_restart() { return width + 1; }
-  void write_restart(FILE *file);
-  void restart(char *buffer);
+  double memory_usage() override { return values_.capacity() * sizeof(double); }
+  void grow_arrays(int nmax) override;
+  void copy_arrays(int from, int to, int) override;
+  void set_arrays(int i) override;
+  int pack_exchange(int i, double *buffer) override;
+  int unpack_exchange(int i, double *buffer) override;
+  int pack_restart(int i, double *buffer) override;
+  void unpack_restart(int i, int nth) override;
+  int size_restart(int) override { return width + 1; }
+  int maxsize_restart() override { return width + 1; }
+  void write_restart(FILE *file) override;
+  void restart(char *buffer) override;
 
  private:
   // Numbers of a grain: whether there are any; place and velocities at the evaluation; force and torque; place and image at the end of its step; the

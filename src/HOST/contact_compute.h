@@ -17,9 +17,9 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
  public:
   ContactCompute(LAMMPS_NS::LAMMPS *lmp, int &iarg, int narg, char **arg);
 
-  void init();
-  bool wants_contacts();
-  void end_run();
+  void init() override;
+  bool wants_contacts() override;
+  void end_run() override;
 
  protected:
   ContactObserver *observer_;

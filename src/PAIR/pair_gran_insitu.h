@@ -28,28 +28,28 @@ class PairGranInsitu : public PairGranProxy, public grainscope::EllipsoidOwner {
   /** The one in use, or an error that names `who` and what is in use instead. */
   static PairGranInsitu *required_by(LAMMPS *lmp, const char *who);
 
-  void settings(int narg, char **arg);
-  void init_style();
-  void init_granular();
-  void compute(int eflag, int vflag);
-  void compute_pgl(int eflag, int vflag);
-  void compute_force(int eflag, int vflag, int addflag);
-  void write_restart_settings(FILE *file);
-  void read_restart_settings(FILE *file, const int major, const int minor);
-  int get_history_offset(const std::string name);
-  double stressStrainExponent();
-  bool contact_match(const std::string kind, const std::string model);
-  int64_t hashcode();
-  int pack_comm(int n, int *list, double *buf, int pbc_flag, int *pbc);
-  void unpack_comm(int n, int first, double *buf);
+  void settings(int narg, char **arg) override;
+  void init_style() override;
+  void init_granular() override;
+  void compute(int eflag, int vflag) override;
+  void compute_pgl(int eflag, int vflag) override;
+  void compute_force(int eflag, int vflag, int addflag) override;
+  void write_restart_settings(FILE *file) override;
+  void read_restart_settings(FILE *file, const int major, const int minor) override;
+  int get_history_offset(const std::string name) override;
+  double stressStrainExponent() override;
+  bool contact_match(const std::string kind, const std::string model) override;
+  int64_t hashcode() override;
+  int pack_comm(int n, int *list, double *buf, int pbc_flag, int *pbc) override;
+  void unpack_comm(int n, int first, double *buf) override;
 
   grainscope::ContactObserver &observer();
   /** The words of the command that name models and settings. */
   const std::string &models() const;
   /** Before a run: grains were given other IDs since the last, and with them each other's springs. */
   bool renumbered() const;
-  grainscope::EllipsoidBodies &ellipsoid_bodies();
-  grainscope::EllipsoidSurface &ellipsoid_surface();
+  grainscope::EllipsoidBodies &ellipsoid_bodies() override;
+  grainscope::EllipsoidSurface &ellipsoid_surface() override;
 
  private:
   struct Impl;

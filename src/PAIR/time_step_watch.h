@@ -18,9 +18,9 @@ class TimeStepWatch : public ContactSink, private LAMMPS_NS::Pointers {
 
   /** A run begins. `exponent`, `sticks`: as in NetworkResponse. */
   void begin_run(double exponent, bool sticks);
-  bool wants_contacts();
-  void begin_contacts();
-  void add_contact(const Contact &contact);
+  bool wants_contacts() override;
+  void begin_contacts() override;
+  void add_contact(const Contact &contact) override;
   /** After the evaluation; collective on the steps that it wanted. */
   void judge();
 
