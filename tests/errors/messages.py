@@ -13,7 +13,7 @@ from case import main, require
 from deck import Deck
 from packing import dense_packing
 from refusal import require_refused
-from run import TIME_LIMIT, TIME_SCALE, Started, _command, binary, environment, wait_for_steps
+from run import TIME_LIMIT, Started, _command, binary, environment, wait_for_steps
 
 SPHERES = dense_packing(atom_style="sphere")
 BEFORE = "said before the end"
@@ -47,7 +47,7 @@ def end(deck, ranks, *arguments, folder=None, log="log.liggghts", screen="screen
     command = [*_command(ranks, binary()), *(arguments or ("-in", "in.deck"))]
     with open(folder / "screen", "w") as out, open(folder / "stderr", "w") as err:
         done = subprocess.run(command, cwd=folder, env=environment(ranks), stdout=out, stderr=err,
-                              stdin=subprocess.DEVNULL, timeout=TIME_LIMIT * TIME_SCALE, preexec_fn=limit)
+                              stdin=subprocess.DEVNULL, timeout=TIME_LIMIT, preexec_fn=limit)
     return Ended(done.returncode, read(folder / screen), read(folder / "stderr"), read(folder / log))
 
 
@@ -141,7 +141,7 @@ def merged(folder, ranks, terminal):
     if not terminal:
         with open(folder / "both", "w") as both:
             subprocess.run(command, cwd=folder, env=environment(ranks), stdout=both, stderr=both,
-                           stdin=subprocess.DEVNULL, timeout=TIME_LIMIT * TIME_SCALE)
+                           stdin=subprocess.DEVNULL, timeout=TIME_LIMIT)
         return read(folder / "both")
     ours, theirs = os.openpty()
     process = subprocess.Popen(command, cwd=folder, env=environment(ranks), stdout=theirs, stderr=theirs,
@@ -154,7 +154,7 @@ def merged(folder, ranks, terminal):
     except OSError:  # the terminal is gone: the program has ended
         pass
     os.close(ours)
-    process.wait(TIME_LIMIT * TIME_SCALE)
+    process.wait(TIME_LIMIT)
     return text.decode(errors="replace")
 
 

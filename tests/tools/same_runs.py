@@ -29,7 +29,7 @@ def example(folder):
     def start(scratch):
         copy = scratch / folder.name
         shutil.copytree(folder, copy)
-        return run((copy / f"in.{folder.name}").read_text(), expected["ranks"][0], folder=copy, time_limit=3600,
+        return run((copy / f"in.{folder.name}").read_text(), expected["ranks"][0], folder=copy,
                    arguments=list(arguments(expected.get("variables", {}))))
     return start
 
@@ -40,12 +40,12 @@ def flow(packing, pair, ranks, **words):
         steps = [*thermo(20, "ke", "vol", "xy"), *dump_grains(packing, 20)]
         halves = ["run 100", "write_restart half.restart", "run 100"]
         deck = Deck(packing, pair=pair, body=[shear(0.05), *steps, *halves], **words)
-        run(deck, ranks, folder=scratch / "whole", time_limit=3600)
+        run(deck, ranks, folder=scratch / "whole")
         again = scratch / "again"
         again.mkdir()
         shutil.copy(scratch / "whole" / "half.restart", again)
         second = deck.restarted("half.restart", [shear(0.05), *steps, "run 100"])
-        return run(second, ranks, folder=again, time_limit=3600)
+        return run(second, ranks, folder=again)
     return start
 
 
