@@ -11,7 +11,8 @@ namespace grainscope {
 /** The bin, of `bins` equal ones of width 1 from 0 on, that holds `at`; `none` for what lies outside, is infinite or
  *  no number. */
 inline int bin_index(double at, int bins, int none = -1) {
-  return static_cast<int>(at >= 0.0 && at < bins ? at : static_cast<double>(none));
+  const double refused = none, below = at < bins ? at : refused;  // one after the other: `&&` would be a branch
+  return static_cast<int>(below >= 0.0 ? below : refused);
 }
 
 /** The same, but what lies beyond an end is given to the bin there; -1 only for what is no number. */
