@@ -23,17 +23,17 @@ class AtomVecSuperquadricFiles : public AtomVecSuperquadric {
   explicit AtomVecSuperquadricFiles(class LAMMPS *lmp);
 
   /** Looks at `n` lines of the section Atoms; how many columns they have, image flags apart. Collective. */
-  virtual int columns_of_atoms(int n, char *lines);
+  virtual int columns_of_atoms(int n, char *lines) override;
   /** Looks at `n` lines of the section Velocities. Collective. */
-  virtual void check_velocities(int n, char *lines);
+  virtual void check_velocities(int n, char *lines) override;
 
-  void data_atom(double *x, tagint image, char **values);
-  void data_vel(int i, char **values);
-  void pack_data(double **buf) { pack_data(buf, 0); }
-  void pack_data(double **buf, int tag_offset);
-  void write_data(FILE *file, int n, double **buf);
-  void pack_vel(double **buf) { pack_vel(buf, 0); }
-  void pack_vel(double **buf, int tag_offset);
+  void data_atom(double *x, tagint image, char **values) override;
+  void data_vel(int i, char **values) override;
+  void pack_data(double **buf) override { pack_data(buf, 0); }
+  void pack_data(double **buf, int tag_offset) override;
+  void write_data(FILE *file, int n, double **buf) override;
+  void pack_vel(double **buf) override { pack_vel(buf, 0); }
+  void pack_vel(double **buf, int tag_offset) override;
 
  private:
   int columns_;  // of the lines that data_atom is given

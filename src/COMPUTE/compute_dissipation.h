@@ -37,7 +37,7 @@ class ComputeDissipation : public grainscope::ContactCompute {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 
-  bool answers_after_run() const;
+  bool answers_after_run() const override;
   void tell_ledger();
 };
 

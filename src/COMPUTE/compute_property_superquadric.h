@@ -19,8 +19,8 @@ namespace LAMMPS_NS {
 class ComputePropertySuperquadric : public ComputePropertyAtom {
  public:
   ComputePropertySuperquadric(class LAMMPS *lmp, int &iarg, int narg, char **arg);
-  void init();
-  void compute_peratom();
+  void init() override;
+  void compute_peratom() override;
 
  private:
   std::vector<int> own_;  // for each column, which word of ours it is, or -1
