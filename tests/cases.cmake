@@ -412,7 +412,11 @@ add_cases(gran/insitu-faces cases/moving_faces.py LABEL case STYLES gran/insitu 
 
 # Data files
 add_cases(superquadric-data-file cases/data_files.py LABEL case STYLES superquadric RANKS 1 2 CASES
-  there-and-back there-and-back-triclinic there-and-back-after-steps by-hand-18-columns property-atom)
+  there-and-back there-and-back-triclinic there-and-back-after-steps by-hand-18-columns)
+add_cases(property/atom-of-superquadrics cases/data_files.py LABEL case STYLES property/atom superquadric RANKS 1 2 CASES
+  property-atom)
+add_cases(granular_superquadric-data-file cases/data_files.py LABEL case STYLES granular_superquadric CASES
+  by-the-other-name)
 add_cases(superquadric-data-file cases/data_files.py LABEL case STYLES superquadric CASES
   columns-of-file by-hand-11-columns by-hand-14-columns by-hand-15-columns by-hand-with-comments spin-of-file
   spin-of-other-moments spheres)

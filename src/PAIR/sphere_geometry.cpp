@@ -56,8 +56,9 @@ std::string SphereGeometry::of(LAMMPS_NS::PairGran &pair) {
 
 void SphereGeometry::enter(Sides &s) {
   const bool sphere = is_sphere(atom_->shape[s.i]);
-  // Spheres are what the host takes them for. A mesh leaves the distance of another contact behind.
-  if (sphere && (s.is_wall ? !s.mesh : is_sphere(atom_->shape[s.j]))) return;
+  // Two spheres are what the host takes them for. Not so one at a wall: a plane puts it as far away as if it had the
+  // bounding radius, which is longer, and a mesh leaves the distance of another contact behind.
+  if (!s.is_wall && sphere && is_sphere(atom_->shape[s.j])) return;
   lent_ = true;
   kept_[0] = s.radi;
   kept_[1] = s.radj;

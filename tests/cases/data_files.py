@@ -182,6 +182,18 @@ def by_hand(quaternions, images, comment=False):
     return case
 
 
+def by_the_other_name(ranks):
+    """`atom_style granular_superquadric` is the same style."""
+    deck = hand_deck()
+    lines = ["1 1 1000 1 1 1 2 2 -1.99 0 0 1 0 0 0", "2 1 1000 1 1 1.5 2 2 1.5 0 0 2 0 2 0",
+             "3 2 1000 1 1 1.5 2 2 3 4.5 0 1 0 0 0"]
+    text = reading(deck, write_file(lines), *seen(deck))
+    other = text.replace("atom_style superquadric", "atom_style granular_superquadric")
+    require(other != text, "the deck has no atom style to replace")
+    found, expected = (run(one, ranks).dump("grains.dump") for one in (other, text))
+    require_same_snapshots(found, expected, "by the other name")
+
+
 def spin_of_file(ranks):
     """A sphere and a spheroid that spins about its own axis go on spinning as the section Velocities has it."""
     deck = hand_deck()
@@ -261,6 +273,7 @@ CASES = {
     # An integrator derives the angular velocity, which a file holds, from the angular momentum. Moments differ 70-fold.
     "there-and-back-after-steps": there_and_back(0.0, 50, 0.0, 1e-13),
     "columns-of-file": columns_of_file,
+    "by-the-other-name": by_the_other_name,
     "by-hand-11-columns": by_hand(False, False),
     "by-hand-14-columns": by_hand(False, True),
     "by-hand-15-columns": by_hand(True, False),
