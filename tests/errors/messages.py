@@ -195,7 +195,7 @@ def exception(ranks):
 
 
 STRESS = "compute stress (stress/contact) gives a scalar and a vector of 35"
-MEMORY = "compute memory (velocity/memory) gives a scalar, a vector of 3 and an array of 5 rows and 4 columns"
+MEMORY = "compute memory (velocity/memory) gives a scalar, a vector of 4 and an array of 5 rows and 4 columns"
 GRAIN = "compute grain (contact/grain) gives 6 columns per grain"
 ROWS = "compute rows (contact/local) gives 3 columns per local row"
 COMPUTES = ["compute stress all stress/contact", "variable s equal step",
@@ -239,7 +239,7 @@ def beyond_the_end(ranks):
 
 def of_another_kind(ranks):
     """An index that something has, but not what is asked for."""
-    require_refused(lines_with(PLACES["thermo"], "c_memory[4]"), ranks, "out-of-range", f"c_memory[4]: {MEMORY}")
+    require_refused(lines_with(PLACES["thermo"], "c_memory[5]"), ranks, "out-of-range", f"c_memory[5]: {MEMORY}")
     for place, reference, words, what in (
             (PLACES["thermo"], "c_grain[1]", "does not compute vector", GRAIN),
             (PLACES["print"], "c_stress[1][1]", "Mismatched compute in variable formula", STRESS),
