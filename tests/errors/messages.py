@@ -13,7 +13,7 @@ from case import main, require
 from deck import Deck
 from packing import dense_packing
 from refusal import require_refused
-from run import TIME_LIMIT, Started, _command, binary, environment, wait_for_steps
+from run import TIME_LIMIT, Started, _command, binary, count_errors, environment, wait_for_steps
 
 SPHERES = dense_packing(atom_style="sphere")
 BEFORE = "said before the end"
@@ -133,7 +133,7 @@ def once_where_both_are_one(ranks):
             folder, deck = make()
             (folder / "in.deck").write_text(deck.text())
             text = merged(folder, ranks, place == "terminal")
-            require(text.count("ERROR") == 1, f"{place}: {text.count('ERROR')} times; it ends:\n{text[-1500:]}")
+            require(count_errors(text) == 1, f"{place}: {count_errors(text)} times; it ends:\n{text[-1500:]}")
 
 
 def merged(folder, ranks, terminal):
