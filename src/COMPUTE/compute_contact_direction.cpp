@@ -23,7 +23,7 @@ enum { CONTACTS, NORMAL, TANGENTIAL, ALONG, SUMS };
 struct ComputeContactDirection::Impl {
   grainscope::Plane plane;
   int half = 36;             // bins from 0 to pi; the other half is their mirror image
-  std::vector<double> sums;  // half x SUMS, and contacts whose direction is no number
+  std::vector<double> sums;  // half x SUMS, and contacts whose direction is not finite
   grainscope::Rows rows;
 };
 

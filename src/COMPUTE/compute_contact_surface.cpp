@@ -48,7 +48,7 @@ struct ComputeContactSurface::Impl {
   double unit_area = 0.0;             // their sum
   double grains = 0.0, mean_square = 0.0;  // of the group: number, mean of (semi-axis along the axis)^2
   bigint build = -1;                  // the neighbour list that the four above are of
-  std::vector<double> sums;           // bins x SUMS, sum of F_y r_y over contacts, contacts whose place is no number
+  std::vector<double> sums;           // bins x SUMS, sum of F_y r_y over contacts, contacts whose place is not finite
   bool reduced = false;
   grainscope::Rows rows;
 

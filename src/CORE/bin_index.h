@@ -15,7 +15,7 @@ inline int bin_index(double at, int bins, int none = -1) {
   return static_cast<int>(below >= 0.0 ? below : refused);
 }
 
-/** The same, but what lies beyond an end is given to the bin there; -1 only for what is no number. */
+/** The same, but what lies beyond an end is given to the bin there; -1 only for NaN. */
 inline int nearest_bin_index(double at, int bins) {
   const double least = at >= 0.0 ? at : at < 0.0 ? 0.0 : -1.0;
   return static_cast<int>(least < bins ? least : bins - 1.0);

@@ -16,7 +16,7 @@ enum class SurfaceAngle {
 /** psi of the point `x`, relative to the centre and in the frame of the grain: x[2] along the axis, `semi_axes` likewise. */
 double surface_angle(const Eigen::Vector3d &x, const Eigen::Vector3d &semi_axes, SurfaceAngle angle);
 
-/** Band of psi in [0, pi/2], of `bands` equal ones; pi/2 belongs to the last; -1 for what is no number. */
+/** Band of psi in [0, pi/2], of `bands` equal ones; pi/2 belongs to the last; -1 for NaN. */
 int band_of(double psi, int bands);
 
 /** Areas of the bands of an ellipsoid, those north and south together, [distance^2]. Their sum is the ellipsoid's area; relative error

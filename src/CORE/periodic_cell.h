@@ -22,7 +22,7 @@ struct PeriodicCell {
 };
 
 /** The cell, of n along an edge, of a place in units of the edge; what lies beyond the edge in the one at its end, -1 for
- *  what is no number. */
+ *  what is not finite. */
 inline int cell_along(double s, int n) { return nearest_bin_index(s * n, n); }
 
 /** Nearest images at any distance up to a range: those with rounded components, moved by the few lattice vectors that bring one of them

@@ -35,7 +35,7 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
   virtual bool answers_after_run() const { return true; }
   /** Nobody has asked yet: no warnings. */
   bool unasked() const { return unasked_; }
-  /** Errors unless `contacts`, the number over all ranks of those whose place or direction is no number, is 0. */
+  /** Errors unless `contacts`, the number over all ranks of those whose place or direction is not finite, is 0. */
   void require_finite(double contacts) const;
   /** Sums `values` over all ranks, in place. */
   void sum_over_ranks(double *values, int n) const;
