@@ -367,6 +367,8 @@ add_cases(stress/contact-last-step cases/last_step.py LABEL case
 add_cases(stress/contact-last-step cases/last_step.py LABEL case
   STYLES stress/contact fabric dissipation contact/surface contact/direction CASES
   grains-move-as-without in-formulas loops thermo-changed stays-until-the-next-run)
+add_cases(contact/grain-last-step cases/last_step.py LABEL case STYLES contact/grain RANKS 1 2 CASES
+  grains-change-between-runs)
 add_cases(contact/local-last-step cases/last_step.py LABEL case STYLES contact/local CASES rows-after-a-run)
 add_cases(energy/ledger-last-step cases/last_step.py LABEL case
   STYLES energy/ledger displacement/shear velocity/memory dissipation CASES sums-are-not-asked-twice)

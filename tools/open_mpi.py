@@ -17,6 +17,12 @@ def _base():
     return folder if len(folder) <= LONGEST else "/tmp"
 
 
+def _several_nodes(environment):
+    """A directory in the shared memory of this node is none on another."""
+    return (environment.get("SLURM_JOB_NUM_NODES", "1") != "1" or
+            any(name in environment for name in ("PBS_NODEFILE", "PE_HOSTFILE", "LSB_HOSTS")))
+
+
 class Session:
     """Directories of one group of processes. `note`: a file that names them for as long as they are there, so that the
     next session with the same note removes what a killed process left."""
@@ -25,7 +31,7 @@ class Session:
         self.note = note and Path(note)
         self._remove_left()
         self.folders = [tempfile.mkdtemp(prefix="gs-", dir=_base())]
-        if os.access(SHARED_MEMORY, os.W_OK):
+        if os.access(SHARED_MEMORY, os.W_OK) and not _several_nodes(os.environ):
             self.folders.append(tempfile.mkdtemp(prefix="gs-", dir=SHARED_MEMORY))
         if self.note:
             self.note.write_text("\n".join(self.folders) + "\n")
@@ -37,9 +43,10 @@ class Session:
 
     def variables(self):
         """What Open MPI 4 (orte, vader) and 5 (prte, sm) read from the environment."""
-        temporary, shared = self.folders[0], self.folders[-1]
-        return {"TMPDIR": temporary, "OMPI_MCA_orte_tmpdir_base": temporary, "PRTE_MCA_prte_tmpdir_base": temporary,
-                "OMPI_MCA_btl_vader_backing_directory": shared, "OMPI_MCA_btl_sm_backing_directory": shared}
+        names = {"TMPDIR": 0, "OMPI_MCA_orte_tmpdir_base": 0, "PRTE_MCA_prte_tmpdir_base": 0}
+        if len(self.folders) > 1:
+            names.update(OMPI_MCA_btl_vader_backing_directory=1, OMPI_MCA_btl_sm_backing_directory=1)
+        return {name: self.folders[k] for name, k in names.items()}
 
     def remove(self):
         for folder in self.folders:

@@ -36,6 +36,7 @@ mend_message(lammps.cpp "\n  // parse input switches\n"
              "lines wait in a buffer until a run ends, and are lost when it aborts")
 set(one_world "\n  // make universe and single world the same, since no partition switch\n")
 mend_message(lammps.cpp "${one_world}" "
+  grainscope::screen_goes_to(screenflag ? arg[screenflag] : \"none\");
   grainscope::log_goes_to(logflag ? arg[logflag] : \"log.liggghts\");
   grainscope::write_by_line(universe->uscreen);
   grainscope::write_by_line(universe->ulogfile);

@@ -16,7 +16,7 @@ AtomStyle(granular_superquadric,AtomVecSuperquadricFiles)
 namespace LAMMPS_NS {
 
 /** The host's atom style superquadric, with data files that hold a grain whole: shape, orientation, images, spin.
- *  Mended lines of Atom ask two of its members; without them a file must have 15 or 18 columns.
+ *  Mended lines of Atom and AtomVec ask two of its members.
  *  See doc/data_files.md. */
 class AtomVecSuperquadricFiles : public AtomVecSuperquadric {
  public:

@@ -7,6 +7,8 @@
 #include "atom.h"
 #include "update.h"
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <vector>
 
 using namespace LAMMPS_NS;
 using grainscope::Contact;
@@ -20,6 +22,7 @@ enum { CONTACTS, SLIDING, NORMAL_POWER, FRICTION_POWER, MOBILISATION, ANGLE, WID
 struct ComputeContactGrain::Impl {
   grainscope::Rows rows;
   bool finished = false;  // sums are means already
+  std::vector<int> tags;  // of the grains in the order of the evaluation
 };
 
 ComputeContactGrain::ComputeContactGrain(LAMMPS *lmp, int &iarg, int narg, char **arg)
@@ -40,6 +43,7 @@ void ComputeContactGrain::init() {
 void ComputeContactGrain::begin_contacts() {
   array_atom = impl_->rows.resize(atom->nmax, WIDTH);
   impl_->finished = false;
+  impl_->tags.assign(atom->tag, atom->tag + atom->nlocal);
 }
 
 void ComputeContactGrain::add_contact(const Contact &c) {
@@ -61,8 +65,19 @@ double ComputeContactGrain::angle_to_flow(int i) const {
   return grainscope::major_axis_angle(Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * Eigen::Vector3d::Unit(axis.index), axis.shape);
 }
 
+/** Collective. Errors when grains were sorted, added or removed since their contacts were seen. */
+void ComputeContactGrain::require_same_grains() const {
+  const std::vector<int> &tags = impl_->tags;
+  int changed = static_cast<int>(tags.size()) != atom->nlocal || !std::equal(tags.begin(), tags.end(), atom->tag);
+  MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, world);
+  if (changed)
+    grainscope::Arguments(lmp, name_ + " " + id, 0, 0, nullptr)
+        .fail("grains were sorted, added or removed since the last step of the run: ask within a run");
+}
+
 void ComputeContactGrain::compute_peratom() {
   require_tally();
+  require_same_grains();
   invoked_peratom = update->ntimestep;
   if (impl_->finished) return;
   impl_->finished = true;

@@ -32,6 +32,7 @@ class ComputeContactGrain : public grainscope::ContactCompute {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 
+  void require_same_grains() const;
   double angle_to_flow(int i) const;
 };
 

@@ -87,6 +87,7 @@ void ComputeDissipation::add_contact(const Contact &c) {
 
 void ComputeDissipation::compute_vector() {
   require_tally();
+  if (kept_since_run(invoked_vector)) return;
   invoked_vector = update->ntimestep;
   const Impl &sums = *impl_;
   double normal = sums.normal, friction = sums.friction, tangential_damping = sums.tangential_damping;

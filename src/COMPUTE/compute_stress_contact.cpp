@@ -84,6 +84,7 @@ double ComputeStressContact::flattest_shape() const {
 
 void ComputeStressContact::compute_vector() {
   require_tally();
+  if (kept_since_run(invoked_vector)) return;
   invoked_vector = update->ntimestep;
   grainscope::StressSums all = *sums_;
   sum_over_ranks(all.sums.data(), all.sums.size());

@@ -2,6 +2,7 @@
 #include "fix_run_guard.h"
 #include "contact_observer.h"
 #include "finite.h"
+#include "host_messages.h"
 #include "pair_gran_insitu.h"
 #include "restart_seal.h"
 #include "stop_signal.h"
@@ -85,6 +86,7 @@ int FixRunGuard::setmask() { return FixConst::PRE_EXCHANGE | FixConst::PRE_NEIGH
 void FixRunGuard::init() {
   running_ = false;
   grainscope::stop_signal::watch();
+  grainscope::stop_signal::tell(grainscope::last_descriptors(lmp));
   fail_together(not_finite(false));
 }
 
@@ -124,6 +126,7 @@ void FixRunGuard::end_of_step() {
 
 void FixRunGuard::post_run() {
   running_ = false;
+  grainscope::stop_signal::tell({STDERR_FILENO});  // the log file may be another before the next run
   PairGranInsitu::required_by(lmp, "fix run/guard")->observer().end_run();
   fail_together(not_written());
 }

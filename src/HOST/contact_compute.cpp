@@ -21,20 +21,28 @@ void ContactCompute::init() {
 }
 
 bool ContactCompute::wants_contacts() {
-  if (!matchstep(update->ntimestep) && update->ntimestep != update->laststep) return false;
+  // Numbers of single grains are not kept after a run: commands may renumber, add and remove grains.
+  const bool at_end = update->ntimestep == update->laststep && (!peratom_flag || update_on_run_end());
+  if (!matchstep(update->ntimestep) && !at_end) return false;
   tallied_ = update->ntimestep;
+  run_over_ = false;
   return true;
 }
 
 void ContactCompute::end_run() {
   const LAMMPS_NS::bigint now = update->ntimestep;
   if (tallied_ != now || !answers_after_run()) return;
+  run_over_ = true;
   unasked_ = true;
   if (vector_flag && invoked_vector != now) compute_vector();
   if (scalar_flag && invoked_scalar != now) compute_scalar();
   if (array_flag && invoked_array != now) compute_array();
   if (local_flag && invoked_local != now) compute_local();
   unasked_ = false;
+}
+
+bool ContactCompute::kept_since_run(LAMMPS_NS::bigint answered) const {
+  return run_over_ && answered == update->ntimestep;
 }
 
 bool ContactCompute::in_group(int i) const { return atom->mask[i] & groupbit; }

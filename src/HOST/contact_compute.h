@@ -31,6 +31,9 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
   void require_known_losses() const;
   /** Errors unless the current step was tallied. */
   void require_tally() const;
+  /** Whether the answer of this step, given at `answered` of update->ntimestep, was kept when the run ended: what moves
+   *  grains since then is not of the contacts. */
+  bool kept_since_run(LAMMPS_NS::bigint answered) const;
   /** False where an answer that nobody asked for may end the run. */
   virtual bool answers_after_run() const { return true; }
   /** Nobody has asked yet: no warnings. */
@@ -43,6 +46,7 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
  private:
   LAMMPS_NS::bigint tallied_;
   bool unasked_;
+  bool run_over_ = false;  // since the last tally
 };
 
 }

@@ -177,7 +177,8 @@ std::string explained(LAMMPS *lmp, const char *complaint) {
   static const char *const about_names[] = {"accessed out-of-range", "is not large enough", "does not compute",
                                             "does not calculate", "Mismatched compute", "Mismatched fix", "Could not find",
                                             "Compute ID for", "Fix ID for", "Invalid compute ID", "Invalid fix ID",
-                                            "must be an index"};
+                                            "must be an index", "between brackets in variable",
+                                            "variable brackets must be positive"};
   const auto contains = [&text](const char *words) { return text.find(words) != std::string::npos; };
   if (contains("group ID")) return text;
   if (std::any_of(std::begin(about_names), std::end(about_names), contains)) return text + about_outputs(lmp);

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS { class LAMMPS; }
 
@@ -16,12 +17,16 @@ namespace grainscope {
 void begin_messages(LAMMPS_NS::LAMMPS *lmp);
 /** Lines of a screen or log file arrive when they end, at its end. None: nothing. */
 void write_by_line(FILE *file);
-/** Every rank keeps the name of the log file, which rank 0 writes. */
+/** Every rank keeps the names of the log file and of the file that `-screen` names, which rank 0 writes; none: "none". */
 void log_goes_to(const char *path);
+void screen_goes_to(const char *path);
 
 /** What ends the run, which is on the screen already: to the log file from every rank, and to stderr unless that is
  *  where the screen is. */
 void last_words(LAMMPS_NS::LAMMPS *lmp, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/** Where the last words of a signal handler go: descriptors of the log file, the screen and stderr, each place once. */
+std::vector<int> last_descriptors(LAMMPS_NS::LAMMPS *lmp);
 
 /** A complaint about a style, a compute or a fix in the current command or formula, with what there is. */
 std::string explained(LAMMPS_NS::LAMMPS *lmp, const char *complaint);

@@ -16,7 +16,7 @@ namespace grainscope {
 
 namespace {
 
-std::string log_path;   // absolute: the input script may change the folder
+std::string log_path, screen_path;   // absolute: the input script may change the folder
 LAMMPS *running = nullptr;
 
 /** Whether two open files, given by descriptor or path, are one place that output can be read at. */
@@ -47,12 +47,18 @@ bool one_stream() {
   return false;
 }
 
-/** From a rank that does not have the log file open. */
-void append_to_log(const std::string &text) {
-  const int file = log_path.empty() ? -1 : open(log_path.c_str(), O_WRONLY | O_APPEND);
+/** From a rank that does not have the file open. */
+void append_to(const std::string &path, const std::string &text) {
+  const int file = path.empty() ? -1 : open(path.c_str(), O_WRONLY | O_APPEND);
   if (file < 0) return;
-  if (write(file, text.data(), text.size()) < 0) perror(log_path.c_str());
+  if (write(file, text.data(), text.size()) < 0) perror(path.c_str());
   close(file);
+}
+
+std::string absolute(const std::string &path) {
+  char folder[4096];
+  if (path == "none") return "";
+  return path[0] != '/' && getcwd(folder, sizeof folder) ? std::string(folder) + "/" + path : path;
 }
 
 /** In place of the host's own: a rank that aborts alone leaves the others waiting, and what they had to say unsaid. */
@@ -90,12 +96,14 @@ void write_by_line(FILE *file) {
   fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) | O_APPEND);  // another rank may have added to it
 }
 
-void log_goes_to(const char *path) {
-  log_path = path;
-  if (log_path == "none") log_path.clear();
-  char folder[4096];
-  if (!log_path.empty() && log_path[0] != '/' && getcwd(folder, sizeof folder))
-    log_path = std::string(folder) + "/" + log_path;
+void log_goes_to(const char *path) { log_path = absolute(path); }
+void screen_goes_to(const char *path) { screen_path = absolute(path); }
+
+std::vector<int> last_descriptors(LAMMPS *lmp) {
+  std::vector<int> found;
+  for (FILE *file : {lmp->logfile, lmp->screen == stdout && one_stream() ? nullptr : lmp->screen, stderr})
+    if (file) found.push_back(fileno(file));
+  return found;
 }
 
 void last_words(LAMMPS *lmp, const char *format, ...) {
@@ -108,8 +116,10 @@ void last_words(LAMMPS *lmp, const char *format, ...) {
   if (length >= static_cast<int>(sizeof text)) line.back() = '\n';
 
   const LAMMPS_NS::Universe *universe = lmp->universe;
+  const bool not_first = universe && universe->me > 0 && universe->nworlds == 1;
   if (lmp->logfile) fputs(line.c_str(), lmp->logfile);
-  else if (universe && universe->me > 0 && universe->nworlds == 1) append_to_log(line);
+  else if (not_first) append_to(log_path, line);
+  if (not_first) append_to(screen_path, line);
   fflush(nullptr);
   FILE *screen = lmp->screen ? lmp->screen : universe ? universe->uscreen : nullptr;
   if (screen == stdout && one_stream()) return;

@@ -6,6 +6,7 @@
 #include "output.h"
 #include "signal_handling.h"
 #include "update.h"
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -24,11 +25,15 @@ struct sigaction before[3];
 bool watching = false;
 volatile std::sig_atomic_t wants_quit = 0, wants_restart = 0;
 
+const int most = 3;
+volatile std::sig_atomic_t descriptors[most] = {STDERR_FILENO}, places = 1;  // of log file, screen and stderr
+
 /** At a second signal. Only what a signal may do: no streams, whose lines are written already. */
 [[noreturn]] void end_at_once() {
   const char words[] = "ERROR: the run ends at once, at a second SIGINT or SIGTERM\n";
-  const ssize_t written = write(STDERR_FILENO, words, sizeof words - 1);
-  std::_Exit(written < 0 ? EXIT_FAILURE + 1 : EXIT_FAILURE);
+  bool lost = false;
+  for (int k = 0; k < places; k++) lost = write(descriptors[k], words, sizeof words - 1) < 0 || lost;
+  std::_Exit(lost ? EXIT_FAILURE + 1 : EXIT_FAILURE);
 }
 
 void note(int signal) {
@@ -62,6 +67,13 @@ void release() {
   if (!watching) return;
   for (int k = 0; k < 3; k++) sigaction(signals[k], &before[k], nullptr);
   watching = false;
+}
+
+void tell(const std::vector<int> &where) {
+  places = 0;  // in this order: a signal may come in between
+  const int n = std::min<int>(where.size(), most);
+  for (int k = 0; k < n; k++) descriptors[k] = where[k];
+  places = n;
 }
 
 int noted() { return (wants_quit ? quit : 0) | (wants_restart ? restart : 0); }

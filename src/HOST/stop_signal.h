@@ -2,6 +2,8 @@
 #ifndef GRAINSCOPE_STOP_SIGNAL_H
 #define GRAINSCOPE_STOP_SIGNAL_H
 
+#include <vector>
+
 namespace LAMMPS_NS { class LAMMPS; }
 
 namespace grainscope {
@@ -13,6 +15,8 @@ namespace stop_signal {
 
 /** Takes the signals over from the host, with what it has noted. */
 void watch();
+/** Descriptors that a second signal, which ends the process at once, writes its line to; stderr until this is called. */
+void tell(const std::vector<int> &where);
 /** Gives them back. */
 void release();
 

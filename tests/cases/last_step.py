@@ -11,6 +11,7 @@ from case import main, require, require_close, require_equal, require_same_snaps
 from catalogue import DIRECTION, DISPLACEMENT, FABRIC, MEMORY, SURFACE, strain_lines
 from deck import Deck, dump_grains, shear, thermo
 from packing import dense_packing
+from refusal import require_refused
 from run import run
 from watch import Watched
 
@@ -134,13 +135,32 @@ def stays_until_the_next_run(ranks):
     """Commands between runs change grains, not what was measured; the next run measures the grains as they are then."""
     quantities = columns([STRESS, DISSIPATION])
     expected, _ = reference([4], [STRESS, DISSIPATION], ranks)
-    lines = ["run 4", "velocity all set 1.0 0.0 0.0", *printing(quantities), "run 0", *printing(quantities)]
+    lines = ["run 4", "velocity all set 1.0 0.0 0.0", *printing(quantities), "run 0 pre no", *printing(quantities),
+             "run 0", *printing(quantities)]
     found = printed(run(deck(*lines, computes=[STRESS, DISSIPATION]), ranks), quantities)[4]
     require_equal(found[0], expected[0][-1], "after the run")
+    require_equal(found[1], expected[0][-1], "after a run that evaluates nothing")
+    found = found[1:]
     kinetic = [quantities.index(f"c_stress[{k}]") for k in range(20, 26)]
     # The mean velocity is 1: what is left of each grain's is the rounding of sums of 1.
     require(bool((np.abs(found[1][kinetic]) < 1e-12 * np.abs(found[0][kinetic]).max()).all()),
             f"of the next run: {found[1][kinetic]}")
+
+
+def grains_change_between_runs(ranks):
+    """Numbers of single grains: not of a step that nobody asked for, and not when grains are others than then."""
+    grain, dumped = "compute grain all contact/grain", "write_dump all custom grains.dump id c_grain[1]"
+    asked = [*thermo(5, "c_most"), "run 5"]
+    most = "compute most all reduce max c_grain[1]"
+    within = run(deck(grain, "dump d all custom 5 grains.dump id c_grain[1]", "run 5"), ranks).dump("grains.dump")[-1]
+    after = run(deck(grain, most, *asked, dumped), ranks).dump("grains.dump")[-1]
+    for found, expected in zip(*(np.array(list(s[1].values()))[:, np.argsort(s[1]["id"])] for s in (after, within))):
+        require_equal(found, expected, "asked within the run, and once more after it")
+    require_refused(deck(grain, "run 5", dumped), ranks, "compute contact/grain grain: not tallied on this step")
+    for change in (["group gone id 2", "delete_atoms group gone compress no"],
+                   ["create_atoms 1 single 0.1 0.1 0.1 units box"]):
+        require_refused(deck(grain, most, *asked, *change, dumped), ranks,
+                        "compute contact/grain grain: grains were sorted, added or removed since the last step")
 
 
 def rows_after_a_run(ranks):
@@ -179,6 +199,7 @@ CASES = {
     "thermo-changed": thermo_changed,
     "by-update-on-run-end": by_update_on_run_end,
     "stays-until-the-next-run": stays_until_the_next_run,
+    "grains-change-between-runs": grains_change_between_runs,
     "rows-after-a-run": rows_after_a_run,
     "sums-are-not-asked-twice": sums_are_not_asked_twice,
 }

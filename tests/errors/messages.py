@@ -97,13 +97,13 @@ def no_screen(ranks):
 
 
 def screen_in_a_file(ranks):
-    """The host has no screen on other ranks then."""
+    """Which the host opens on the first rank only."""
     arguments = ("-in", "in.deck", "-screen", "its.screen")
     ended = end(body("nonsense"), ranks, *arguments, screen="its.screen")
     require_once(ended, "ERROR: Unknown command", screen=True, stderr=True, log=True)
     folder, deck = last_rank_complains(ranks)
     ended = end(deck, ranks, *arguments, folder=folder, screen="its.screen")
-    require_once(ended, message_of(ranks), screen=ranks == 1, stderr=True, log=True)
+    require_once(ended, message_of(ranks), screen=True, stderr=True, log=True)
 
 
 def no_log(ranks):
@@ -180,6 +180,7 @@ def second_signal(ranks):
     require(result.output.count(words) == 1, result.output[-1500:])
     log = result.file("log.liggghts").read_text()
     require(log.endswith("\n") and log.count("\n") > 50, "lines of the log file are missing")
+    require(log.count(words) == 1, f"the log file has the line {log.count(words)} times")
 
 
 def exception(ranks):
@@ -269,6 +270,9 @@ def index_that_is_none(ranks):
     words = "what is in brackets must be an index, a whole number from 1 up, got"
     for bad in NO_INDEX:
         require_refused(lines_with(PLACES["ave-time"], f"c_stress{bad}"), ranks, f"{words} '{bad}'", STRESS)
+    for name in ("thermo", "print"):
+        for bad in ("[*]", "[0]", "[-1]", "[2x]", "[1.5]"):
+            require_refused(lines_with(PLACES[name], f"c_stress{bad}"), ranks, f"c_stress{bad}: {STRESS}")
     places = [("c_stress", place) for place in (PLACES["ave-correlate"], PLACES["ave-histo"], SLICE)]
     places += [("c_grain", place) for place in GRAIN_PLACES.values()]
     places += [("c_rows", place) for place in LOCAL_PLACES.values()]
