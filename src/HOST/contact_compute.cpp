@@ -31,6 +31,10 @@ bool ContactCompute::wants_contacts() {
 
 void ContactCompute::end_run() {
   const LAMMPS_NS::bigint now = update->ntimestep;
+  if (peratom_flag) {  // who asks for grains after the run must ask the compute, which knows whether they are the same
+    invoked_flag &= ~(INVOKED_PERATOM);
+    invoked_peratom = -1;
+  }
   if (tallied_ != now || !answers_after_run()) return;
   run_over_ = true;
   unasked_ = true;
