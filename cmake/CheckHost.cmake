@@ -2,7 +2,7 @@
 # and refuses other forks in one sentence that says what they lack. Two seconds; kept until a header changes.
 
 set(probe "${CMAKE_BINARY_DIR}/probe")
-file(GLOB overriding src/PAIR/pair_*.h src/FIX/fix_*.h src/COMPUTE/compute_*.h src/COMMAND/*.h src/ATOM/*.h)
+file(GLOB overriding src/PAIR/pair_*.h src/FIX/fix_*.h src/RUN/*.h src/COMPUTE/compute_*.h src/COMMAND/*.h src/ATOM/*.h)
 set(text "")
 set(probe_key "${CMAKE_CXX_COMPILER} ${CMAKE_CXX_FLAGS}")
 foreach(header IN LISTS overriding)
@@ -20,7 +20,7 @@ string(SHA1 probe_key "${probe_key}")
 function(compile_host_probe result output)
   set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
   set(folders "${probe}" "${HOST_STAGE}")
-  foreach(folder CORE HOST PAIR FIX COMPUTE COMMAND ATOM)
+  foreach(folder CORE HOST PAIR FIX RUN COMPUTE COMMAND ATOM)
     list(APPEND folders "${CMAKE_SOURCE_DIR}/src/${folder}")
   endforeach()
   try_compile(compiled "${probe}" SOURCES "${CMAKE_SOURCE_DIR}/cmake/host_probe.cpp"
