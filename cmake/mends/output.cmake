@@ -13,3 +13,9 @@ foreach(name fix_ave_time fix_ave_histo fix_ave_spatial fix_ave_correlate fix_pr
 endforeach()
 mend(write_data.cpp "\n  if (me == 0) fclose(fp);\n" "\n  if (me == 0 && (ferror(fp) | fclose(fp))) ${unwritten}\n"
      "a data file that is not written is no error")
+
+# Headings of variables are cut after 8 letters: v_stress_mu_eff would be stress_m, as v_stress_mean.
+mend(thermo.cpp "      char copy[9];\n      strncpy(copy,id,8);\n      copy[8] = '\\0';\n"
+     "      char copy[32] = {0};\n      strncpy(copy,id,word[0] == 'v' ? 31 : 8);\n"
+     "thermo headings cut the names of variables")
+mend(thermo.cpp "format[i] = new char[32];" "format[i] = new char[96];" "room for them")

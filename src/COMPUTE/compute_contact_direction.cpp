@@ -4,7 +4,6 @@
 #include "bin_index.h"
 #include "contact.h"
 #include "plane.h"
-#include "rows.h"
 #include "update.h"
 #include <algorithm>
 #include <cmath>
@@ -14,9 +13,24 @@ using grainscope::Contact;
 
 namespace {
 
-const int width = 9;
+constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
 
 enum { CONTACTS, NORMAL, TANGENTIAL, ALONG, SUMS };
+
+grainscope::Outputs declared(int bins) {
+  grainscope::Outputs outputs;
+  outputs.set_array(bins, "bin of beta", {
+      {"beta", "rad", intensive, "angle of the bin's middle"},
+      {"N_c", "-", whole, "contacts, each at beta and at beta + pi"},
+      {"density", "1/rad", intensive, "share of the contacts over the width of a bin, integral 1"},
+      {"F_n", "force", intensive, "normal force in the plane, mean over the bin's contacts"},
+      {"F_t", "force", intensive, "tangential force in the plane, mean over the bin's contacts"},
+      {"F_along", "force", intensive, "tangential force along (-sin beta, cos beta), mean over the bin's contacts"},
+      {"F_n_sum", "force", whole, "sum that F_n is the mean of"},
+      {"F_t_sum", "force", whole, "sum that F_t is the mean of"},
+      {"F_along_sum", "force", whole, "sum that F_along is the mean of"}});
+  return outputs;
+}
 
 }
 
@@ -24,7 +38,6 @@ struct ComputeContactDirection::Impl {
   grainscope::Plane plane;
   int half = 36;             // bins from 0 to pi; the other half is their mirror image
   std::vector<double> sums;  // half x SUMS, and contacts whose direction is not finite
-  grainscope::Rows rows;
 };
 
 ComputeContactDirection::ComputeContactDirection(LAMMPS *lmp, int &iarg, int narg, char **arg)
@@ -35,11 +48,7 @@ ComputeContactDirection::ComputeContactDirection(LAMMPS *lmp, int &iarg, int nar
     if (keyword == "plane") impl_->plane.read(arguments);
     else impl_->half = arguments.even_number(keyword, 2, 10000) / 2;
   }
-  array_flag = 1;
-  extarray = 0;
-  size_array_rows = 2 * impl_->half;
-  size_array_cols = width;
-  array = impl_->rows.resize(size_array_rows, width);
+  declare(this, declared(2 * impl_->half));
 }
 
 ComputeContactDirection::~ComputeContactDirection() {}
@@ -81,8 +90,7 @@ void ComputeContactDirection::compute_array() {
   for (int k = 0; k < 2 * impl_->half; k++) {
     const double *s = &all[k % impl_->half * SUMS];
     const double per_contact = s[CONTACTS] > 0.0 ? 1.0 / s[CONTACTS] : 0.0;
-    const double row[width] = {(k + 0.5) * bin, s[CONTACTS], contacts > 0.0 ? s[CONTACTS] / (2.0 * contacts * bin) : 0.0,
-                               s[NORMAL] * per_contact, s[TANGENTIAL] * per_contact, s[ALONG] * per_contact, s[NORMAL], s[TANGENTIAL], s[ALONG]};
-    std::copy(row, row + width, array[k]);
+    put_row(k, {(k + 0.5) * bin, s[CONTACTS], contacts > 0.0 ? s[CONTACTS] / (2.0 * contacts * bin) : 0.0, s[NORMAL] * per_contact,
+                s[TANGENTIAL] * per_contact, s[ALONG] * per_contact, s[NORMAL], s[TANGENTIAL], s[ALONG]});
   }
 }

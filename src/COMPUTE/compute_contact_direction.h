@@ -9,6 +9,7 @@ ComputeStyle(contact/direction,ComputeContactDirection)
 #define LMP_COMPUTE_CONTACT_DIRECTION_H
 
 #include "contact_compute.h"
+#include "outputs.h"
 #include <memory>
 
 namespace LAMMPS_NS {
@@ -20,7 +21,7 @@ namespace LAMMPS_NS {
  *  7-9 the sums that 4-6 are means of [force].
  *  Contacts whose projected normal is shorter than 1e-9 are left out. 0 for an empty group, but 1.
  *  Source: Bilotto, Trulsson & Molinari 2025, Eq. (F1), Fig. 17; doi 10.1103/tj41-6qqk. */
-class ComputeContactDirection : public grainscope::ContactCompute {
+class ComputeContactDirection : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
  public:
   ComputeContactDirection(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeContactDirection();

@@ -15,7 +15,20 @@ using grainscope::Contact;
 
 namespace {
 
+constexpr auto intensive = grainscope::Extent::intensive;
+
 enum { CONTACTS, SLIDING, NORMAL_POWER, FRICTION_POWER, MOBILISATION, ANGLE, WIDTH };
+
+grainscope::Outputs declared() {
+  grainscope::Outputs outputs;
+  outputs.per_grain = {{"N_c", "-", intensive, "contacts of the grain"},
+                       {"N_sliding", "-", intensive, "its contacts that slide"},
+                       {"P_n", "energy/time", intensive, "power lost by normal damping, half of each contact's"},
+                       {"P_t", "energy/time", intensive, "power lost by friction, half of each contact's"},
+                       {"mobilisation", "-", intensive, "|F_t| over its friction limit, mean over its contacts"},
+                       {"theta", "rad", intensive, "angle of the major axis to the flow x in the xy plane"}};
+  return outputs;
+}
 
 }
 
@@ -29,8 +42,8 @@ ComputeContactGrain::ComputeContactGrain(LAMMPS *lmp, int &iarg, int narg, char 
     : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   arguments.require_none();
-  peratom_flag = 1;
-  size_peratom_cols = WIDTH;
+  declare(this, declared());
+  require_count(WIDTH, outputs().per_grain, "columns");
 }
 
 ComputeContactGrain::~ComputeContactGrain() {}

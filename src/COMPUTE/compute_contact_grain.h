@@ -9,6 +9,7 @@ ComputeStyle(contact/grain,ComputeContactGrain)
 #define LMP_COMPUTE_CONTACT_GRAIN_H
 
 #include "contact_compute.h"
+#include "outputs.h"
 #include <memory>
 
 namespace LAMMPS_NS {
@@ -17,7 +18,7 @@ namespace LAMMPS_NS {
  *  per-atom array (6 columns): 1 contacts, 2 sliding contacts, 3 P_n, 4 P_t [energy/time] (instantaneous, half of each contact's), 5 mean
  *  mobilisation [-], 6 angle theta of the major axis to the flow x in the xy plane [rad], in (-pi/2, pi/2], 0 for spheres. Zero outside the group.
  *  Source: Bilotto, Trulsson & Molinari 2025, Eq. (4), Figs. 2, 12; doi 10.1103/tj41-6qqk. */
-class ComputeContactGrain : public grainscope::ContactCompute {
+class ComputeContactGrain : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
  public:
   ComputeContactGrain(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeContactGrain();

@@ -22,33 +22,44 @@ struct Row {
 
 double *put(double *at, const Vector3d &v) { return std::copy(v.data(), v.data() + 3, at); }
 
+constexpr auto intensive = grainscope::Extent::intensive;
+
+/** What one keyword asks for: outputs named after `parts`, none for a single one. */
 struct Column {
-  const char *name;
-  int width;
+  const char *name, *parts, *unit, *meaning;
   void (*write)(const Row &, double *);
+
+  grainscope::OutputList outputs() const {
+    const std::string whole = name;
+    if (!*parts) return {{whole, unit, intensive, meaning}};
+    return grainscope::OutputList().add_each(parts, {whole + "_*", unit, intensive, std::string(meaning) + " *"});
+  }
 };
 
+const char *const xyz = "x y z", *const one = "";
+
 const Column columns[] = {
-    {"id", 2, [](const Row &r, double *to) { to[0] = r.id_i; to[1] = r.id_j; }},
-    {"image", 3, [](const Row &r, double *to) { std::copy(r.image, r.image + 3, to); }},
-    {"point", 3, [](const Row &r, double *to) { put(to, r.contact.point); }},
-    {"normal", 3, [](const Row &r, double *to) { put(to, r.contact.normal); }},
-    {"branch", 3, [](const Row &r, double *to) { put(to, r.contact.branch); }},
-    {"overlap", 1, [](const Row &r, double *to) { *to = r.contact.overlap; }},
-    {"force", 3, [](const Row &r, double *to) { put(to, r.contact.force); }},
-    {"fn", 1, [](const Row &r, double *to) { *to = r.contact.normal_force; }},
-    {"fn_damping", 1, [](const Row &r, double *to) { *to = r.contact.normal_damping; }},
-    {"ft", 3, [](const Row &r, double *to) { put(to, r.contact.tangential_force); }},
-    {"un", 1, [](const Row &r, double *to) { *to = r.contact.normal_velocity; }},
-    {"ut", 3, [](const Row &r, double *to) { put(to, r.contact.tangential_velocity); }},
-    {"sliding", 1, [](const Row &r, double *to) { *to = r.contact.sliding; }},
-    {"slip", 1, [](const Row &r, double *to) { *to = r.contact.slip; }},
-    {"mobilisation", 1, [](const Row &r, double *to) { *to = grainscope::mobilisation(r.contact); }}};
+    {"id", "i j", "-", "ID of grain", [](const Row &r, double *to) { to[0] = r.id_i; to[1] = r.id_j; }},
+    {"image", xyz, "-", "periodic image of j that i touches, in box edges,", [](const Row &r, double *to) { std::copy(r.image, r.image + 3, to); }},
+    {"point", xyz, "distance", "contact point,", [](const Row &r, double *to) { put(to, r.contact.point); }},
+    {"normal", xyz, "-", "unit normal from j to i,", [](const Row &r, double *to) { put(to, r.contact.normal); }},
+    {"branch", xyz, "distance", "x_i - x_j with that image,", [](const Row &r, double *to) { put(to, r.contact.branch); }},
+    {"overlap", one, "distance", "normal overlap", [](const Row &r, double *to) { *to = r.contact.overlap; }},
+    {"force", xyz, "force", "force on i,", [](const Row &r, double *to) { put(to, r.contact.force); }},
+    {"fn", one, "force", "normal component of the force, > 0 pushes apart", [](const Row &r, double *to) { *to = r.contact.normal_force; }},
+    {"fn_damping", one, "force", "damping part of fn", [](const Row &r, double *to) { *to = r.contact.normal_damping; }},
+    {"ft", xyz, "force", "tangential force on i,", [](const Row &r, double *to) { put(to, r.contact.tangential_force); }},
+    {"un", one, "velocity", "normal velocity of i relative to j, < 0 approaching", [](const Row &r, double *to) { *to = r.contact.normal_velocity; }},
+    {"ut", xyz, "velocity", "tangential velocity of i relative to j at the contact point,", [](const Row &r, double *to) { put(to, r.contact.tangential_velocity); }},
+    {"sliding", one, "-", "1 if the spring was cut at the friction limit, else 0", [](const Row &r, double *to) { *to = r.contact.sliding; }},
+    {"slip", one, "distance", "length cut from the tangential spring", [](const Row &r, double *to) { *to = r.contact.slip; }},
+    {"mobilisation", one, "-", "|F_t| over its friction limit", [](const Row &r, double *to) { *to = grainscope::mobilisation(r.contact); }}};
 
 }
 
 struct ComputeContactLocal::Impl {
   std::vector<const Column *> chosen;
+  std::vector<int> widths;       // of each
   int width = 0;
   std::vector<double> values;    // the rows, one after the other
   std::vector<double *> rows;
@@ -67,10 +78,14 @@ ComputeContactLocal::ComputeContactLocal(LAMMPS *lmp, int &iarg, int narg, char 
     const std::string name = arguments.keyword(names, "column");
     impl_->chosen.push_back(std::find_if(std::begin(columns), std::end(columns), [&](const Column &c) { return name == c.name; }));
   }
-  for (const Column *column : impl_->chosen) impl_->width += column->width;
-  local_flag = 1;
-  size_local_cols = impl_->width == 1 ? 0 : impl_->width;
-  size_local_rows = 0;
+  grainscope::Outputs outputs;
+  for (const Column *column : impl_->chosen) {
+    const grainscope::OutputList list = column->outputs();
+    outputs.local.insert(outputs.local.end(), list.begin(), list.end());
+    impl_->widths.push_back(list.size());
+  }
+  impl_->width = outputs.local.size();
+  declare(this, outputs);
 }
 
 ComputeContactLocal::~ComputeContactLocal() {}
@@ -92,9 +107,9 @@ void ComputeContactLocal::add_contact(const Contact &c) {
   const Row row = {c, observer_->image_shift(c.j), atom->tag[c.i], atom->tag[c.j]};
   impl_->values.resize(impl_->values.size() + impl_->width);
   double *to = impl_->values.data() + impl_->values.size() - impl_->width;
-  for (const Column *column : impl_->chosen) {
-    column->write(row, to);
-    to += column->width;
+  for (std::size_t k = 0; k < impl_->chosen.size(); k++) {
+    impl_->chosen[k]->write(row, to);
+    to += impl_->widths[k];
   }
 }
 

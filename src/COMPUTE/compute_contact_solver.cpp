@@ -8,18 +8,31 @@
 
 using namespace LAMMPS_NS;
 
+namespace {
+
+constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
+
+grainscope::Outputs declared() {
+  grainscope::Outputs outputs;
+  outputs.vector = {{"pairs_listed", "-", whole, "pairs in neighbour lists, over all force evaluations"},
+                    {"pairs_solved", "-", whole, "of these, pairs given to the solver"},
+                    {"pairs_touching", "-", whole, "of these, pairs that touch"},
+                    {"steps", "-", whole, "Newton steps"},
+                    {"steps_max", "-", intensive, "most Newton steps in one pair"},
+                    {"fallbacks", "-", whole, "pairs that the solver left to a search, 0 in a sound run"}};
+  outputs.scalar = {outputs.vector.back()};
+  return outputs;
+}
+
+}
+
 ComputeContactSolver::ComputeContactSolver(LAMMPS *lmp, int &iarg, int narg, char **arg) : Compute(lmp, iarg, narg, arg) {
   grainscope::Arguments arguments(lmp, "compute contact/solver", iarg, narg, arg);
   arguments.require_none();
   if (igroup != 0)
     arguments.fail(std::string("the group must be 'all', as the pairs of all grains are counted, got '") + arg[1] + "'");
-  scalar_flag = vector_flag = 1;
-  extscalar = extvector = 0;
-  size_vector = 6;
-  vector = new double[size_vector]();
+  declare(this, declared());
 }
-
-ComputeContactSolver::~ComputeContactSolver() { delete[] vector; }
 
 void ComputeContactSolver::init() {
   if (!PairGranInsitu::required_by(lmp, "compute contact/solver")->contact_match("surface", "ellipsoid"))
@@ -29,14 +42,15 @@ void ComputeContactSolver::init() {
 void ComputeContactSolver::compute_vector() {
   invoked_vector = update->ntimestep;
   const grainscope::SolverCounts &c = PairGranInsitu::required_by(lmp, "compute contact/solver")->ellipsoid_bodies().counts;
-  const double mine[6] = {c.listed, c.solved, c.touching, c.steps, c.most_steps, c.fallbacks};
-  MPI_Allreduce(mine, vector, 6, MPI_DOUBLE, MPI_SUM, world);
-  MPI_Allreduce(&mine[4], &vector[4], 1, MPI_DOUBLE, MPI_MAX, world);
+  double sums[] = {c.listed, c.solved, c.touching, c.steps, c.fallbacks}, most_steps = c.most_steps;
+  MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, &most_steps, 1, MPI_DOUBLE, MPI_MAX, world);
+  scalar = sums[4];
+  put_vector({sums[0], sums[1], sums[2], sums[3], most_steps, scalar});
 }
 
 double ComputeContactSolver::compute_scalar() {
   invoked_scalar = update->ntimestep;
   compute_vector();  // again: a run may have begun at this step since
-  scalar = vector[5];
   return scalar;
 }

@@ -4,7 +4,6 @@
 #include "contact_measures.h"
 #include "contact_observer.h"
 #include "ellipsoid_bands.h"
-#include "rows.h"
 #include "symmetry_axis.h"
 #include "atom.h"
 #include "force.h"
@@ -25,10 +24,36 @@ using grainscope::SurfaceAngle;
 
 namespace {
 
-const int width = 17;
+constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
 
 /** Sums over the contacts of one bin: each grain of a contact adds its own. */
 enum { CONTACTS, NORMAL, TANGENTIAL, MOBILISATION, SLIDING, NORMAL_POWER, FRICTION_POWER, SUMS };
+
+grainscope::Outputs declared(int bins) {
+  grainscope::Outputs outputs;
+  outputs.vector = {{"P", "pressure", intensive, "sum of F_y r_y over contacts, over the volume of the box"},
+                    {"A_p", "distance^2", intensive, "area of a grain, mean over the group"},
+                    {"N", "-", whole, "grains of the group"}};
+  outputs.set_array(bins, "bin of psi", {
+      {"psi", "rad", intensive, "angle of the bin's middle"},
+      {"area", "distance^2", intensive, "area A_j of the bin on a grain, mean over grains"},
+      {"N_c", "-", whole, "contacts N_j of the bin, each on both of its grains"},
+      {"rho_s", "1/distance^2", intensive, "share of the contacts over the area A_j"},
+      {"rho_s_A_p", "-", intensive, "rho_s A_p = (N_j/N)/(A_j/A_p)"},
+      {"F_n", "-", intensive, "F_n/(P A_p), mean over the bin's contacts"},
+      {"F_t", "-", intensive, "|F_t|/(P A_p), mean over the bin's contacts"},
+      {"mobilisation", "-", intensive, "|F_t| over its friction limit, mean over the bin's contacts"},
+      {"sliding", "-", intensive, "fraction of the bin's contacts that slide"},
+      {"P_n", "energy/time", whole, "power lost by normal damping, half to each grain of a contact"},
+      {"P_t", "energy/time", whole, "power lost by friction, half to each grain of a contact"},
+      {"inhomogeneity", "-", intensive, "share of P_n + P_t over share of the area"},
+      {"inhomogeneity_printed", "-", intensive, "the same, as the paper prints it"},
+      {"F_n_sum", "-", whole, "sum that F_n is the mean of"},
+      {"F_t_sum", "-", whole, "sum that F_t is the mean of"},
+      {"mobilisation_sum", "-", whole, "sum that mobilisation is the mean of"},
+      {"sliding_sum", "-", whole, "the bin's contacts that slide"}});
+  return outputs;
+}
 
 /** v seen along body axis `axis`: that component last, the others before it. */
 Vector3d along(int axis, const Vector3d &v) { return {v[(axis + 1) % 3], v[(axis + 2) % 3], v[axis]}; }
@@ -50,7 +75,6 @@ struct ComputeContactSurface::Impl {
   bigint build = -1;                  // the neighbour list that the four above are of
   std::vector<double> sums;           // bins x SUMS, sum of F_y r_y over contacts, contacts whose place is not finite
   bool reduced = false;
-  grainscope::Rows rows;
 
   double *bin(int k) { return &sums[k * SUMS]; }
 
@@ -79,17 +103,10 @@ ComputeContactSurface::ComputeContactSurface(LAMMPS *lmp, int &iarg, int narg, c
     }
   }
   require_axes(atom, arguments);
-  array_flag = vector_flag = 1;
-  extarray = 0;
-  extvector = 0;
-  size_array_rows = impl_->bins;
-  size_array_cols = width;
-  array = impl_->rows.resize(impl_->bins, width);
-  size_vector = 3;
-  vector = new double[size_vector]();
+  declare(this, declared(impl_->bins));
 }
 
-ComputeContactSurface::~ComputeContactSurface() { delete[] vector; }
+ComputeContactSurface::~ComputeContactSurface() {}
 
 void ComputeContactSurface::init() {
   require_axes(atom, grainscope::Arguments(lmp, name_, 0, 0, nullptr));
@@ -206,15 +223,12 @@ void ComputeContactSurface::reduce() {
     const double whole_over_part = impl_->unit_area > 0.0 ? impl_->unit_area / impl_->unit_areas[k] : 0.0;
     const double share = contacts > 0.0 ? s[CONTACTS] / contacts : 0.0, per_contact = s[CONTACTS] > 0.0 ? 1.0 / s[CONTACTS] : 0.0;
     const double inhomogeneity = power != 0.0 ? (s[NORMAL_POWER] + s[FRICTION_POWER]) / power * whole_over_part : 0.0;
-    const double row[width] = {(k + 0.5) * M_PI_2 / impl_->bins, area, s[CONTACTS], area > 0.0 ? share / area : 0.0, share * whole_over_part,
-                               s[NORMAL] * per_contact * per_pressure, s[TANGENTIAL] * per_contact * per_pressure, s[MOBILISATION] * per_contact,
-                               s[SLIDING] * per_contact, s[NORMAL_POWER], s[FRICTION_POWER], inhomogeneity, inhomogeneity * whole_over_part,
-                               s[NORMAL] * per_pressure, s[TANGENTIAL] * per_pressure, s[MOBILISATION], s[SLIDING]};
-    std::copy(row, row + width, array[k]);
+    put_row(k, {(k + 0.5) * M_PI_2 / impl_->bins, area, s[CONTACTS], area > 0.0 ? share / area : 0.0, share * whole_over_part,
+                s[NORMAL] * per_contact * per_pressure, s[TANGENTIAL] * per_contact * per_pressure, s[MOBILISATION] * per_contact,
+                s[SLIDING] * per_contact, s[NORMAL_POWER], s[FRICTION_POWER], inhomogeneity, inhomogeneity * whole_over_part,
+                s[NORMAL] * per_pressure, s[TANGENTIAL] * per_pressure, s[MOBILISATION], s[SLIDING]});
   }
-  vector[0] = pressure * force->nktv2p;
-  vector[1] = impl_->unit_area * impl_->mean_square;
-  vector[2] = impl_->grains;
+  put_vector({pressure * force->nktv2p, impl_->unit_area * impl_->mean_square, impl_->grains});
 }
 
 void ComputeContactSurface::compute_array() {

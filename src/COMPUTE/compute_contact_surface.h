@@ -9,6 +9,7 @@ ComputeStyle(contact/surface,ComputeContactSurface)
 #define LMP_COMPUTE_CONTACT_SURFACE_H
 
 #include "contact_compute.h"
+#include "outputs.h"
 #include <memory>
 
 namespace LAMMPS_NS {
@@ -21,7 +22,7 @@ namespace LAMMPS_NS {
  *  means of [-].
  *  vector (3): P [pressure], mean area A_p [distance^2], grains. All 0 for an empty group, but 1.
  *  Source: Bilotto, Trulsson & Molinari 2025, Eq. (10), Figs. 11, 12; doi 10.1103/tj41-6qqk. */
-class ComputeContactSurface : public grainscope::ContactCompute {
+class ComputeContactSurface : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
  public:
   ComputeContactSurface(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeContactSurface();

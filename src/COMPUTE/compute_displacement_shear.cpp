@@ -23,6 +23,17 @@ using Eigen::Vector3d;
 namespace {
 
 const char *const name = "compute displacement/shear";
+constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
+
+grainscope::Outputs declared() {
+  grainscope::Outputs outputs;
+  outputs.vector.add({"strain", "-", intensive, "strain since the start"})
+      .add_each("x y z", {"d2_*", "distance^2", intensive, "<d_*^2>, mean square displacement"})
+      .add_each("x y z", {"D_*", "distance^2", intensive, "half the slope of <d_*^2> over strain"})
+      .add({"N", "-", whole, "grains followed"});
+  outputs.scalar = {outputs.vector[2]};
+  return outputs;
+}
 
 /** What is kept of a grain: X of the last call, d, and whether it was there at the start. */
 enum { POSITION = 0, DISPLACEMENT = 3, TRACKED = 6, WIDTH };
@@ -82,15 +93,11 @@ ComputeDisplacementShear::ComputeDisplacementShear(LAMMPS *lmp, int &iarg, int n
     if (keyword == "strain") impl_->strain.read(arguments);
   }
   grainscope::require_box(lmp, arguments);
-  scalar_flag = vector_flag = 1;
-  extscalar = extvector = 0;
-  size_vector = 8;
-  vector = new double[size_vector]();
+  declare(this, declared());
   impl_->record = FixGrainRecord::make(lmp, id, igroup, WIDTH, SHARED, std::string(name) + " " + group->names[igroup], STEP);
 }
 
 ComputeDisplacementShear::~ComputeDisplacementShear() {
-  delete[] vector;
   FixGrainRecord::forget(lmp, id);
 }
 
@@ -230,14 +237,13 @@ void ComputeDisplacementShear::compute_vector() {
   std::fill(vector, vector + size_vector, 0.0);
   scalar = 0.0;
   if (shared[STARTED] == 0.0) return;
-  vector[0] = shared[STRAIN_1] - shared[STRAIN_0];
   const double n = shared[CALLS], spread = n * shared[STRAIN_STRAIN] - shared[STRAIN] * shared[STRAIN];
-  for (int k = 0; k < 3; k++) {
-    vector[1 + k] = shared[MEAN + k];
-    if (spread > 0.0) vector[4 + k] = 0.5 * (n * shared[STRAIN_SQUARE + k] - shared[STRAIN] * shared[SQUARE + k]) / spread;
-  }
-  vector[7] = shared[GRAINS];
-  scalar = vector[2];
+  double slopes[3] = {0.0, 0.0, 0.0};
+  for (int k = 0; k < 3 && spread > 0.0; k++)
+    slopes[k] = 0.5 * (n * shared[STRAIN_SQUARE + k] - shared[STRAIN] * shared[SQUARE + k]) / spread;
+  const double *d2 = shared + MEAN;
+  put_vector({shared[STRAIN_1] - shared[STRAIN_0], d2[0], d2[1], d2[2], slopes[0], slopes[1], slopes[2], shared[GRAINS]});
+  scalar = d2[1];
 }
 
 double ComputeDisplacementShear::compute_scalar() {

@@ -10,6 +10,7 @@ ComputeStyle(displacement/shear,ComputeDisplacementShear)
 
 #include "box_watcher.h"
 #include "compute.h"
+#include "outputs.h"
 #include <memory>
 
 namespace LAMMPS_NS {
@@ -25,7 +26,7 @@ class FixGrainRecord;
  *  vector (8, intensive): 1 strain since the start, 2-4 <d_x^2> <d_y^2> <d_z^2> [distance^2], 5-7 D_x D_y D_z, half the slope of 2-4 over
  *  strain, least squares with free intercept over all calls [distance^2], 8 grains. Zero before the start and for an empty group.
  *  Source: Bilotto, Trulsson & Molinari 2025, App. E, Fig. 16; doi 10.1103/tj41-6qqk. */
-class ComputeDisplacementShear : public Compute, public grainscope::BoxWatcher {
+class ComputeDisplacementShear : public Compute, public grainscope::DeclaresOutputs, public grainscope::BoxWatcher {
  public:
   ComputeDisplacementShear(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeDisplacementShear();

@@ -16,6 +16,23 @@ using Eigen::Map;
 using Eigen::Vector3d;
 using grainscope::Contact;
 
+namespace {
+
+constexpr auto extensive = grainscope::Extent::extensive;
+
+grainscope::Outputs declared() {
+  grainscope::Outputs outputs;
+  outputs.scalar = {{"P_total", "energy/time", extensive, "P_n + P_t + P_t_damp"}};
+  outputs.vector = {{"P_n", "energy/time", extensive, "power lost by normal damping"},
+                    {"P_t", "energy/time", extensive, "power lost by friction of sliding contacts"},
+                    {"P_t_damp", "energy/time", extensive, "power lost by tangential damping of contacts that do not slide"},
+                    {"N_c", "-", extensive, "contacts"},
+                    {"N_sliding", "-", extensive, "sliding contacts"}};
+  return outputs;
+}
+
+}
+
 struct ComputeDissipation::Impl {
   enum class Mode { instantaneous, step, ledger } mode = Mode::step;
   double normal = 0.0, friction = 0.0, tangential_damping = 0.0, contacts = 0.0, sliding = 0.0;
@@ -31,17 +48,12 @@ ComputeDissipation::ComputeDissipation(LAMMPS *lmp, int &iarg, int narg, char **
     impl_->mode = mode == "step" ? Impl::Mode::step : mode == "ledger" ? Impl::Mode::ledger : Impl::Mode::instantaneous;
   }
   if (impl_->mode == Impl::Mode::ledger) grainscope::require_box(lmp, arguments);
-  scalar_flag = vector_flag = 1;
-  extscalar = 1;
-  extvector = 1;
-  size_vector = 5;
-  vector = new double[size_vector]();
+  declare(this, declared());
   if (impl_->mode == Impl::Mode::ledger) FixLedgerRecord::make(lmp, id, igroup, "dissipation mode ledger");
 }
 
 ComputeDissipation::~ComputeDissipation() {
   if (impl_->mode == Impl::Mode::ledger) FixLedgerRecord::forget(lmp, id);
-  delete[] vector;
 }
 
 void ComputeDissipation::init() {
@@ -97,21 +109,19 @@ void ComputeDissipation::compute_vector() {
     tangential_damping = -sums.tangential_damping_forces.power(atom->v, atom->omega);
   }
   if (sums.mode == Impl::Mode::ledger) return tell_ledger();
-  const double values[5] = {normal, friction, tangential_damping, sums.contacts, sums.sliding};
-  std::copy(values, values + 5, vector);
-  sum_over_ranks(vector, 5);
-  for (int k = 0; k < 5; k++) vector[k] += 0.0;  // no negative zeros
+  put_vector({normal, friction, tangential_damping, sums.contacts, sums.sliding});
+  sum_over_ranks(vector, size_vector);
+  for (int k = 0; k < size_vector; k++) vector[k] += 0.0;  // no negative zeros
   scalar = vector[0] + vector[1] + vector[2];
 }
 
 void ComputeDissipation::tell_ledger() {
   using E = grainscope::EnergyLedger;
   const auto last = FixLedgerRecord::find(lmp, id)->account().last;
-  const E::Entry losses[3] = {E::D_n, E::D_t, E::D_damp};
-  for (int k = 0; k < 3; k++) vector[k] = last[losses[k]] / update->dt;
-  vector[3] = impl_->contacts;
-  vector[4] = impl_->sliding;
-  sum_over_ranks(vector + 3, 2);
+  double contacts[] = {impl_->contacts, impl_->sliding};
+  sum_over_ranks(contacts, 2);
+  const double dt = update->dt;
+  put_vector({last[E::D_n] / dt, last[E::D_t] / dt, last[E::D_damp] / dt, contacts[0], contacts[1]});
   scalar = vector[0] + vector[1] + vector[2];
 }
 

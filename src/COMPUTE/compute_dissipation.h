@@ -9,6 +9,7 @@ ComputeStyle(dissipation,ComputeDissipation)
 #define LMP_COMPUTE_DISSIPATION_H
 
 #include "contact_compute.h"
+#include "outputs.h"
 #include <memory>
 
 namespace LAMMPS_NS {
@@ -21,7 +22,7 @@ namespace LAMMPS_NS {
  *  scalar: P_n + P_t + P_t,damp [energy/time], extensive.
  *  vector (5, extensive): P_n, P_t, P_t,damp, contacts, sliding contacts. Zero for an empty group.
  *  Source: Bilotto, Trulsson & Molinari 2025, Eq. (4), App. B; doi 10.1103/tj41-6qqk. */
-class ComputeDissipation : public grainscope::ContactCompute {
+class ComputeDissipation : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
  public:
   ComputeDissipation(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeDissipation();

@@ -13,6 +13,23 @@ using E = grainscope::EnergyLedger;
 namespace {
 
 constexpr int residual = E::entries + E::stores, relative = residual + 1, rates = relative + 1, size = rates + residual + 1;
+constexpr auto intensive = grainscope::Extent::intensive, extensive = grainscope::Extent::extensive;
+
+grainscope::Outputs declared() {
+  grainscope::OutputList totals;
+  totals.add_each("shear box frame other", {"W_*", "energy", extensive, "work W_* since the compute was defined"})
+      .add_each("n t damp rolling", {"D_*", "energy", extensive, "loss D_* since the compute was defined"})
+      .add_each("k p n open dt", {"G_*", "energy", extensive, "G_*, what the contact law and the time step take, since the compute was defined"})
+      .add_each("U_n U_t K_tr K_rot", {"*", "energy", extensive, "stored energy * now"})
+      .add({"residual", "energy", extensive, "what does not add up, since the compute was defined"});
+  grainscope::Outputs outputs;
+  outputs.vector = totals;
+  outputs.vector.add({"residual_relative", "-", intensive, "residual over |D_n| + |D_t| + |D_damp| + |D_rolling|, 0 while nothing was lost"});
+  for (const grainscope::NamedOutput &one : totals)
+    outputs.vector.add({one.name + "_rate", "energy/time", extensive, "rate of " + one.name + " in the last step"});
+  outputs.scalar = {{"imbalance", "-", intensive, "magnitude of residual_relative"}};
+  return outputs;
+}
 
 }
 
@@ -20,22 +37,12 @@ ComputeEnergyLedger::ComputeEnergyLedger(LAMMPS *lmp, int &iarg, int narg, char 
   grainscope::Arguments arguments(lmp, "compute energy/ledger", iarg, narg, arg);
   arguments.require_none();
   grainscope::require_box(lmp, arguments);
-  scalar_flag = vector_flag = 1;
-  extscalar = 0;
-  extvector = -1;
-  size_vector = size;
-  extlist = new int[size];
-  std::fill(extlist, extlist + size, 1);
-  extlist[relative] = 0;
-  vector = new double[size]();
+  declare(this, declared());
+  require_count(size, outputs().vector, "elements");
   FixLedgerRecord::make(lmp, id, igroup, "energy/ledger");
 }
 
-ComputeEnergyLedger::~ComputeEnergyLedger() {
-  FixLedgerRecord::forget(lmp, id);
-  delete[] vector;
-  delete[] extlist;
-}
+ComputeEnergyLedger::~ComputeEnergyLedger() { FixLedgerRecord::forget(lmp, id); }
 
 void ComputeEnergyLedger::init() {
   FixLedgerRecord::find(lmp, id);

@@ -9,6 +9,7 @@ ComputeStyle(energy/ledger,ComputeEnergyLedger)
 #define LMP_COMPUTE_ENERGY_LEDGER_H
 
 #include "compute.h"
+#include "outputs.h"
 
 namespace LAMMPS_NS {
 
@@ -17,7 +18,7 @@ namespace LAMMPS_NS {
  *  vector (37, extensive but for 19): 1-4 work W_shear, W_box, W_frame, W_other [energy]; 5-8 losses D_n, D_t, D_damp, D_rolling; 9-13 what the
  *  contact law and the time step take G_k, G_p, G_n, G_open, G_dt; 14-17 stored now U_n, U_t, K_tr, K_rot; 18 residual, 19 the same over the
  *  losses as above; 20-37 the rates of 1-18 in the last step [power], 0 before the first. Zero for an empty group. */
-class ComputeEnergyLedger : public Compute {
+class ComputeEnergyLedger : public Compute, public grainscope::DeclaresOutputs {
  public:
   ComputeEnergyLedger(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeEnergyLedger();

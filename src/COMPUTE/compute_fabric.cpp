@@ -17,15 +17,33 @@ using grainscope::WeightedFabricSums;
 namespace {
 
 struct Weighted {
-  const char *name;
+  const char *name, *output;  // the keyword, and how outputs begin
   Matrix3d (WeightedFabricSums::*tensor)() const;
 };
 
-const Weighted weighted_tensors[] = {{"branch", &WeightedFabricSums::branch},
-                                     {"force/normal", &WeightedFabricSums::normal_force},
-                                     {"force/tangential", &WeightedFabricSums::tangential_force}};
+const Weighted weighted_tensors[] = {{"branch", "branch", &WeightedFabricSums::branch},
+                                     {"force/normal", "force_normal", &WeightedFabricSums::normal_force},
+                                     {"force/tangential", "force_tangential", &WeightedFabricSums::tangential_force}};
 
 const double rounding = 1e-10;  // of sums whose trace is 1
+constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
+const char *const six = "xx yy zz xy xz yz";
+
+grainscope::Outputs declared(const std::vector<const Weighted *> &chosen) {
+  grainscope::Outputs outputs;
+  outputs.vector.add_each(six, {"F_*", "-", intensive, "fabric, mean of n_a n_b"})
+      .add_each("1 2 3", {"eigenvalue_*", "-", intensive, "eigenvalue * of the fabric, descending"});
+  for (const char *axis : {"1", "2", "3"})
+    outputs.vector.add_each("x y z", {std::string("eigenvector_") + axis + "_*", "-", intensive, std::string("* of eigenvector ") + axis});
+  const grainscope::NamedOutput deviator = {"deviator", "-", intensive, "sqrt(3/2 F':F')"};
+  outputs.vector.add(deviator)
+      .add({"angle", "rad", intensive, "principal angle in the plane"})
+      .add({"ratio", "-", intensive, "anisotropy, eigenvalue_1 over eigenvalue_2"})
+      .add({"N_c", "-", whole, "contacts"});
+  for (const Weighted *one : chosen) outputs.vector.add_each(six, {std::string(one->output) + "_*", "-", intensive, std::string(one->name) + " tensor, *"});
+  outputs.scalar = {deviator};
+  return outputs;
+}
 
 double *put_symmetric(double *at, const Matrix3d &m) {
   for (double value : {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)}) *at++ = value;
@@ -50,14 +68,10 @@ ComputeFabric::ComputeFabric(LAMMPS *lmp, int &iarg, int narg, char **arg) : Con
     for (const Weighted &one : weighted_tensors)
       if (keyword == one.name) impl_->chosen.push_back(&one);
   }
-  scalar_flag = vector_flag = 1;
-  extscalar = 0;
-  extvector = 0;
-  size_vector = 22 + 6 * static_cast<int>(impl_->chosen.size());
-  vector = new double[size_vector]();
+  declare(this, declared(impl_->chosen));
 }
 
-ComputeFabric::~ComputeFabric() { delete[] vector; }
+ComputeFabric::~ComputeFabric() {}
 
 void ComputeFabric::begin_contacts() {
   impl_->sums = grainscope::FabricSums();
@@ -94,11 +108,13 @@ void ComputeFabric::compute_vector() {
   *out++ = principal.values[1] > rounding ? principal.values[0] / principal.values[1] : 0.0;
   *out++ = all.contacts();
 
-  if (impl_->chosen.empty()) return;
-  WeightedFabricSums weighted;
-  for (const grainscope::ContactMoment &moment : impl_->moments) weighted.add(moment, fabric);
-  sum_over_ranks(weighted.sums.data(), weighted.sums.size());
-  for (const Weighted *one : impl_->chosen) out = put_symmetric(out, (weighted.*one->tensor)());
+  if (!impl_->chosen.empty()) {
+    WeightedFabricSums weighted;
+    for (const grainscope::ContactMoment &moment : impl_->moments) weighted.add(moment, fabric);
+    sum_over_ranks(weighted.sums.data(), weighted.sums.size());
+    for (const Weighted *one : impl_->chosen) out = put_symmetric(out, (weighted.*one->tensor)());
+  }
+  require_all_elements(out);
 }
 
 double ComputeFabric::compute_scalar() {

@@ -9,6 +9,7 @@ ComputeStyle(fabric,ComputeFabric)
 #define LMP_COMPUTE_FABRIC_H
 
 #include "contact_compute.h"
+#include "outputs.h"
 #include <memory>
 
 namespace LAMMPS_NS {
@@ -20,7 +21,7 @@ namespace LAMMPS_NS {
  *  eigenvalues, 22 contacts. Zero for an empty group.
  *  Source: Bilotto, Trulsson & Molinari 2025, Eq. (9), doi 10.1103/tj41-6qqk; the weighted tensors: Ouadfel & Rothenburg 2001,
  *  doi 10.1016/S0167-6636(00)00057-0. */
-class ComputeFabric : public grainscope::ContactCompute {
+class ComputeFabric : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
  public:
   ComputeFabric(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeFabric();

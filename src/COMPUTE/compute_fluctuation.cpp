@@ -4,7 +4,6 @@
 #include "fluctuations.h"
 #include "grain_shape.h"
 #include "range_warning.h"
-#include "rows.h"
 #include "surroundings.h"
 #include "atom.h"
 #include "update.h"
@@ -20,12 +19,35 @@ using grainscope::MeanFlow;
 
 namespace {
 
-const int width = 5;
+constexpr auto intensive = grainscope::Extent::intensive, extensive = grainscope::Extent::extensive, whole = grainscope::Extent::whole;
+
+const int sums_of_layer = 5;  // mass, grains, momentum
 
 // A third of what a flow has that is sheared in one thin layer only, 1/(2 sqrt 3).
 const double straight_enough = 0.1;
 
 bool is_positive(double x) { return x > 0.0; }
+
+grainscope::Outputs declared(int layers) {
+  grainscope::Outputs outputs;
+  const grainscope::NamedOutput lever = {"lever", "-", intensive, "lever effect, rms |dv| over |rate| d_eq"};
+  outputs.scalar = {lever};
+  outputs.vector.add_each("x y z", {"dv_*", "velocity", intensive, "rms of the velocity's fluctuation dv_*"})
+      .add_each("x y z", {"dw_*", "1/time", intensive, "rms of the angular velocity's fluctuation dw_*"})
+      .add({"E_tr", "energy", extensive, "translational energy of the fluctuations"})
+      .add({"E_rot", "energy", extensive, "rotational energy of the fluctuations"})
+      .add({"E_ratio", "-", intensive, "E_rot/E_tr"})
+      .add(lever)
+      .add({"rate", "1/time", intensive, "shear rate of the box"})
+      .add({"rate_measured", "1/time", intensive, "shear rate of the grains"})
+      .add({"deviation", "-", intensive, "deviation of the velocity profile from the box's flow, over |rate| L"})
+      .add({"deviation_by_chance", "-", intensive, "what noise alone would give"});
+  grainscope::OutputList columns = {{"position", "distance", intensive, "middle of the layer along the gradient, from the box centre"},
+                                    {"N", "-", whole, "grains of the layer"}};
+  columns.add_each("x y z", {"u_*", "velocity", intensive, "mean velocity * by mass less the box's flow"});
+  outputs.set_array(layers, "layer", columns);
+  return outputs;
+}
 
 }
 
@@ -34,7 +56,6 @@ struct ComputeFluctuation::Impl {
   MeanFlow flow;
   int layers = 10;
   double diameter = 0.0;  // 0: the mean of the group
-  grainscope::Rows rows;
 
   MeanFlow with(MeanFlow::Kind kind) const {
     MeanFlow other = flow;
@@ -53,23 +74,10 @@ ComputeFluctuation::ComputeFluctuation(LAMMPS *lmp, int &iarg, int narg, char **
     if (keyword == "flow") impl_->flow.read(arguments);
   }
   grainscope::require_grains(lmp, arguments);
-  scalar_flag = vector_flag = array_flag = 1;
-  extscalar = 0;
-  extvector = -1;
-  size_vector = 14;
-  extlist = new int[size_vector]();
-  extlist[6] = extlist[7] = 1;
-  vector = new double[size_vector]();
-  extarray = 0;
-  size_array_rows = impl_->layers;
-  size_array_cols = width;
-  array = impl_->rows.resize(impl_->layers, width);
+  declare(this, declared(impl_->layers));
 }
 
-ComputeFluctuation::~ComputeFluctuation() {
-  delete[] extlist;
-  delete[] vector;
-}
+ComputeFluctuation::~ComputeFluctuation() {}
 
 void ComputeFluctuation::init() { grainscope::require_grains(lmp, grainscope::Arguments(lmp, "compute fluctuation", 0, 0, nullptr)); }
 
@@ -79,14 +87,14 @@ void ComputeFluctuation::compute_array() {
   const int across = impl_->flow.plane.gradient;
   const Fluctuations motion(lmp, groupbit, box, impl_->with(MeanFlow::Kind::box));
   // Per layer m, grains, m u; then grains that no layer holds.
-  std::vector<double> sums(width * impl_->layers + 1, 0.0);
+  std::vector<double> sums(sums_of_layer * impl_->layers + 1, 0.0);
   for (const Fluctuations::Grain &g : motion.local()) {
     const int layer = box.layer(Map<const Vector3d>(atom->x[g.index]), across, impl_->layers);
     if (layer < 0) {
       sums.back() += 1.0;
       continue;
     }
-    double *at = &sums[width * layer];
+    double *at = &sums[sums_of_layer * layer];
     at[0] += g.mass;
     at[1] += 1.0;
     Map<Vector3d>(at + 2) += g.mass * g.velocity;
@@ -95,10 +103,9 @@ void ComputeFluctuation::compute_array() {
   grainscope::require_layers(lmp, "compute fluctuation", sums.back());
   const double length = box.edges(across, across);
   for (int k = 0; k < impl_->layers; k++) {
-    const double *at = &sums[width * k];
+    const double *at = &sums[sums_of_layer * k];
     const Vector3d mean = at[0] > 0.0 ? Vector3d(Map<const Vector3d>(at + 2) / at[0]) : Vector3d::Zero();
-    const double row[width] = {((k + 0.5) / impl_->layers - 0.5) * length, at[1], mean[0], mean[1], mean[2]};
-    std::copy(row, row + width, array[k]);
+    put_row(k, {((k + 0.5) / impl_->layers - 0.5) * length, at[1], mean[0], mean[1], mean[2]});
   }
 }
 

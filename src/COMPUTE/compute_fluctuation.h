@@ -9,6 +9,7 @@ ComputeStyle(fluctuation,ComputeFluctuation)
 #define LMP_COMPUTE_FLUCTUATION_H
 
 #include "compute.h"
+#include "outputs.h"
 #include <memory>
 
 namespace LAMMPS_NS {
@@ -21,7 +22,7 @@ namespace LAMMPS_NS {
  *  array (layers x 5): 1 coordinate of the layer's middle from the box centre [distance], 2 grains, 3-5 mean velocity less the box's
  *  flow [velocity]. Zero for an empty group; 10, 13, 14 also without shear.
  *  Source: Bilotto, Trulsson & Molinari 2025, Figs. 5, 6; doi 10.1103/tj41-6qqk. */
-class ComputeFluctuation : public Compute {
+class ComputeFluctuation : public Compute, public grainscope::DeclaresOutputs {
  public:
   ComputeFluctuation(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeFluctuation();

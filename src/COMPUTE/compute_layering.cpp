@@ -2,7 +2,6 @@
 #include "compute_layering.h"
 #include "arguments.h"
 #include "fluctuations.h"
-#include "rows.h"
 #include "atom.h"
 #include "update.h"
 #include <algorithm>
@@ -11,11 +10,27 @@
 
 using namespace LAMMPS_NS;
 
+namespace {
+
+constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
+
+grainscope::Outputs declared(int lags) {
+  grainscope::Outputs outputs;
+  outputs.scalar = {{"order", "-", intensive, "peak over C0"}};
+  outputs.vector = {{"peak", "1/distance", intensive, "largest C beyond lag 0"},
+                    {"peak_lag", "distance", intensive, "its lag"},
+                    {"C0", "1/distance", intensive, "C at lag 0"},
+                    {"N", "-", whole, "grains"}};
+  outputs.set_array(lags, "lag", {{"lag", "distance", intensive, "lag y"}, {"C", "1/distance", intensive, "correlation of the density"}});
+  return outputs;
+}
+
+}
+
 struct ComputeLayering::Impl {
   int axis = 1;
   int layers = 40;
   double grains = 0.0;
-  grainscope::Rows rows;
 };
 
 ComputeLayering::ComputeLayering(LAMMPS *lmp, int &iarg, int narg, char **arg) : Compute(lmp, iarg, narg, arg), impl_(new Impl) {
@@ -25,16 +40,10 @@ ComputeLayering::ComputeLayering(LAMMPS *lmp, int &iarg, int narg, char **arg) :
     if (keyword == "axis") impl_->axis = arguments.choice(keyword, {"x", "y", "z"})[0] - 'x';
     else impl_->layers = arguments.even_number(keyword, 2, 1000);
   }
-  scalar_flag = vector_flag = array_flag = 1;
-  extscalar = extvector = extarray = 0;
-  size_vector = 4;
-  vector = new double[size_vector]();
-  size_array_rows = impl_->layers / 2 + 1;
-  size_array_cols = 2;
-  array = impl_->rows.resize(size_array_rows, size_array_cols);
+  declare(this, declared(impl_->layers / 2 + 1));
 }
 
-ComputeLayering::~ComputeLayering() { delete[] vector; }
+ComputeLayering::~ComputeLayering() {}
 
 void ComputeLayering::init() {}
 
@@ -59,8 +68,7 @@ void ComputeLayering::compute_array() {
   for (int lag = 0; lag <= m / 2; lag++) {
     double products = 0.0;
     for (int k = 0; k < m; k++) products += (counts[k] - mean) * (counts[(k + lag) % m] - mean);
-    array[lag][0] = lag * height / m;
-    array[lag][1] = impl_->grains > 0.0 ? products * m / (height * impl_->grains) : 0.0;
+    put_row(lag, {lag * height / m, impl_->grains > 0.0 ? products * m / (height * impl_->grains) : 0.0});
   }
 }
 
@@ -73,11 +81,9 @@ void ComputeLayering::compute_vector() {
   int peak = 1;
   for (int lag = 2; lag < size_array_rows; lag++)
     if (array[lag][1] > array[peak][1]) peak = lag;
-  vector[0] = array[peak][1];
-  vector[1] = array[peak][0];
-  vector[2] = array[0][1];
-  vector[3] = impl_->grains;
-  scalar = vector[2] > 0.0 ? vector[0] / vector[2] : 0.0;
+  const double highest = array[peak][1], at_zero = array[0][1];
+  put_vector({highest, array[peak][0], at_zero, impl_->grains});
+  scalar = at_zero > 0.0 ? highest / at_zero : 0.0;
 }
 
 double ComputeLayering::compute_scalar() {

@@ -9,6 +9,7 @@ ComputeStyle(layering,ComputeLayering)
 #define LMP_COMPUTE_LAYERING_H
 
 #include "compute.h"
+#include "outputs.h"
 #include <memory>
 
 namespace LAMMPS_NS {
@@ -18,7 +19,7 @@ namespace LAMMPS_NS {
  *  array (layers/2 + 1 rows x 2): 1 lag y [distance], 2 C [1/distance].
  *  vector (4): 1 largest C beyond lag 0, 2 its lag, 3 C(0), 4 grains. scalar: 1 over 3 [-], in [-1, 1]. All 0 for an empty group, but lags.
  *  Source: Bilotto, Trulsson & Molinari 2025, Sec. III A, doi 10.1103/tj41-6qqk; Marschall et al. 2019, doi 10.1103/PhysRevLett.122.188002. */
-class ComputeLayering : public Compute {
+class ComputeLayering : public Compute, public grainscope::DeclaresOutputs {
  public:
   ComputeLayering(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeLayering();

@@ -10,18 +10,33 @@
 using namespace LAMMPS_NS;
 using Eigen::Vector3d;
 
+namespace {
+
+constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
+
+grainscope::Outputs declared() {
+  grainscope::Outputs outputs;
+  outputs.scalar = {{"S2", "-", intensive, "nematic order, 3/2 of the largest eigenvalue of Q"}};
+  outputs.vector.add_each("xx yy zz xy xz yz", {"Q*", "-", intensive, "order tensor Q_*"})
+      .add_each("x y z", {"director_*", "-", intensive, "* of the director"})
+      .add({"biaxiality", "-", intensive, "middle less smallest eigenvalue of Q"})
+      .add({"theta", "rad", intensive, "mean angle theta_x of the major axes to x in the xy plane"})
+      .add({"theta_director", "rad", intensive, "theta_x of the director"})
+      .add_each("x y z", {"omega_*", "1/time", intensive, "mean angular velocity *"})
+      .add({"N_axis", "-", whole, "grains with an axis"})
+      .add({"N_theta", "-", whole, "grains counted in theta"})
+      .add_each("1 2 3", {"eigenvalue_*", "-", intensive, "eigenvalue * of Q, descending"});
+  return outputs;
+}
+
+}
+
 ComputeNematic::ComputeNematic(LAMMPS *lmp, int &iarg, int narg, char **arg) : Compute(lmp, iarg, narg, arg) {
   grainscope::Arguments arguments(lmp, "compute nematic", iarg, narg, arg);
   arguments.require_none();
   grainscope::require_grains(lmp, arguments);
-  scalar_flag = vector_flag = 1;
-  extscalar = 0;
-  extvector = 0;
-  size_vector = 20;
-  vector = new double[size_vector]();
+  declare(this, declared());
 }
-
-ComputeNematic::~ComputeNematic() { delete[] vector; }
 
 void ComputeNematic::init() { grainscope::require_grains(lmp, grainscope::Arguments(lmp, "compute nematic", 0, 0, nullptr)); }
 
@@ -41,12 +56,10 @@ void ComputeNematic::compute_vector() {
 
   const grainscope::Nematic nematic(sums);
   const Eigen::Matrix3d &m = nematic.q;
-  double *out = vector;
-  for (double value : {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2), nematic.director[0], nematic.director[1],
-                       nematic.director[2], nematic.biaxiality, nematic.theta, nematic.director_theta, nematic.spin[0], nematic.spin[1],
-                       nematic.spin[2], nematic.grains_with_axis, nematic.grains_with_theta, nematic.eigenvalues[0],
-                       nematic.eigenvalues[1], nematic.eigenvalues[2]})
-    *out++ = value;
+  put_vector({m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2), nematic.director[0], nematic.director[1], nematic.director[2],
+              nematic.biaxiality, nematic.theta, nematic.director_theta, nematic.spin[0], nematic.spin[1], nematic.spin[2],
+              nematic.grains_with_axis, nematic.grains_with_theta, nematic.eigenvalues[0], nematic.eigenvalues[1],
+              nematic.eigenvalues[2]});
   scalar = nematic.order;
 }
 

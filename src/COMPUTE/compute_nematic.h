@@ -9,6 +9,7 @@ ComputeStyle(nematic,ComputeNematic)
 #define LMP_COMPUTE_NEMATIC_H
 
 #include "compute.h"
+#include "outputs.h"
 
 namespace LAMMPS_NS {
 
@@ -18,10 +19,9 @@ namespace LAMMPS_NS {
  *  vector (20, intensive except 16 and 17): Qxx Qyy Qzz Qxy Qxz Qyz, director x y z, biaxiality, theta_x and the director's own angle
  *  [rad], mean angular velocity x y z [1/time], grains with an axis, grains counted in theta_x, eigenvalues of Q (descending).
  *  Source: Bilotto, Trulsson & Molinari 2025, Eq. (3), Fig. 2; doi 10.1103/tj41-6qqk. */
-class ComputeNematic : public Compute {
+class ComputeNematic : public Compute, public grainscope::DeclaresOutputs {
  public:
   ComputeNematic(class LAMMPS *lmp, int &iarg, int narg, char **arg);
-  ~ComputeNematic();
   void init() override;
   double compute_scalar() override;
   void compute_vector() override;

@@ -14,6 +14,15 @@ namespace {
 const char *const words[] = {"shapex", "shapey", "shapez", "quatw", "quati", "quatj", "quatk",
                              "blockiness1", "blockiness2"};
 
+constexpr auto intensive = grainscope::Extent::intensive;
+
+grainscope::NamedOutput output_of(const std::string &word, int ours) {
+  if (ours < 0) return {word, "as in LIGGGHTS", intensive, "as in LIGGGHTS"};
+  if (ours < 3) return {word, "distance", intensive, "semi-axis"};
+  if (ours < 7) return {word, "-", intensive, "quaternion from the grain's axes to the laboratory's"};
+  return {word, "-", intensive, "exponent of the superquadric"};
+}
+
 int word_of_ours(const Atom *atom, const char *word) {
   if (!atom->superquadric_flag) return -1;
   const auto same = [word](const char *one) { return !strcmp(one, word); };
@@ -36,7 +45,12 @@ struct HostWords {
 ComputePropertySuperquadric::ComputePropertySuperquadric(LAMMPS *lmp, int &iarg, int narg, char **arg)
     : ComputePropertyAtom(lmp, iarg, narg, HostWords(lmp->atom, narg, arg).all.data()) {
   const int columns = std::max(1, size_peratom_cols);
-  for (int k = narg - columns; k < narg; k++) own_.push_back(word_of_ours(atom, arg[k]));
+  grainscope::Outputs outputs;
+  for (int k = narg - columns; k < narg; k++) {
+    own_.push_back(word_of_ours(atom, arg[k]));
+    outputs.per_grain.add(output_of(arg[k], own_.back()));
+  }
+  declare(this, outputs);
 }
 
 void ComputePropertySuperquadric::init() {

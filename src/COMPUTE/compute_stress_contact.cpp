@@ -24,6 +24,30 @@ namespace {
 
 // Bilotto et al. 2025, Sec. II: above it results do not depend on the stiffness.
 const double hard_grains = 1.1e3;
+constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
+
+grainscope::Outputs declared() {
+  const char *const six = "xx yy zz xy xz yz";
+  grainscope::Outputs outputs;
+  const grainscope::NamedOutput pressure = {"P", "pressure", intensive, "normal pressure, -syy"};
+  outputs.scalar = {pressure};
+  outputs.vector.add_each(six, {"s*", "pressure", intensive, "stress sigma_*, tension positive"})
+      .add({"syx", "pressure", intensive, "stress sigma_yx, from F_y r_x"})
+      .add_each(six, {"s*_normal", "pressure", intensive, "part of s* from normal forces"})
+      .add_each(six, {"s*_tangential", "pressure", intensive, "part of s* from tangential forces"})
+      .add_each(six, {"s*_kinetic", "pressure", intensive, "kinetic stress *, not in s*"})
+      .add(pressure)
+      .add({"mu_eff", "-", intensive, "effective friction, sxy/P"})
+      .add({"N1", "-", intensive, "first normal stress difference, (sxx - syy)/P"})
+      .add({"N2", "-", intensive, "second normal stress difference, (syy - szz)/P"})
+      .add({"N_c", "-", whole, "contacts"})
+      .add({"Z", "-", intensive, "coordination number, 2 N_c/N"})
+      .add({"sliding", "-", intensive, "fraction of contacts that slide"})
+      .add({"overlap_mean", "distance", intensive, "mean overlap"})
+      .add({"overlap_max", "distance", intensive, "largest overlap"})
+      .add({"kappa", "-", intensive, "stiffness number, min(alpha, 1) (E/P)^(2/3)"});
+  return outputs;
+}
 
 }
 
@@ -31,14 +55,10 @@ ComputeStressContact::ComputeStressContact(LAMMPS *lmp, int &iarg, int narg, cha
     : ContactCompute(lmp, iarg, narg, arg), sums_(new grainscope::StressSums) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   arguments.require_none();
-  scalar_flag = vector_flag = 1;
-  extscalar = 0;
-  extvector = 0;
-  size_vector = 35;
-  vector = new double[size_vector]();
+  declare(this, declared());
 }
 
-ComputeStressContact::~ComputeStressContact() { delete[] vector; }
+ComputeStressContact::~ComputeStressContact() {}
 
 void ComputeStressContact::init() {
   ContactCompute::init();
@@ -127,6 +147,7 @@ void ComputeStressContact::compute_vector() {
   }
   const double kappa = stiffness_ * std::pow(per_pressure, 2.0 / 3.0);
   *out++ = kappa;
+  require_all_elements(out);
   if (!unasked()) soft_.watch(lmp, pressure > 0.0 && kappa < hard_grains,
               "compute stress/contact: the stiffness number kappa is %.4g, below the hard-grain limit of %g: results depend on how stiff the "
               "grains are. Stiffer grains, or a lower pressure", kappa, hard_grains);

@@ -9,6 +9,7 @@ ComputeStyle(stress/contact,ComputeStressContact)
 #define LMP_COMPUTE_STRESS_CONTACT_H
 
 #include "contact_compute.h"
+#include "outputs.h"
 #include "range_warning.h"
 #include <memory>
 
@@ -24,7 +25,7 @@ namespace LAMMPS_NS {
  *  28 (sigma_xx - sigma_yy)/P, 29 (sigma_yy - sigma_zz)/P, 30 contacts N_c, 31 Z = 2 N_c/N, 32 sliding fraction, 33 mean and
  *  34 largest overlap [distance], 35 kappa = min(alpha,1) (E/P)^(2/3). Ratios to P are 0 when P <= 0; everything is 0 for an empty group.
  *  Source: Bilotto, Trulsson & Molinari 2025, Eq. (2), App. D, G; doi 10.1103/tj41-6qqk. */
-class ComputeStressContact : public grainscope::ContactCompute {
+class ComputeStressContact : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
  public:
   ComputeStressContact(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeStressContact();

@@ -6,7 +6,6 @@
 #include "fluctuations.h"
 #include "grain_shape.h"
 #include "mesh_correlation.h"
-#include "rows.h"
 #include "surroundings.h"
 #include "velocity_component.h"
 #include "comm.h"
@@ -32,6 +31,23 @@ namespace {
 
 const char *const name = "compute velocity/correlation";
 const double most_mesh_cells = 1e9;
+constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
+
+grainscope::Outputs declared(int bins) {
+  const char *const square = "(velocity or 1/time)^2";
+  grainscope::Outputs outputs;
+  outputs.vector = {{"l", "distance", intensive, "correlation length, of the fit exp(-r/l)"},
+                    {"l_error", "distance", intensive, "standard error of l, 0 for less than two bins"},
+                    {"dv2", square, intensive, "<dv^2>"},
+                    {"N", "-", whole, "grains; with 'average running' summed over calls"},
+                    {"bins", "-", intensive, "bins in the fit"}};
+  outputs.scalar = {outputs.vector.front()};
+  outputs.set_array(bins, "bin of r", {{"r", "distance", intensive, "middle of the bin"},
+                                       {"C", "-", intensive, "correlation at r"},
+                                       {"products", square, whole, "sum over pairs of dv_i dv_j"},
+                                       {"pairs", "-", whole, "pairs, each once"}});
+  return outputs;
+}
 
 bool is_positive(double x) { return x > 0.0; }
 
@@ -88,7 +104,6 @@ struct ComputeVelocityCorrelation::Impl {
   bigint measured = -1;                               // the step of the last measurement
   Totals totals;
   FixGrainRecord *record = nullptr;                   // of `average running`: the totals, which restart files hold
-  grainscope::Rows rows;
   double bytes = 0.0;
 
   /** The numbers that the ranks share in the record: the step of the last call, four sums, then products and pairs of each bin. */
@@ -129,17 +144,10 @@ ComputeVelocityCorrelation::ComputeVelocityCorrelation(LAMMPS *lmp, int &iarg, i
     grainscope::require_box(lmp, arguments);
     impl_->make_record(lmp, id, igroup);
   }
-  scalar_flag = vector_flag = array_flag = 1;
-  extscalar = extvector = extarray = 0;
-  size_vector = 5;
-  vector = new double[size_vector]();
-  size_array_rows = impl_->bins;
-  size_array_cols = 4;
-  array = impl_->rows.resize(size_array_rows, size_array_cols);
+  declare(this, declared(impl_->bins));
 }
 
 ComputeVelocityCorrelation::~ComputeVelocityCorrelation() {
-  delete[] vector;
   if (impl_->running) FixGrainRecord::forget(lmp, id);
 }
 
@@ -274,12 +282,10 @@ void ComputeVelocityCorrelation::tell() {
   for (int k = 0; k < all.bins; k++) {
     r[k] = distances.middle(k);
     if (t.sums.pairs[k] > 0.0 && mean_square > 0.0) c[k] = t.sums.products[k] / t.sums.pairs[k] / mean_square;
-    const double row[4] = {r[k], c[k], t.sums.products[k], t.sums.pairs[k]};
-    std::copy(row, row + 4, array[k]);
+    put_row(k, {r[k], c[k], t.sums.products[k], t.sums.pairs[k]});
   }
   const grainscope::DecayFit fit = grainscope::fit_decay(r, c);
-  const double values[5] = {fit.length, fit.error, mean_square, t.grains, static_cast<double>(fit.points)};
-  std::copy(values, values + 5, vector);
+  put_vector({fit.length, fit.error, mean_square, t.grains, static_cast<double>(fit.points)});
   scalar = fit.length;
 }
 
@@ -299,4 +305,4 @@ double ComputeVelocityCorrelation::compute_scalar() {
   return scalar;
 }
 
-double ComputeVelocityCorrelation::memory_usage() { return impl_->bytes + impl_->rows.bytes(); }
+double ComputeVelocityCorrelation::memory_usage() { return impl_->bytes + array_bytes(); }

@@ -9,6 +9,7 @@ ComputeStyle(velocity/correlation,ComputeVelocityCorrelation)
 #define LMP_COMPUTE_VELOCITY_CORRELATION_H
 
 #include "compute.h"
+#include "outputs.h"
 #include <memory>
 
 namespace LAMMPS_NS {
@@ -19,7 +20,7 @@ namespace LAMMPS_NS {
  *  vector (5): 1 length l of the fit exp(-r/l) to the bins with C > 0.05 [distance], 2 its standard error, 3 <dv^2>, 4 grains,
  *  5 bins in the fit. scalar: l. Bins that end below the smallest diameter, and an empty group, give 0.
  *  Source: Bilotto, Trulsson & Molinari 2025, Eq. (7) and Fig. 9, doi 10.1103/tj41-6qqk. */
-class ComputeVelocityCorrelation : public Compute {
+class ComputeVelocityCorrelation : public Compute, public grainscope::DeclaresOutputs {
  public:
   ComputeVelocityCorrelation(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeVelocityCorrelation();

@@ -5,7 +5,6 @@
 #include "decay_fit.h"
 #include "fix_grain_record.h"
 #include "fluctuations.h"
-#include "rows.h"
 #include "strain_source.h"
 #include "surroundings.h"
 #include "velocity_component.h"
@@ -22,12 +21,26 @@ using grainscope::Fluctuations;
 namespace {
 
 const char *const name = "compute velocity/memory";
-const int width = 4;
+constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
 
 /** What all ranks share: number of samples, strain of the first, number of the next multiple; then the strains of the last `lags` samples
  *  (sample k at k modulo lags); then for each lag the sums of strains between samples, of products, and the number of products. */
 enum { SAMPLES = 0, STRAIN_0, NEXT, PAST };
 enum { STRAIN = 0, PRODUCTS, PAIRS, SUMS };
+
+grainscope::Outputs declared(int rows) {
+  grainscope::Outputs outputs;
+  outputs.vector = {{"g", "-", intensive, "strain of the fit exp(-lag/g)"},
+                    {"g_error", "-", intensive, "standard error of g"},
+                    {"samples", "-", intensive, "samples"},
+                    {"lags", "-", intensive, "lags in the fit"}};
+  outputs.scalar = {outputs.vector.front()};
+  outputs.set_array(rows, "lag, from 0 on", {{"lag", "-", intensive, "mean strain between the samples"},
+                                             {"C", "-", intensive, "correlation at the lag"},
+                                             {"products", "(velocity or 1/time)^2", whole, "sum of products"},
+                                             {"pairs", "-", whole, "number of products"}});
+  return outputs;
+}
 
 }
 
@@ -39,7 +52,6 @@ struct ComputeVelocityMemory::Impl {
   double every = 0.01;
   int lags = 50;
   FixGrainRecord *record = nullptr;
-  grainscope::Rows rows;
 
   double *shared() { return record->shared().data(); }
   double *past() { return shared() + PAST; }
@@ -68,18 +80,11 @@ ComputeVelocityMemory::ComputeVelocityMemory(LAMMPS *lmp, int &iarg, int narg, c
   }
   grainscope::require_grains(lmp, arguments);
   grainscope::require_box(lmp, arguments);
-  scalar_flag = vector_flag = array_flag = 1;
-  extscalar = extvector = extarray = 0;
-  size_vector = 4;
-  vector = new double[size_vector]();
-  size_array_rows = impl_->lags + 1;
-  size_array_cols = width;
-  array = impl_->rows.resize(size_array_rows, width);
+  declare(this, declared(impl_->lags + 1));
   impl_->make_record(lmp, id, igroup);
 }
 
 ComputeVelocityMemory::~ComputeVelocityMemory() {
-  delete[] vector;
   FixGrainRecord::forget(lmp, id);
 }
 
@@ -140,8 +145,7 @@ void ComputeVelocityMemory::fill_array() {
     const double *s = impl_->sums(lag);
     const double strain = samples > lag ? s[STRAIN] / (samples - lag) : 0.0;
     const double c = s[PAIRS] > 0.0 && square > 0.0 ? s[PRODUCTS] / s[PAIRS] / square : 0.0;
-    const double row[width] = {strain, c, s[PRODUCTS], s[PAIRS]};
-    std::copy(row, row + width, array[lag]);
+    put_row(lag, {strain, c, s[PRODUCTS], s[PAIRS]});
   }
 }
 
@@ -160,11 +164,8 @@ void ComputeVelocityMemory::compute_vector() {
     c.push_back(array[k][1]);
   }
   const grainscope::DecayFit fit = grainscope::fit_decay(lag, c);
-  vector[0] = fit.length;
-  vector[1] = fit.error;
-  vector[2] = impl_->shared()[SAMPLES];
-  vector[3] = fit.points;
-  scalar = vector[0];
+  put_vector({fit.length, fit.error, impl_->shared()[SAMPLES], static_cast<double>(fit.points)});
+  scalar = fit.length;
 }
 
 double ComputeVelocityMemory::compute_scalar() {

@@ -9,6 +9,7 @@ ComputeStyle(velocity/memory,ComputeVelocityMemory)
 #define LMP_COMPUTE_VELOCITY_MEMORY_H
 
 #include "compute.h"
+#include "outputs.h"
 #include <memory>
 
 namespace LAMMPS_NS {
@@ -21,7 +22,7 @@ class FixGrainRecord;
  *  vector (4, intensive): 1 strain g of exp(-lag/g), least squares over C > 0.05, 0 when C does not decay, 2 its
  *  standard error, 3 samples, 4 lags in the fit. scalar: 1.
  *  Zero for an empty group. Source: Bilotto, Trulsson & Molinari 2025, Eq. (7) in time; doi 10.1103/tj41-6qqk. */
-class ComputeVelocityMemory : public Compute {
+class ComputeVelocityMemory : public Compute, public grainscope::DeclaresOutputs {
  public:
   ComputeVelocityMemory(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeVelocityMemory();

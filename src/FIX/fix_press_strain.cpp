@@ -73,7 +73,37 @@ struct FixPressStrain::Impl {
   grainscope::RangeWarning clipping;
   bigint pressure_step = -1;
   double pressure = 0.0;
+
+  /** What an element of the vector is, and its value. */
+  struct Element {
+    grainscope::NamedOutput output;
+    double (*value)(FixPressStrain &);
+  };
+  static const std::vector<Element> &elements();
+  static grainscope::Outputs declared();
 };
+
+const std::vector<FixPressStrain::Impl::Element> &FixPressStrain::Impl::elements() {
+  using F = FixPressStrain;
+  constexpr auto intensive = grainscope::Extent::intensive;
+  static const std::vector<Element> all = {
+      {{"strain", "-", intensive, "accumulated strain, sum of |rate| dt"}, [](F &f) { return f.impl_->strain; }},
+      {{"target", "pressure", intensive, "pressure to hold, P_t"}, [](F &f) { return f.impl_->settings.target.value; }},
+      {{"P", "pressure", intensive, "pressure of this step's contacts"}, [](F &f) { return f.pressure_now(); }},
+      {{"L", "distance", intensive, "box length along the axis"}, [](F &f) { return f.impl_->box.length(); }},
+      {{"L_rate", "velocity", intensive, "dL/dt"}, [](F &f) { return f.impl_->velocity; }},
+      {{"inputs", "-", intensive, "inputs so far"}, [](F &f) { return f.impl_->inputs; }},
+      {{"clipped", "-", intensive, "inputs clipped so far"}, [](F &f) { return f.impl_->clipped; }},
+      {{"error", "-", intensive, "P_mean/P_t - 1, 0 when P_t is 0"}, [](F &f) { return f.relative_error(); }}};
+  return all;
+}
+
+grainscope::Outputs FixPressStrain::Impl::declared() {
+  grainscope::Outputs outputs;
+  outputs.scalar = {{"P_mean", "pressure", grainscope::Extent::intensive, "pressure averaged over the last completed interval"}};
+  for (const Element &one : elements()) outputs.vector.add(one.output);
+  return outputs;
+}
 
 /** What the base class is told: a deformation at rate zero of the box parameters that this fix moves, with velocities remapped. */
 struct FixPressStrain::HostArguments {
@@ -110,10 +140,8 @@ FixPressStrain::FixPressStrain(LAMMPS *lmp, int narg, char **arg, const HostArgu
   groupbit = 1;
   restart_global = 1;
   restart_pbc = 0;  // the host's wrapping would move triclinic positions by an ulp
-  scalar_flag = vector_flag = 1;
-  size_vector = 8;
+  declare(this, Impl::declared());
   global_freq = 1;
-  extscalar = extvector = 0;
   require_controllable_box();
 }
 
@@ -306,19 +334,11 @@ double FixPressStrain::pressure_now() {
 
 double FixPressStrain::compute_scalar() { return impl_->averaged_pressure; }
 
-double FixPressStrain::compute_vector(int n) {
-  const Impl &my = *impl_;
-  const double target = my.settings.target.value;
-  switch (n) {
-    case 0: return my.strain;
-    case 1: return target;
-    case 2: return pressure_now();
-    case 3: return my.box.length();
-    case 4: return my.velocity;
-    case 5: return my.inputs;
-    case 6: return my.clipped;
-    default: return target > 0.0 && my.inputs > 0.0 ? my.averaged_pressure / target - 1.0 : 0.0;
-  }
+double FixPressStrain::compute_vector(int n) { return Impl::elements()[n].value(*this); }
+
+double FixPressStrain::relative_error() const {
+  const double target = impl_->settings.target.value;
+  return target > 0.0 && impl_->inputs > 0.0 ? impl_->averaged_pressure / target - 1.0 : 0.0;
 }
 
 /** State that a continued run needs, as doubles; the window is summed over ranks, so that any number of them may continue. */

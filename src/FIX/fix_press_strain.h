@@ -10,6 +10,7 @@ FixStyle(press/strain,FixPressStrain)
 
 #include "contact_sink.h"
 #include "fix_deform.h"
+#include "outputs.h"
 #include <memory>
 
 namespace LAMMPS_NS {
@@ -18,7 +19,7 @@ namespace LAMMPS_NS {
  *  scalar: pressure averaged over the last completed interval. vector (8, intensive): strain, target, pressure now, L, dL/dt, inputs,
  *  inputs clipped, relative error of the averaged pressure. It is a fix deform to the host, which then remaps velocities across the
  *  moving faces. Source: Bilotto, Trulsson & Molinari 2025, Sec. II; doi 10.1103/tj41-6qqk. */
-class FixPressStrain : public FixDeform, public grainscope::ContactSink {
+class FixPressStrain : public FixDeform, public grainscope::DeclaresOutputs, public grainscope::ContactSink {
  public:
   FixPressStrain(class LAMMPS *lmp, int narg, char **arg);
   ~FixPressStrain();
@@ -54,6 +55,7 @@ class FixPressStrain : public FixDeform, public grainscope::ContactSink {
   void take_input();
   double kinetic_pressure() const;
   double pressure_now();
+  double relative_error() const;
 };
 
 }

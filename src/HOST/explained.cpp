@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "host_messages.h"
+#include "nearest_name.h"
 #include "style_names.h"
 #include "compute.h"
 #include "error.h"
@@ -11,7 +12,6 @@
 #include <cctype>
 #include <cstdlib>
 #include <cstring>
-#include <numeric>
 #include <vector>
 
 using LAMMPS_NS::Input;
@@ -56,35 +56,6 @@ std::vector<Reference> references_in(const std::string &text) {
     at = end - 1;
   }
   return found;
-}
-
-/** Letters put in, left out, exchanged or swapped with their neighbour. */
-int distance(const std::string &a, const std::string &b) {
-  std::vector<int> before, last(b.size() + 1), row(b.size() + 1);
-  std::iota(last.begin(), last.end(), 0);
-  for (std::size_t i = 1; i <= a.size(); i++) {
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); j++) {
-      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] != b[j - 1])});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
-    }
-    before = last;
-    last = row;
-  }
-  return last[b.size()];
-}
-
-std::string nearest(const std::string &name, const std::vector<std::string> &names) {
-  const int far = std::max<int>(1, name.size() / 3) + 1;
-  int least = far;
-  std::string found;
-  for (const std::string &one : names)
-    if (const int d = distance(name, one); d < least) {
-      least = d;
-      found = one;
-    }
-  if (least == far) return "";
-  return ": did you mean '" + found + "'?";
 }
 
 template <class Owner>
@@ -135,7 +106,7 @@ Description describe(const Reference &r, Owner **owners, int n) {
       return {r.text + ": " + kind + " " + r.id + " (" + owner.style + ") gives " + what_there_is(owner),
               may_fit(r, owner)};
   }
-  return {r.text + ": there is no " + kind + " '" + r.id + "'" + nearest(r.id, ids), false};
+  return {r.text + ": there is no " + kind + " '" + r.id + "'" + nearest_name(r.id, ids), false};
 }
 
 /** What the references of the formula or command may give: of those that cannot be right, where there are any. */
@@ -164,7 +135,7 @@ std::string about_style(LAMMPS *lmp, const std::string &complaint) {
     const std::string name = lmp->input->arg[styles.place];
     if (std::find(styles.names.begin(), styles.names.end(), name) != styles.names.end()) return "";
     const bool named = complaint.find(name) != std::string::npos;
-    return (named ? "" : ": \"" + name + "\"") + nearest(name, styles.names);
+    return (named ? "" : ": \"" + name + "\"") + nearest_name(name, styles.names);
   }
   return "";
 }

@@ -1,0 +1,259 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Outputs have names: what `outputs` prints and defines, columns.json and the tables of the pages agree with the program, and everything that
+reads a variable of `outputs` gets the number of c_ID[k] to the last bit."""
+import json
+import os
+from pathlib import Path
+import re
+
+import numpy as np
+
+from case import main, require, require_equal
+from columns import columns
+from deck import Deck, shear, thermo
+from make_columns import COMMANDS, FILE, kind_of, made, tables
+from packing import dense_packing
+from run import run
+
+SOURCE = Path(os.environ.get("GRAINSCOPE_SOURCE", Path(__file__).resolve().parents[2]))
+PACKING = dense_packing(1.5)
+FLOW = ["variable strain equal 0.05*step*dt", shear(0.05)]
+STRESS = ["compute stress all stress/contact", "outputs stress"]
+ASKED = ("P", "mu_eff", "Z", "N_c", "sxy_kinetic", "kappa")
+
+
+def deck(*lines, **choices):
+    return Deck(PACKING, body=[*FLOW, *lines], **choices)
+
+
+def pairs(ID, style, names):
+    """(v_ID_name, c_ID[k]) of each."""
+    return [(f"v_{ID}_{name}", columns(style).word(ID, name)) for name in names]
+
+
+def require_same(table, both, what):
+    for named, counted in both:
+        require_equal(table[named], table[counted], f"{what}: {named}")
+
+
+def everything(norm="no"):
+    """A deck with all styles, their outputs named, and thermo of every number both ways."""
+    lines, both = ["variable strain equal 0.02*step*dt"], []
+    for k, (style, keywords) in enumerate(COMMANDS.items()):
+        lines += [f"{kind_of(style)} it{k} all {style} {keywords}", f"outputs it{k}"]
+        own = columns(style)
+        names = own.names("vector") + [one["name"] for one in own.outputs("scalar") if one["name"] not in own.names("vector")]
+        both += [(f"v_it{k}_{name}", own.word(f"it{k}", name), style, name) for name in names]
+    words = [word for named, counted, *_ in both for word in (named, counted)]
+    made = Deck(PACKING, surface="ellipsoid", extra="ledger on tangential_damping off",
+                body=[*lines, *thermo(2, *words), f"thermo_modify norm {norm}", "run 4"])
+    return made, both
+
+
+def every_number(ranks):
+    """Of every style, by name and by index."""
+    text, both = everything()
+    table = run(text, ranks).thermo()[-1]
+    require(len(both) > 150, f"only {len(both)} numbers")
+    require_same(table, [pair[:2] for pair in both], "every style")
+    moved = [named for named, *_ in both if np.any(table[named] != 0.0)]
+    require(len(moved) > 100, f"only {len(moved)} of them are not 0")
+
+
+def norm(ranks):
+    """What LIGGGHTS divides by the number of grains is what is declared extensive; what is whole stays."""
+    text, both = everything()
+    plain = run(text, ranks).thermo()[-1]
+    text, _ = everything("yes")
+    divided = run(text, ranks).thermo()[-1]
+    grains = len(PACKING.grains)
+    for _, counted, style, name in both:
+        own = columns(style)
+        one = next(o for o in own.outputs("vector") + own.outputs("scalar") if o["name"] == name)
+        by = grains if one["extensive"] and not one["whole"] and kind_of(style) == "compute" else 1
+        require_equal(divided[counted] * 1.0, plain[counted] / by, f"{style} {name}")
+
+
+def json_is_made(ranks):
+    require(json.loads(FILE.read_text()) == made(), f"{FILE.name} is not what the program says: tests/tools/make_columns.py --write")
+
+
+def expanded(cell):
+    """1-3 and 5, 7: all numbers of a cell."""
+    found = []
+    for part in re.findall(r"\d+(?:-\d+)?", cell):
+        first, _, last = part.partition("-")
+        found += range(int(first), int(last or first) + 1)
+    return found
+
+
+def rows_of_page(page):
+    """(kind, index, name, unit, extent) of every row of the tables under Output info."""
+    text = re.search(r"^## Output info\n(.*?)(?=^## )", page.read_text(), flags=re.M | re.S)[1]
+    kinds = {"index": "vector", "column": "array", "grain's column": "per grain", "row's column": "local"}
+    head = None
+    for line in text.splitlines():
+        cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
+        if not cells or set(cells[0]) == {"-"}:
+            continue
+        if cells[0] in kinds:
+            head = cells
+            continue
+        row = dict(zip(head, cells))
+        names, first = row["name"].split(), row[head[0]]
+        numbers = ["-"] if first == "scalar" else expanded(first)
+        require(len(names) == len(numbers), f"{page.name}: {len(names)} names for {first}")
+        for number, name in zip(numbers, names):
+            yield "scalar" if first == "scalar" else kinds[head[0]], number, name, row["unit"], row["int/extensive"]
+
+
+def page_of(style):
+    return SOURCE / "doc" / f"{kind_of(style)}_{style.replace('/', '_')}.md"
+
+
+def extent(one):
+    return "extensive, whole" if one["whole"] else "extensive" if one["extensive"] else "intensive"
+
+
+def pages(ranks):
+    """The tables of the pages name what the program names, with its units, all of it."""
+    bad = []
+    for style in COMMANDS:
+        own = columns(style)
+        known = {(kind, one["index"], one["name"], one["unit"], extent(one))
+                 for kind in ("scalar", "vector", "array", "per grain", "local") for one in own.outputs(kind)}
+        found = set(rows_of_page(page_of(style)))
+        bad += [f"{page_of(style).name} lacks {row}" for row in sorted(known - found, key=str)]
+        bad += [f"{page_of(style).name} has {row}, which is not so" for row in sorted(found - known, key=str)]
+    require(not bad, "\n".join(bad))
+
+
+def declared_in_words(ranks):
+    """Every output has a name that a variable may have, a unit and a meaning."""
+    for style in COMMANDS:
+        own = columns(style)
+        for kind in ("scalar", "vector", "array", "per grain", "local"):
+            for one in own.outputs(kind):
+                require(re.fullmatch(r"\w+", one["name"]) and one["unit"] and len(one["meaning"]) > 1, f"{style}: {one}")
+        names = [name for kind in ("vector", "array", "per grain", "local") for name in own.names(kind)]
+        require(len(set(names)) == len(names), f"{style}: names twice in {names}")
+
+
+def read_everywhere(ranks):
+    """thermo, fix ave/time, print, other variables and ${} read the names; headings and headers carry them."""
+    both = pairs("stress", "stress/contact", ASKED)
+    p = columns("stress/contact").word("stress", "P")
+    result = run(deck(*STRESS, f"variable twice equal 2*v_stress_P", f"variable counted equal 2*{p}",
+                      "fix named all ave/time 5 1 5 v_stress_P v_stress_mu_eff v_twice file named.txt format \" %.17g\"",
+                      f"fix counted all ave/time 5 1 5 {p} {both[1][1]} v_counted file counted.txt format \" %.17g\"",
+                      *thermo(5, *(word for pair in both for word in pair), "v_twice", "v_counted"), "run 20",
+                      f'print "ASKED ${{stress_P}} $(v_stress_P) $({p})"'), ranks)
+    table = result.thermo()[-1]
+    require_same(table, [*both, ("v_twice", "v_counted")], "thermo")
+    named, counted = result.averages("named.txt"), result.averages("counted.txt")
+    require(list(named)[1:] == ["v_stress_P", "v_stress_mu_eff", "v_twice"], f"header {list(named)}")
+    for (left, one), (right, other) in zip(named.items(), counted.items()):
+        require_equal(one, other, f"fix ave/time: {left}, {right}")
+    log = result.file("log.liggghts").read_text()
+    heading = next(line.split() for line in log.splitlines() if line.split()[:1] == ["Step"])
+    require(heading[1] == "stress_P" and heading[3] == "stress_mu_eff" and heading[9] == "stress_sxy_kinetic", f"headings {heading}")
+    said = re.findall(r"^ASKED (\S+) (\S+) (\S+)$", log, flags=re.M)[-1]
+    require(said[1] == said[2] and float(said[0]) == float(f"{table['v_stress_P'][-1]:.15g}"), f"print: {said}")
+
+
+def announced(ranks):
+    """A compute that is reached by names alone is ready on the steps that need it."""
+    body = [*STRESS, "compute power all dissipation mode instantaneous", "outputs power", "compute fabric all fabric", "outputs fabric",
+            "fix named all ave/time 3 2 7 v_power_P_n v_fabric_deviator file named.txt format \" %.17g\"",
+            *thermo(4, "v_stress_P", "v_fabric_N_c"), "run 21"]
+    result = run(deck(*body), ranks)
+    require(list(result.thermo()[-1]["step"]) == [0, 4, 8, 12, 16, 20, 21], "steps of thermo")
+    counted = [line.replace("v_power_P_n", columns("dissipation").word("power", "P_n"))
+               .replace("v_fabric_deviator", columns("fabric").word("fabric", "deviator")) for line in body]
+    other = run(deck(*counted), ranks)
+    for (name, one), (_, another) in zip(result.averages("named.txt").items(), other.averages("named.txt").items()):
+        require_equal(one, another, name)
+
+
+def lasting(ranks):
+    """In a loop of runs, after another `outputs`, after a restart and after clear."""
+    both = pairs("stress", "stress/contact", ASKED)
+    asked = thermo(1, *(word for pair in both for word in pair))
+    first = deck(*STRESS, *asked, "write_restart state.restart", "variable k loop 3", "label more", "outputs stress", "run 2", "next k",
+                 "jump SELF more")
+    result = run(first, ranks)
+    tables_of_runs = result.thermo()
+    require(len(tables_of_runs) == 3, f"{len(tables_of_runs)} runs")
+    for table in tables_of_runs:
+        require_same(table, both, "loop")
+    body = [*FLOW, *STRESS, *asked, "run 2"]
+    restarted = run(first.restarted("state.restart", body), ranks, folder=result.folder)
+    require_same(restarted.thermo()[-1], both, "restart")
+    cleared = first.text().split("write_restart")[0] + "run 1\nclear\n" + deck(*STRESS, *asked, "run 2").text()
+    again = run(cleared, ranks).thermo()
+    require(len(again) == 2, "two runs")
+    for table in again:
+        require_same(table, both, "clear")
+    for named, _ in both:
+        require_equal(again[1][named], tables_of_runs[0][named], f"clear: {named}")
+
+
+def said(result, ID):
+    return tables(result.file("log.liggghts").read_text())[ID]
+
+
+def printed_once(ranks):
+    """On the screen and in the log file, by one rank."""
+    result = run(deck(*STRESS, "run 0"), ranks)
+    for text in (result.output, result.file("log.liggghts").read_text()):
+        require(text.count("Outputs of compute stress (stress/contact)") == 1, "the table is not there once")
+        require(text.count("| v_stress_mu_eff = c_stress[27] |") == 1, "no line of mu_eff, or several")
+        require(text.count("| c_stress, the same as c_stress[26] |") == 1, "no line of the scalar, or several")
+
+
+def prefixes(ranks):
+    """The same numbers under another name, for a compute and a fix; and the scalar that no element is."""
+    result = run(deck("compute stress all stress/contact", "outputs stress prefix s1", "outputs stress", "compute power all dissipation",
+                      "outputs power prefix _", *thermo(1, "v_s1_P", "v_stress_P", "c_stress", "v___P_total", "c_power"), "run 2"), ranks)
+    require_same(result.thermo()[-1], [("v_s1_P", "c_stress"), ("v_stress_P", "c_stress"), ("v___P_total", "c_power")], "prefix")
+    press = Deck(PACKING, body=["fix press all press/strain axis y target 1e5 shear xy rate 0.05 every 1e-4", "outputs press prefix box",
+                                *thermo(1, "v_box_P_mean", "f_press", "v_box_L", columns("press/strain").word("press", "L")), "run 3"])
+    require_same(run(press, ranks).thermo()[-1],
+                 [("v_box_P_mean", "f_press"), ("v_box_L", columns("press/strain").word("press", "L"))], "fix")
+
+
+def chosen(ranks):
+    """What keywords choose is named, in the order asked for."""
+    result = run(deck("compute fabric all fabric force/tangential branch", "outputs fabric", "compute rows all contact/local fn id",
+                      "outputs rows", "compute one all contact/local fn", "outputs one", "compute shapes all property/atom mass shapey",
+                      "outputs shapes", "run 0"))
+    vector = [one["name"] for one in said(result, "fabric")["vector"]]
+    require(vector[22:] == [f"{tensor}_{ab}" for tensor in ("force_tangential", "branch") for ab in "xx yy zz xy xz yz".split()], f"{vector}")
+    log = result.file("log.liggghts").read_text()
+    for words in ("| fn | force | intensive | c_rows[1] |", "| id_i | - | intensive | c_rows[2] |", "| fn | force | intensive | c_one |",
+                  "| mass | as in LIGGGHTS | intensive | c_shapes[1] |", "| shapey | distance | intensive | c_shapes[2] |"):
+        require(words in re.sub(" +", " ", log), f"no {words!r}")
+
+
+def listed_only(ranks):
+    """Columns are no variables; they are listed with the words that read them, which do."""
+    result = run(deck("compute beta all contact/direction bins 12", "outputs beta",
+                      "fix bins all ave/time 5 1 5 c_beta[2] mode vector file bins.txt", *thermo(5, "c_beta[7][2]"), "run 5"), ranks)
+    text = re.sub(" +", " ", result.file("log.liggghts").read_text())
+    require("array | 2 | N_c | - | extensive, whole | c_beta[i][2] |" in text, "no line of N_c")
+    require("array: i from 1 to 12, one row per bin of beta" in text, "no word about rows")
+    require("v_beta_" not in text, "a variable of a column")
+    require(columns("contact/direction").word("beta", "N_c", 7) == "c_beta[7][2]", "columns.py")
+
+
+def users_own(ranks):
+    """A variable that reads the same already is as good."""
+    p = columns("stress/contact").word("stress", "P")
+    result = run(deck("compute stress all stress/contact", f"variable stress_P equal {p}", "outputs stress",
+                      *thermo(1, "v_stress_P", p), "run 1"), ranks)
+    require_same(result.thermo()[-1], [("v_stress_P", p)], "own")
+
+
+main({"every-number": every_number, "norm": norm, "json-is-made": json_is_made, "pages": pages, "declared-in-words": declared_in_words,
+      "read-everywhere": read_everywhere, "announced": announced, "lasting": lasting, "printed-once": printed_once,
+      "prefixes": prefixes, "chosen": chosen, "listed-only": listed_only, "users-own": users_own})

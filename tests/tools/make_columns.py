@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""tools/columns.json from the program: one run in which every style of ours says its outputs.
+
+    make_columns.py            prints it
+    make_columns.py --write    and writes tools/columns.json
+"""
+import json
+from pathlib import Path
+import re
+import sys
+
+from deck import Deck
+from packing import dense_packing
+from run import run
+
+FILE = Path(__file__).resolve().parents[2] / "tools" / "columns.json"
+# With every keyword that adds outputs.
+COMMANDS = {
+    "stress/contact": "", "fabric": "branch force/normal force/tangential", "contact/direction": "", "contact/surface": "",
+    "contact/grain": "", "contact/local": "", "contact/solver": "", "displacement/shear": "strain v_strain", "dissipation": "",
+    "energy/ledger": "", "fluctuation": "", "layering": "", "nematic": "", "velocity/correlation": "",
+    "velocity/memory": "strain v_strain",
+    "property/atom": "shapex shapey shapez quatw quati quatj quatk blockiness1 blockiness2",
+    "press/strain": "axis y target 2e4 shear xy rate 0.02 every 1e-3"}
+FIXES = ("press/strain",)
+
+
+def kind_of(style):
+    return "fix" if style in FIXES else "compute"
+
+
+def tables(text):
+    """{ID: {kind: list of outputs}} of all tables that `outputs` printed."""
+    found = {}
+    for part in text.split("Outputs of ")[1:]:
+        lines = part.splitlines()
+        ID = re.match(r"\w+ (\w+) \(", lines[0])[1]
+        head = [word.strip() for word in lines[1].split(" | ")]
+        found[ID] = {}
+        for line in lines[2:]:
+            words = [word.strip() for word in line.split(" | ")]
+            if len(words) != len(head):
+                break
+            row = dict(zip(head, words))
+            one = {"index": row["index"] if row["index"] == "-" else int(row["index"]), "name": row["name"],
+                   "unit": row["unit"], "extensive": row["int/extensive"] != "intensive",
+                   "whole": row["int/extensive"].endswith("whole"), "meaning": row["meaning"]}
+            found[ID].setdefault(row["kind"], []).append(one)
+    return found
+
+
+def made():
+    packing = dense_packing(1.5)
+    deck = Deck(packing, surface="ellipsoid", extra="ledger on tangential_damping off", body=["variable strain equal 0.02*step*dt"])
+    IDs = {style: f"it{k}" for k, style in enumerate(COMMANDS)}
+    for style, keywords in COMMANDS.items():
+        deck.body += [f"{kind_of(style)} {IDs[style]} all {style} {keywords}", f"outputs {IDs[style]}"]
+    said = tables(run(deck).file("log.liggghts").read_text())
+    return {style: {"kind": kind_of(style), **said[IDs[style]]} for style in sorted(COMMANDS)}
+
+
+def text_of(columns):
+    """One output a line."""
+    styles = []
+    for style, entry in columns.items():
+        lists = ",\n".join(f'  "{kind}": [\n' + ",\n".join(f"    {json.dumps(one)}" for one in outputs) + "]"
+                           for kind, outputs in entry.items() if kind != "kind")
+        styles.append(f'"{style}": {{"kind": "{entry["kind"]}",\n{lists}}}')
+    return "{\n" + ",\n".join(styles) + "\n}\n"
+
+
+if __name__ == "__main__":
+    text = text_of(made())
+    if "--write" in sys.argv:
+        FILE.write_text(text)
+    else:
+        print(text, end="")
