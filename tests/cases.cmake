@@ -436,3 +436,16 @@ add_cases(study-runs cases/study_runs.py LABEL case STYLES study RANKS 1 LONG_RA
   longer-strain-continues-basic)
 add_cases(build-bare-debian cases/bare_debian.py LABEL long STYLES build CASES
   demos-are-equal tests-on-bookworm tests-on-trixie clang-of-trixie)
+
+# Outputs have names
+set(with_outputs stress/contact fabric contact/direction contact/surface contact/grain contact/local contact/solver
+  displacement/shear dissipation energy/ledger fluctuation layering nematic velocity/correlation velocity/memory
+  property/atom press/strain)
+add_cases(every-style-outputs cases/outputs.py LABEL case STYLES outputs ${with_outputs} RANKS 1 2 CASES every-number)
+add_cases(every-style-outputs cases/outputs.py LABEL case STYLES outputs ${with_outputs} CASES
+  norm json-is-made pages declared-in-words)
+add_cases(outputs-variables cases/outputs.py LABEL case STYLES outputs stress/contact RANKS 1 2 CASES
+  read-everywhere announced lasting printed-once)
+add_cases(outputs-variables cases/outputs.py LABEL case STYLES outputs stress/contact dissipation press/strain CASES prefixes)
+add_cases(outputs-variables cases/outputs.py LABEL case
+  STYLES outputs fabric contact/local property/atom contact/direction stress/contact CASES chosen listed-only users-own)

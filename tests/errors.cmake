@@ -147,3 +147,10 @@ add_cases(layering+velocity/correlation-not-finite errors/not_finite.py LABEL er
   STYLES layering fluctuation velocity/memory velocity/correlation contact/direction contact/surface CASES
   fluctuation-profile fluctuation-layers memory-layers correlation contact-direction contact-surface
   contact-surface-ellipsoid)
+
+# Outputs have names
+add_cases(outputs-refused errors/outputs.py LABEL error STYLES outputs CASES
+  no-words other-keyword surplus-word two-prefixes no-prefix prefix-with-a-slash prefix-with-a-dash
+  empty-prefix misspelt nothing-like-it host-compute host-fix compute-and-fix before-the-box clash-equal
+  clash-string clash-index clash-atom another-compute-of-the-id compute-that-is-gone)
+add_cases(outputs-refused errors/outputs.py LABEL error STYLES outputs RANKS 2 CASES misspelt clash-equal)

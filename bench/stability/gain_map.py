@@ -67,7 +67,8 @@ pair_coeff   * *
 timestep     {dt!r}
 fix          move all nve/spheroid
 fix          press all press/strain axis y target {target!r} shear xy rate {rate!r} every/step {steps} gain {gain} {clip}
-thermo_style custom step f_press f_press[2] f_press[4] f_press[5] f_press[7]
+outputs      press
+thermo_style custom step f_press v_press_target v_press_L v_press_L_rate v_press_clipped
 thermo_modify format float %.12g flush yes
 thermo       {steps}
 reset_timestep 0
@@ -101,7 +102,7 @@ class Bench:
             if line not in text:
                 raise SystemExit(f"{DECK.name} does not set its interval as this script expects")
             (folder / "in.start").write_text(text.replace(line, f"variable every  equal {interval!r}*1e-3*$I^(1/3)")
-                                             .replace("c_order c_solver", "c_order c_solver f_press[6] f_press[7]"))
+                                             .replace("c_order c_solver", "c_order c_solver v_press_inputs v_press_clipped"))
             if not self.run("in.start", folder, out="out", N=self.grains, I=inertial, alpha=alpha, strain=INERTIAL[inertial]):
                 raise SystemExit(f"the run in {folder} failed")
         return folder

@@ -41,9 +41,11 @@ struct Source {
 
 template <class Owner>
 void add_sources(Owner **owners, int n, const char *kind, std::vector<Source> &all) {
-  for (int k = 0; k < n; k++)
-    all.push_back({owners[k]->id, std::string(kind) + " " + owners[k]->id + " (" + owners[k]->style + ")",
-                   std::string(1, kind[0]) + "_" + owners[k]->id, dynamic_cast<DeclaresOutputs *>(owners[k])});
+  for (int k = 0; k < n; k++) {
+    const auto *declared = dynamic_cast<DeclaresOutputs *>(owners[k]);
+    const std::string id = owners[k]->id, style = declared ? declared->declared_style() : owners[k]->style;
+    all.push_back({id, std::string(kind) + " " + id + " (" + style + ")", std::string(1, kind[0]) + "_" + id, declared});
+  }
 }
 
 /** The compute or fix of that name; an error that says what there is. */

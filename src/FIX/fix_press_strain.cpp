@@ -140,7 +140,7 @@ FixPressStrain::FixPressStrain(LAMMPS *lmp, int narg, char **arg, const HostArgu
   groupbit = 1;
   restart_global = 1;
   restart_pbc = 0;  // the host's wrapping would move triclinic positions by an ulp
-  declare(this, Impl::declared());
+  declare(this, "press/strain", Impl::declared());
   global_freq = 1;
   require_controllable_box();
 }

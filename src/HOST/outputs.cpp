@@ -17,7 +17,7 @@ std::string replaced(std::string text, const std::string &word) {
   return text;
 }
 
-int told_extensive(const NamedOutput &output) { return output.extent == Extent::extensive; }
+int flagged_extensive(const NamedOutput &output) { return output.extent == Extent::extensive; }
 
 }
 
@@ -40,18 +40,17 @@ void Outputs::set_array(int how_many, const std::string &of, const OutputList &l
 }
 
 template <class Style>
-void DeclaresOutputs::tell_host(Style *style, const Outputs &outputs) {
-  outputs_ = outputs;
-  style_ = style->style;
+void DeclaresOutputs::set_flags(Style *style) {
+  const Outputs &outputs = outputs_;
   require_good_names();
   if (!outputs.scalar.empty()) {
     style->scalar_flag = 1;
-    style->extscalar = told_extensive(outputs.scalar[0]);
+    style->extscalar = flagged_extensive(outputs.scalar[0]);
   }
   if (outputs.vector.empty()) return;
   style->vector_flag = 1;
   style->size_vector = outputs.vector.size();
-  for (const NamedOutput &one : outputs.vector) extensive_.push_back(told_extensive(one));
+  for (const NamedOutput &one : outputs.vector) extensive_.push_back(flagged_extensive(one));
   const auto many = std::count(extensive_.begin(), extensive_.end(), 1);
   const bool mixed = many && many != style->size_vector;
   style->extvector = mixed ? -1 : many > 0;
@@ -59,7 +58,9 @@ void DeclaresOutputs::tell_host(Style *style, const Outputs &outputs) {
 }
 
 void DeclaresOutputs::declare(LAMMPS_NS::Compute *compute, const Outputs &outputs) {
-  tell_host(compute, outputs);
+  outputs_ = outputs;
+  style_ = compute->style;
+  set_flags(compute);
   if (!outputs.vector.empty()) {
     vector_.assign(outputs.vector.size(), 0.0);
     compute->vector = vector_.data();
@@ -83,7 +84,11 @@ void DeclaresOutputs::declare(LAMMPS_NS::Compute *compute, const Outputs &output
   }
 }
 
-void DeclaresOutputs::declare(LAMMPS_NS::Fix *fix, const Outputs &outputs) { tell_host(fix, outputs); }
+void DeclaresOutputs::declare(LAMMPS_NS::Fix *fix, const std::string &style, const Outputs &outputs) {
+  outputs_ = outputs;
+  style_ = style;
+  set_flags(fix);
+}
 
 void DeclaresOutputs::require_good_names() const {
   std::set<std::string> found;

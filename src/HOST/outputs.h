@@ -55,11 +55,12 @@ class DeclaresOutputs {
  public:
   virtual ~DeclaresOutputs() {}
   const Outputs &outputs() const { return outputs_; }
+  const std::string &declared_style() const { return style_; }
 
  protected:
-  /** In the constructor. */
+  /** In the constructor. A fix may have another style to LIGGGHTS. */
   void declare(LAMMPS_NS::Compute *compute, const Outputs &outputs);
-  void declare(LAMMPS_NS::Fix *fix, const Outputs &outputs);
+  void declare(LAMMPS_NS::Fix *fix, const std::string &style, const Outputs &outputs);
 
   /** All elements of the vector, in the order of the declaration; of a row of the array, likewise. */
   template <std::size_t N> void put_vector(const double (&values)[N]) { put(values, N, vector_.data(), outputs_.vector, "elements"); }
@@ -78,7 +79,7 @@ class DeclaresOutputs {
   Rows rows_;
   double **array_ = nullptr;
 
-  template <class Style> void tell_host(Style *style, const Outputs &outputs);
+  template <class Style> void set_flags(Style *style);
   void require_good_names() const;
   void put(const double *values, std::size_t n, double *to, const OutputList &declared, const char *what) const;
 };
