@@ -19,7 +19,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from columns import columns  # noqa: E402
+from columns import outputs  # noqa: E402
 from open_mpi import session  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -120,7 +120,7 @@ class Bench:
 
     def measure(self, points, options, bins=BINS):
         """On one rank, in processor time: over many steps, or once where it takes seconds. Bins are read when there are BINS of them."""
-        told = columns("velocity/correlation")
+        told = outputs("velocity/correlation")
         cells = [told.word("c", name, k) for k in range(1, BINS + 1) for name in ("r", "C", "pairs")] if bins == BINS else []
         correlation = f"velocity/correlation bins {bins} {options}"
         first, _, values = self.run(points, correlation, ["c_c", *cells])

@@ -11,7 +11,7 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "tools"))
-from columns import columns  # noqa: E402
+from columns import outputs  # noqa: E402
 
 STEPS = 2
 
@@ -44,7 +44,7 @@ compute i all displacement/shear strain v_strain
 compute j all velocity/memory strain v_strain every 8e-5
 compute k all velocity/correlation method mesh
 compute l all layering
-compute m all reduce max """ + columns("contact/grain").word("g", "N_c") + """
+compute m all reduce max """ + outputs("contact/grain").word("g", "N_c") + """
 fix scalars all ave/time 1 1 1 c_a c_b c_c c_d c_h c_i c_m c_k c_l file /dev/null
 fix surface all ave/time 1 1 1 c_e mode vector file /dev/null
 fix direction all ave/time 1 1 1 c_f mode vector file /dev/null

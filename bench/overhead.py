@@ -16,17 +16,17 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "tools"))
-from columns import columns  # noqa: E402
+from columns import outputs  # noqa: E402
 
 EVERY_STEP = "fix mean all ave/time 1 1 1 {value} file /dev/null\n"
 STRAIN = "variable strain equal 0.00977*0.009*step\n"
 OBSERVERS = {
     "gran/insitu, idle": "",
-    "stress/contact": "compute observer all stress/contact\n" + EVERY_STEP.format(value=columns("stress/contact").word("observer", "P")),
+    "stress/contact": "compute observer all stress/contact\n" + EVERY_STEP.format(value=outputs("stress/contact").word("observer", "P")),
     "dissipation mode step": "compute observer all dissipation\n" + EVERY_STEP.format(value="c_observer"),
     "dissipation mode instantaneous": "compute observer all dissipation mode instantaneous\n" + EVERY_STEP.format(value="c_observer"),
     "contact/local overlap fn": "compute observer all contact/local overlap fn\ncompute largest all reduce max "
-                                + columns("contact/local", ("overlap", "fn")).word("observer", "overlap") + "\n"
+                                + outputs("contact/local", ("overlap", "fn")).word("observer", "overlap") + "\n"
                                 + EVERY_STEP.format(value="c_largest"),
     "nematic": "compute observer all nematic\n" + EVERY_STEP.format(value="c_observer"),
     "fabric": "compute observer all fabric\n" + EVERY_STEP.format(value="c_observer"),
@@ -34,7 +34,7 @@ OBSERVERS = {
     "contact/surface": "compute observer all contact/surface\n" + EVERY_STEP.format(value="c_observer mode vector"),
     "contact/direction": "compute observer all contact/direction\n" + EVERY_STEP.format(value="c_observer mode vector"),
     "contact/grain": "compute observer all contact/grain\ncompute largest all reduce max "
-                     + columns("contact/grain").word("observer", "N_c") + "\n" + EVERY_STEP.format(value="c_largest"),
+                     + outputs("contact/grain").word("observer", "N_c") + "\n" + EVERY_STEP.format(value="c_largest"),
     "fluctuation": "compute observer all fluctuation\n" + EVERY_STEP.format(value="c_observer"),
     "displacement/shear": STRAIN + "compute observer all displacement/shear strain v_strain\n" + EVERY_STEP.format(value="c_observer"),
     "velocity/memory": STRAIN + "compute observer all velocity/memory strain v_strain every 8.8e-5\n" + EVERY_STEP.format(value="c_observer"),
@@ -61,15 +61,15 @@ compute j all velocity/memory strain v_strain
 compute k all velocity/correlation component vy
 compute l all velocity/correlation component wz
 compute m all layering
-""" + f"compute n all reduce max {columns('contact/grain').word('g', 'N_c')}\n" + "".join(f"fix {name} all ave/time {PAPER_INTERVAL} 1 {PAPER_INTERVAL} {value} file /dev/null\n" for name, value in (
+""" + f"compute n all reduce max {outputs('contact/grain').word('g', 'N_c')}\n" + "".join(f"fix {name} all ave/time {PAPER_INTERVAL} 1 {PAPER_INTERVAL} {value} file /dev/null\n" for name, value in (
     ("scalars", "c_a c_b c_c c_d c_h c_i c_n"), ("surface", "c_e mode vector"), ("direction", "c_f mode vector"),
     ("memory", "c_j mode vector"), ("linear", "c_k mode vector"), ("spin", "c_l mode vector"), ("layers", "c_m mode vector")))
 SETTINGS = "tangential_damping off gaussianCurvature yes curvatureLimitFactor 100"
 LEDGER = {  # with `ledger on`, which wants a restart file of its own
     "ledger on, idle": "",
-    "ledger on, energy/ledger": "compute observer all energy/ledger\n" + EVERY_STEP.format(value=columns("energy/ledger").word("observer", "residual")),
+    "ledger on, energy/ledger": "compute observer all energy/ledger\n" + EVERY_STEP.format(value=outputs("energy/ledger").word("observer", "residual")),
 }
-CONTACTS = f"compute count all stress/contact\nthermo_style custom step {columns('stress/contact').word('count', 'N_c')}\n"
+CONTACTS = f"compute count all stress/contact\nthermo_style custom step {outputs('stress/contact').word('count', 'N_c')}\n"
 
 
 class Bench:

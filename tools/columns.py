@@ -1,10 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Outputs of grainscope's computes and fixes by name, from columns.json, which the program's command `outputs` makes:
 
-    columns("stress/contact").index("P")            26
-    columns("stress/contact").word("s", "P")        "c_s[26]"
-    columns("contact/surface").word("s", "N_c")     "c_s[3]", the column of the array
-    columns("contact/surface").word("s", "N_c", 7)  "c_s[7][3]", one number of it
+    outputs("stress/contact").index("P")            26
+    outputs("stress/contact").word("s", "P")        "c_s[26]"
+    outputs("contact/surface").word("s", "N_c")     "c_s[3]", the column of the array
+    outputs("contact/surface").word("s", "N_c", 7)  "c_s[7][3]", one number of it
+
+For a compute or fix that is asked often:
+
+    C_STRESS = outputs("stress/contact").of("stress")
+    C_STRESS["P"]                                   "c_stress[26]"
+    C_STRESS.vector()                               all of its vector: ["c_stress[1]", ...]
 """
 from functools import lru_cache
 import json
@@ -54,9 +60,30 @@ class Columns:
             return start
         return f"{start}[{self.index(name)}]"
 
-    def words(self, ID, *names):
-        return [self.word(ID, name) for name in names]
+    def of(self, ID):
+        return Words(self, ID)
 
 
-def columns(style, only=()):
+class Words:
+    """What reads the outputs of one compute or fix in an input script, by name; of an array by (row, name)."""
+
+    def __init__(self, own, ID):
+        self.own, self.ID = own, ID
+
+    def __getitem__(self, name):
+        row, name = name if isinstance(name, tuple) else (None, name)
+        return self.own.word(self.ID, name, row)
+
+    def all(self, kind):
+        return [self[name] for name in self.own.names(kind)]
+
+    def vector(self):
+        return self.all("vector")
+
+    def array(self, rows):
+        """All of these rows, one after the other."""
+        return [self[row, name] for row in rows for name in self.own.names("array")]
+
+
+def outputs(style, only=()):
     return Columns(style, only)

@@ -7,10 +7,18 @@ import numpy as np
 
 from case import main, require, require_close
 from catalogue import DIRECT, DISPLACEMENT, FABRIC, FLUCTUATION, GRAIN, LAYERING, MEMORY, SURFACE, strain_lines
+from columns import outputs
 from deck import Deck, dump_local, shear, thermo
 from oracle.state import ROW_WIDTH, rows_of
 from packing import dense_packing
 from run import run
+
+C_FABRIC = outputs("fabric").of("fabric")
+C_GRAIN = outputs("contact/grain").of("grain")
+C_MEMORY = outputs("velocity/memory").of("memory")
+C_MOVED = outputs("displacement/shear").of("moved")
+C_MOVING = outputs("fluctuation").of("moving")
+C_SURFACE = outputs("contact/surface").of("surface")
 
 # fix ave/time prints six digits.
 PRINTED = 1e-5
@@ -43,7 +51,7 @@ def every(watched, entries):
 
 def scalars(ranks):
     """fix ave/time mode scalar, once every 5 steps, where nothing else asks: the compute is announced by the fix alone."""
-    entries = [f"c_{w.name}" for w in GLOBAL if w.scalar] + [f"c_{w.name}[{w.vector}]" for w in GLOBAL] + ["c_fabric[20]"]
+    entries = [f"c_{w.name}" for w in GLOBAL if w.scalar] + [f"c_{w.name}[{w.vector}]" for w in GLOBAL] + [C_FABRIC["angle"]]
     # What adds up over calls is asked at other steps here, and left out.
     entries = [e for e in entries if not e.startswith(("c_moved", "c_memory"))]
     expected = every(GLOBAL, entries)
@@ -59,7 +67,7 @@ def scalars(ranks):
 
 def means(ranks):
     """The mean over five steps that nothing else asks for."""
-    entries = ["c_fabric[1]", "c_fabric", "c_moving[4]", "c_surface[1]"]
+    entries = [C_FABRIC["F_xx"], "c_fabric", C_MOVING["dw_x"], C_SURFACE["P"]]
     expected = every(GLOBAL, entries)
     result = run(asked(f"fix mean all ave/time 1 {EVERY} {EVERY} {' '.join(entries)} file mean.txt", "thermo_style custom step"), ranks)
     table = result.averages("mean.txt")
@@ -91,24 +99,24 @@ def vectors(ranks):
 
 def variables(ranks):
     """Equal-style variables of a scalar, an entry of a vector and one of an array; a per-grain column summed by compute reduce."""
-    lines = ["variable scalar equal 2*c_fabric", "variable entry equal c_moving[7]+c_moving[8]", "variable bin equal 3*c_surface[10][3]",
-             "compute contacts all reduce sum c_grain[1]",
-             *thermo(5, "c_fabric", "c_fabric[22]", "c_moving[7]", "c_moving[8]", "c_surface[10][3]", "v_scalar", "v_entry", "v_bin",
+    lines = ["variable scalar equal 2*c_fabric", f"variable entry equal {C_MOVING['E_tr']}+{C_MOVING['E_rot']}", f"variable bin equal 3*{C_SURFACE[10, 'N_c']}",
+             f"compute contacts all reduce sum {C_GRAIN['N_c']}",
+             *thermo(5, "c_fabric", C_FABRIC["N_c"], C_MOVING["E_tr"], C_MOVING["E_rot"], C_SURFACE[10, "N_c"], "v_scalar", "v_entry", "v_bin",
                      "c_contacts")]
     table = run(asked(*lines), ranks).thermo()[-1]
     require_close(table["v_scalar"], 2.0 * table["c_fabric"], 1e-15, "variable of a scalar")
-    require_close(table["v_entry"], table["c_moving[7]"] + table["c_moving[8]"], 1e-15, "variable of a vector")
-    require_close(table["v_bin"], 3.0 * table["c_surface[10][3]"], 0.0, "variable of an array", 1.0)
-    require_close(table["c_contacts"], 2.0 * table["c_fabric[22]"], 1e-14, "contacts of all grains")
+    require_close(table["v_entry"], table[C_MOVING["E_tr"]] + table[C_MOVING["E_rot"]], 1e-15, "variable of a vector")
+    require_close(table["v_bin"], 3.0 * table[C_SURFACE[10, "N_c"]], 0.0, "variable of an array", 1.0)
+    require_close(table["c_contacts"], 2.0 * table[C_FABRIC["N_c"]], 1e-14, "contacts of all grains")
 
 
 def dumped(ranks):
     """dump custom alone announces contact/grain."""
     columns = " ".join(GRAIN.atom_columns())
     result = run(asked(f"dump grains all custom {EVERY} grains.dump id {columns}", "thermo_style custom step"), ranks)
-    told = run(asked(*thermo(EVERY, "c_fabric[22]")), ranks).thermo()[-1]["c_fabric[22]"]
+    told = run(asked(*thermo(EVERY, C_FABRIC["N_c"])), ranks).thermo()[-1][C_FABRIC["N_c"]]
     for (step, grains), contacts in zip(result.dump("grains.dump"), told):
-        require_close(grains["c_grain[1]"].sum(), 2.0 * contacts, 0.0, f"step {step}: contacts", 1.0)
+        require_close(grains[C_GRAIN["N_c"]].sum(), 2.0 * contacts, 0.0, f"step {step}: contacts", 1.0)
 
 
 def come_and_go(ranks):
@@ -121,7 +129,7 @@ def come_and_go(ranks):
     blocks_of_thermo = run(deck, ranks).thermo()
     require(len(blocks_of_thermo) == 3, "runs are missing")
     again = blocks_of_thermo[2]
-    require(again["c_memory[3]"][0] == 1.0 and again["c_moved[1]"][0] == 0.0, "the new computes did not begin anew")
+    require(again[C_MEMORY["samples"]][0] == 1.0 and again[C_MOVED["strain"]][0] == 0.0, "the new computes did not begin anew")
     require(all(np.isfinite(values).all() for values in again.values()), "not finite")
 
 

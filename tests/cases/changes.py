@@ -6,6 +6,7 @@ import numpy as np
 
 from case import main, require, require_close, require_equal, require_same_snapshots
 from catalogue import DISPLACEMENT, everything, strain_lines
+from columns import outputs
 from contact_measures import DIRECTION, EXACT, FABRIC, GRAIN, comparisons, require_agreement
 from deck import Deck, dump_grains, dump_local, thermo
 from motion_measures import fluctuations
@@ -14,6 +15,13 @@ from oracle.state import ROW_WIDTH, rows_of
 from packing import dense_packing
 from run import run
 from watch import Watched, grain_columns, moments_of, watched_deck
+
+C_C = outputs("stress/contact").of("c")
+C_GRAIN = outputs("contact/grain").of("grain")
+C_LOSS = outputs("dissipation").of("loss")
+C_MOVED = outputs("displacement/shear").of("moved")
+C_STRESS = outputs("stress/contact").of("stress")
+F_PRESS = outputs("press/strain").of("press")
 
 SPHERES, SPHEROIDS = dense_packing(atom_style="sphere"), dense_packing(1.5)
 LOOSE = replace(dense_packing(atom_style="sphere", overlap=-0.15), triclinic=False)
@@ -101,14 +109,14 @@ def asking(packing, press=True):
                 Watched("books", "energy/ledger", True, 20), Watched("running", "velocity/correlation average running bins 6", True, 5, (6, 4))]
     quantities = [q for w in computes for q in w.columns()]
     flow = [PRESS] if press else strain_lines(0.05)
-    state = [f"f_press[{k}]" for k in range(1, 9)] if press else []
+    state = F_PRESS.vector() if press else []
     return [*flow, *(w.define("all") for w in computes), *thermo(1, *quantities, *state)]
 
 
 def outputs(suffix):
     """Of contacts and grains."""
     rows = dump_local("rows", 8, 1, f"rows{suffix}")
-    return ["compute rows all contact/local id image normal", *rows, *dump_grains(SPHERES, 1, f"grains{suffix}", "id x y z fx fy fz c_grain[1]")]
+    return ["compute rows all contact/local id image normal", *rows, *dump_grains(SPHERES, 1, f"grains{suffix}", f"id x y z fx fy fz {C_GRAIN['N_c']}")]
 
 
 def clear_starts_afresh(packing, surface="superquadric"):
@@ -118,7 +126,7 @@ def clear_starts_afresh(packing, surface="superquadric"):
                        for k in (1, 2))
         result = run(f"{once}clear\n{again}", ranks)
         blocks = result.thermo()
-        require(len(blocks) == 4 and blocks[0]["c_stress[30]"].min() > 100, "too little was run")
+        require(len(blocks) == 4 and blocks[0][C_STRESS["N_c"]].min() > 100, "too little was run")
         for before, after in ((blocks[0], blocks[2]), (blocks[1], blocks[3])):
             for name, values in before.items():
                 require_equal(after[name], values, f"{name} after 'clear'")
@@ -132,7 +140,7 @@ def same_as(change, plain, but=(), **choices):
     def case(ranks):
         deck = Deck(SPHERES, extra="ledger on", **choices)
         found, expected = (told(run(replace(deck, body=body), ranks)) for body in (change, plain))
-        require(len(expected["step"]) > 5 and expected["c_stress[30]"].min() > 100, "too little was run")
+        require(len(expected["step"]) > 5 and expected[C_STRESS["N_c"]].min() > 100, "too little was run")
         for name, values in expected.items():
             if name != "step" and not name.startswith(but):
                 require_equal(found[name], values, name)
@@ -154,50 +162,50 @@ def pair_style_twice(ranks):
 
 def before_pair_style(ranks):
     """A compute may come before the pair style that it watches."""
-    deck = Deck(SPHERES, body=[*thermo(1, "c_c", "c_c[30]"), "run 20"])
+    deck = Deck(SPHERES, body=[*thermo(1, "c_c", C_C["N_c"]), "run 20"])
     text, compute = deck.text(), "compute c all stress/contact\n"
     late, early = (text.replace(line, put) for line, put in (("thermo_style custom step c_c", compute + "thermo_style custom step c_c"),
                                                              ("pair_style", compute + "pair_style")))
     found, expected = told(run(early, ranks)), told(run(late, ranks))
     for name, values in expected.items():
         require_equal(found[name], values, name)
-    require(expected["c_c[30]"].min() > 100, "no contacts")
+    require(expected[C_C["N_c"]].min() > 100, "no contacts")
 
 
 def time_step_changes(lines):
     """The strain is the rate times the time that has passed, however it was cut into steps."""
     def case(ranks):
         body = [PRESS.replace("every 7e-6", "every/step 3"), "compute moved all displacement/shear",
-                *thermo(1, "time", "dt", "f_press[1]", "c_moved[1]"), "run 20", *lines]
+                *thermo(1, "time", "dt", F_PRESS["strain"], C_MOVED["strain"]), "run 20", *lines]
         result = run(Deck(SPHERES, body=body), ranks)
         dts = np.concatenate([b["dt"] for b in result.thermo()])
         require(len(set(dts)) > 1, "the time step did not change")
         for block in result.thermo():
-            require_close(block["f_press[1]"], 0.05 * block["time"], 1e-12, "strain")
-            require_equal(block["c_moved[1]"], block["f_press[1]"], "strain of the displacements")
+            require_close(block[F_PRESS["strain"]], 0.05 * block["time"], 1e-12, "strain")
+            require_equal(block[C_MOVED["strain"]], block[F_PRESS["strain"]], "strain of the displacements")
     return case
 
 
 def loss_of_a_changing_step(ranks):
     """What slipped in a step is divided by the time that step took, not by that of the next."""
     body = ["compute rows all contact/local", *dump_local("rows", ROW_WIDTH, 1, "rows"), "compute loss all dissipation",
-            *thermo(1, "dt", "c_loss[2]"), "fix adapt all dt/reset 1 1e-9 1 1e-5 units box", "run 20"]
+            *thermo(1, "dt", C_LOSS["P_t"]), "fix adapt all dt/reset 1 1e-9 1 1e-5 units box", "run 20"]
     result = run(Deck(SPHERES, body=body), ranks)
     table, rows = told(result), [rows_of(columns, "rows") for _, columns in result.dump("rows.dump")]
     require(len(set(table["dt"])) > 10, "the time step did not change")
     for step in range(1, 21):
         expected = measures.friction_of_step(rows[step], table["dt"][step - 1])
-        require_close(table["c_loss[2]"][step], expected, EXACT, f"friction in step {step}", np.abs(table["c_loss[2]"]).max())
+        require_close(table[C_LOSS["P_t"]][step], expected, EXACT, f"friction in step {step}", np.abs(table[C_LOSS["P_t"]]).max())
 
 
 def box_scaled(ranks):
     """fix press/strain goes on with the box that it finds; what was displaced is displaced no further by a scaling of everything."""
-    body = [*asking(SPHERES), "thermo_style custom step ly c_moved[1] c_moved[2] c_moved[3] c_moved[4] f_press[1] f_press[4] c_books c_stress[30]",
+    body = [*asking(SPHERES), f"thermo_style custom step ly {C_MOVED['strain']} {C_MOVED['d2_x']} {C_MOVED['d2_y']} {C_MOVED['d2_z']} {F_PRESS['strain']} {F_PRESS['L']} c_books {C_STRESS['N_c']}",
             "thermo_modify format float %.17g norm no", "run 20", "change_box all x scale 1.001 y scale 1.001 z scale 1.001 remap", "run 20"]
     first, second = run(Deck(SPHERES, extra="ledger on", body=body), ranks).thermo()
-    require_equal(second["f_press[4]"], second["ly"], "length")
+    require_equal(second[F_PRESS["L"]], second["ly"], "length")
     require_close(second["ly"][0], 1.001 * first["ly"][-1], 1e-14, "length after the change")
-    require_equal(second["f_press[1]"][0], first["f_press[1]"][-1], "strain")
+    require_equal(second[F_PRESS["strain"]][0], first[F_PRESS["strain"]][-1], "strain")
     for k in (2, 3, 4):
         before, after = first[f"c_moved[{k}]"][-1], second[f"c_moved[{k}]"][:2]
         require_equal(after[0], before, "mean square of displacement")

@@ -5,11 +5,14 @@ import math
 import numpy as np
 
 from case import main, require, require_close
+from columns import outputs
 from deck import Deck, Material, dump_grains, rayleigh_time, thermo
 from oracle.measures import rotation
 from oracle.state import grains_of
 from packing import Grain, Packing
 from run import run
+
+C_LOSS = outputs("dissipation").of("loss")
 
 SPEED = 0.5
 
@@ -47,13 +50,13 @@ def collide(packing, restitution, fraction, ranks, friction=0.4, extra="", mode=
     duration = 3.0 * 2.94 * (5.0 * math.sqrt(2.0) * math.pi * 1000.0 / (8.0 * 5e6)) ** 0.4 / (2 * SPEED) ** 0.2 * largest
     dt = fraction * rayleigh_time(smallest)
     steps = math.ceil(duration / dt)
-    vector = [f"c_loss[{k}]" for k in range(1, 6)]
+    vector = C_LOSS.vector()
     deck = Deck(packing, material=Material(restitution=(restitution,), friction=(friction,)), timestep=dt, extra=extra,
                 body=[f"compute loss all dissipation mode {mode}", *thermo(1, *vector), *dump_grains(packing, steps), f"run {steps}"])
     result = run(deck, ranks)
     table = result.thermo()[0]
     (_, before), (_, after) = result.dump("grains.dump")
-    require(table["c_loss[4]"].max() == 1.0 and table["c_loss[4]"][-1] == 0.0, "the grains did not meet and part")
+    require(table[C_LOSS["N_c"]].max() == 1.0 and table[C_LOSS["N_c"]][-1] == 0.0, "the grains did not meet and part")
     losses = [table[q][1:].sum() * dt for q in vector[:3]]
     return kinetic_energy(before) - kinetic_energy(after), losses, table
 
@@ -69,7 +72,7 @@ def single_contact(ranks):
     spin = 1.0 / 0.99  # the lever is R - d/2
     grains = [Grain((0.99 * side, 0, 0), velocity=(-0.5 * side, 0, 0), omega=(0, 0, spin)) for side in (-1, 1)]
     packing = Packing((24.0, 24.0, 24.0), grains, atom_style="sphere", origin=(-12.0, -12.0, -12.0))
-    vector = [f"c_loss[{k}]" for k in range(1, 6)]
+    vector = C_LOSS.vector()
     deck = Deck(packing, tangential="no_history", material=Material(friction=(0.1,)),
                 body=["compute loss all dissipation mode instantaneous", *thermo(1, *vector), "run 0"])
     table = run(deck, ranks).thermo()[0]
@@ -101,7 +104,7 @@ def oblique(shape, tolerance):
     def case(ranks):
         lost, losses, table = collide(meeting(shape, offset=0.8), 0.5, 0.02, ranks, friction=0.2)
         print(f"lost {lost:.6g}, D_n, D_t, D_t,damp = {losses}, sum off by {sum(losses) / lost - 1:+.2e}")
-        require(losses[1] > 0.01 * lost and table["c_loss[5]"].max() == 1.0, "nothing slid")
+        require(losses[1] > 0.01 * lost and table[C_LOSS["N_sliding"]].max() == 1.0, "nothing slid")
         require_close(sum(losses), lost, tolerance, "light ledger of an oblique collision")
     return case
 

@@ -6,13 +6,17 @@ import re
 import numpy as np
 
 from case import main, require, require_close, require_equal
+from columns import outputs
 from deck import Deck, dump_grains, dump_local, shear, thermo
 from oracle.state import ROW_WIDTH, rows_of
 from packing import dense_packing
 from run import run
 
+C_SOLVER = outputs("contact/solver").of("solver")
+C_STRESS = outputs("stress/contact").of("stress")
+
 SOLVER = "compute solver all contact/solver"
-COUNTS = ("c_solver[1]", "c_solver[2]", "c_solver[3]", "c_solver[4]", "c_solver[5]", "c_solver[6]")
+COUNTS = (C_SOLVER["pairs_listed"], C_SOLVER["pairs_solved"], C_SOLVER["pairs_touching"], C_SOLVER["steps"], C_SOLVER["steps_max"], C_SOLVER["fallbacks"])
 
 
 def counts(table, row=-1):
@@ -67,14 +71,14 @@ def same_on_ranks(ranks):
     """Touching pairs of one state, on one rank and on several: more there, by those between ranks, but no more than all are."""
     deck = flow(300)
     state = run(replace(deck, body=[*deck.body, "write_restart state.restart"])).folder / "state.restart"
-    lines = [SOLVER, "compute stress all stress/contact", *thermo(1, *COUNTS, "c_stress[30]"), "run 0"]
+    lines = [SOLVER, "compute stress all stress/contact", *thermo(1, *COUNTS, C_STRESS["N_c"]), "run 0"]
     one, many = (run(deck.restarted(state, lines), n).thermo()[0] for n in (1, ranks))
-    require_equal(many["c_stress[30]"], one["c_stress[30]"], "contacts, each once")
-    contacts = one["c_stress[30]"][0]
+    require_equal(many[C_STRESS["N_c"]], one[C_STRESS["N_c"]], "contacts, each once")
+    contacts = one[C_STRESS["N_c"]][0]
     for table in (one, many):
-        require(contacts <= table["c_solver[3]"][0] <= 2.0 * contacts, f"{table['c_solver[3]'][0]} touching, {contacts} contacts")
-    require(many["c_solver[3]"][0] > one["c_solver[3]"][0] and many["c_solver[1]"][0] > one["c_solver[1]"][0], "no pair is between ranks")
-    require_equal(many["c_solver[6]"], one["c_solver[6]"], "fallbacks")
+        require(contacts <= table[C_SOLVER["pairs_touching"]][0] <= 2.0 * contacts, f"{table[C_SOLVER['pairs_touching']][0]} touching, {contacts} contacts")
+    require(many[C_SOLVER["pairs_touching"]][0] > one[C_SOLVER["pairs_touching"]][0] and many[C_SOLVER["pairs_listed"]][0] > one[C_SOLVER["pairs_listed"]][0], "no pair is between ranks")
+    require_equal(many[C_SOLVER["fallbacks"]], one[C_SOLVER["fallbacks"]], "fallbacks")
 
 
 def begins_with_the_pair_style(ranks):

@@ -7,9 +7,12 @@ import resource
 import numpy as np
 
 from case import main, require, require_same_snapshots
+from columns import outputs
 from deck import Deck, dump_grains, shear, thermo
 from packing import dense_packing
 from run import Started, attempt, run, tail
+
+C_S = outputs("stress/contact").of("s")
 
 SPHERES, SPHEROIDS = dense_packing(atom_style="sphere"), dense_packing(1.5)
 
@@ -152,7 +155,7 @@ CASES = {
     "disk-full-snapshots": disk_full([f"dump d all custom 10 d.*.txt id {'x y z vx vy vz ' * 24}", "run 100000"], "Output cannot be written",
                                      most=120_000),
     "disk-full-dump": disk_full([*dump_grains(SPHEROIDS, 1), "run 20000"], "Output cannot be written"),
-    "disk-full-table": disk_full(["compute s all stress/contact", "fix t all ave/time 1 1 1 c_s[1] c_s[2] c_s[3] file t.txt", "run 100000"],
+    "disk-full-table": disk_full(["compute s all stress/contact", f"fix t all ave/time 1 1 1 {C_S['sxx']} {C_S['syy']} {C_S['szz']} file t.txt", "run 100000"],
                                  "Output cannot be written"),
     "disk-full-log": disk_full([*thermo(1, "step"), "run 100000"], "cannot be written"),
     "disk-full-restart": disk_full(["restart 50 r.*", "run 100000"], "Output cannot be written"),

@@ -9,11 +9,15 @@ import re
 import numpy as np
 
 from case import main, require, require_close
+from columns import outputs
 from deck import Deck, box_columns, dump_grains, shear, thermo
 from everything import RATE, Questions, differences, press
 from packing import SKIN, Grain, Packing, dense_packing, in_the_open, tilted
 from refusal import require_refused
 from run import attempt, run, tail
+
+C_MOVED = outputs("displacement/shear").of("moved")
+C_STRESS = outputs("stress/contact").of("stress")
 
 SUMS = 1e-10  # sums in another order; see rank_sweep.py
 GRIDS = {1: (), 2: ("2 1 1", "1 2 1", "1 1 2"), 3: ("3 1 1", "1 3 1"), 4: ("2 2 1", "4 1 1", "1 1 4"), 8: ("2 2 2", "8 1 1", "1 8 1", "1 1 8")}
@@ -31,7 +35,7 @@ def same(packing, ranks, flow=shear(RATE), contacts=1, grids=None, bound=SUMS, *
     """All of GRIDS against one rank; hands back the results by grid."""
     questions, deck = asked(packing, flow, **choices)
     results = {"1 1 1": run(deck)}
-    told = results["1 1 1"].thermo()[-1]["c_stress[30]"]
+    told = results["1 1 1"].thermo()[-1][C_STRESS["N_c"]]
     require(told.min() >= contacts, f"contacts {told}, expected {contacts} at least")
     for grid in grids or GRIDS[ranks]:
         results[grid] = run(replace(deck, processors=grid), ranks)
@@ -101,8 +105,8 @@ def migrants(ranks):
     # Collisions at these speeds multiply what rounding does by ten each: 2e-9 seen, and as much on one rank where grains are sorted anew.
     results = same(packing, ranks, press(1e3, rate=0.5), contacts=0, bound=1e-7, steps=400, every=100)
     last = results["1 1 1"].thermo()[-1]
-    require(last["c_stress[30]"][-1] > 100, "too few contacts")
-    require(last["c_moved[4]"][-1] > 2.0, f"grains moved by {last['c_moved[4]'][-1]} only, in squares")
+    require(last[C_STRESS["N_c"]][-1] > 100, "too few contacts")
+    require(last[C_MOVED["d2_z"]][-1] > 2.0, f"grains moved by {last[C_MOVED['d2_z']][-1]} only, in squares")
     travelled = [columns for _, columns in results["1 1 1"].dump("grains.dump")]
     require(bool((np.abs(travelled[-1]["x"] - travelled[0]["x"]) > 0.5 * packing.edges[0]).any()), "no grain went through a face")
 

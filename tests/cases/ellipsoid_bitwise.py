@@ -8,11 +8,14 @@ import re
 import numpy as np
 
 from case import main, require, require_same_snapshots
+from columns import outputs
 from deck import Deck, Material, dump_grains, shear, thermo
 from packing import Grain, Packing, dense_packing
 from run import run
 
-SOLVER = ["compute solver all contact/solver", *thermo(1000, *[f"c_solver[{k}]" for k in range(1, 7)])]
+C_SOLVER = outputs("contact/solver").of("solver")
+
+SOLVER = ["compute solver all contact/solver", *thermo(1000, *C_SOLVER.vector())]
 
 
 def builds(result):
@@ -28,7 +31,7 @@ def same_as_gran(deck, ranks, lists, skipped, contacts=1.0):
     require_same_snapshots(own.dump("grains.dump"), plain.dump("grains.dump"), "gran/insitu against gran")
     table = own.thermo()[-1]
     listed, solved, touching, _, _, fallbacks = (table[f"c_solver[{k}]"][-1] for k in range(1, 7))
-    steps = table["c_solver[1]"].size and int(own.dump("grains.dump")[-1][0])
+    steps = table[C_SOLVER["pairs_listed"]].size and int(own.dump("grains.dump")[-1][0])
     print(f"{builds(own)} lists; of {listed:.0f} listed {solved:.0f} solved, {touching:.0f} touched")
     require(builds(own) >= lists, f"{builds(own)} neighbour lists, at least {lists} wanted")
     require(solved <= (1.0 - skipped) * listed, f"{solved} of {listed} listed pairs were solved: hardly any was left out")
@@ -106,7 +109,7 @@ def cohesive(ranks):
     own = run(replace(deck, body=[*SOLVER, *deck.body]), ranks)
     require_same_snapshots(own.dump("grains.dump"), plain.dump("grains.dump"), "gran/insitu against gran")
     table = own.thermo()[-1]
-    require(table["c_solver[1]"][-1] == 0.0 and table["c_solver[3]"][-1] > 0.0, "not the host's loop")
+    require(table[C_SOLVER["pairs_listed"]][-1] == 0.0 and table[C_SOLVER["pairs_touching"]][-1] > 0.0, "not the host's loop")
 
 
 

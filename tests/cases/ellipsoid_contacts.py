@@ -8,10 +8,13 @@ import re
 import numpy as np
 
 from case import main, require, require_close
+from columns import outputs
 from deck import POISSON, YOUNG, Deck, Material, dump_grains, dump_local, thermo
 from oracle.state import ROW_WIDTH, rows_of
 from packing import Grain, Packing
 from run import run
+
+C_SOLVER = outputs("contact/solver").of("solver")
 
 EDGE, MODULUS = 24.0, YOUNG / (2.0 * (1.0 - POISSON ** 2))
 
@@ -121,7 +124,7 @@ def concentric(shapes, overlap):
     """Two grains in one place: a finite force along the shortest axis of the thinner, `overlap` deep; one warning, one fallback."""
     def case(ranks):
         deck = Deck(boxed(*(grain(s) for s in shapes)), surface="ellipsoid")
-        counts = ("c_solver", "c_solver[3]", "c_solver[6]")
+        counts = ("c_solver", C_SOLVER["pairs_touching"], C_SOLVER["fallbacks"])
         deck.body = ["compute solver all contact/solver", *thermo(1, *counts), *dump_grains(deck.packing, 1)]
         rows, result = rows_at_once(deck, ranks)
         require_close(rows["overlap"], [overlap], 1e-9, "overlap", 1.0)

@@ -7,10 +7,13 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_equal, require_same_snapshots
+from columns import outputs
 from deck import Deck, dump_grains, dump_local, shear, thermo
 from oracle.state import ROW_WIDTH
 from packing import Grain, Packing, dense_packing, tilted
 from run import run
+
+C_SOLVER = outputs("contact/solver").of("solver")
 
 # Of the rms force, and of that times the radius 1. The host's solver stops by the angle of the normals, at about 1e-5; its points, and so
 # the torques, are off by more.
@@ -89,14 +92,14 @@ def start_survives_a_swap(ranks):
               Grain((5.0, 12.1, 12.2), (1.5, 1.5, 2.25))]
     packing = Packing((24.0, 24.0, 24.0), grains, triclinic=False)
     deck = Deck(packing, surface="ellipsoid", processors="2 1 1", timestep=1e-7)
-    deck.body = ["compute solver all contact/solver", *thermo(1, "c_solver[3]", "c_solver[4]"), "dump order all custom 1 order.dump id",
+    deck.body = ["compute solver all contact/solver", *thermo(1, C_SOLVER["pairs_touching"], C_SOLVER["steps"]), "dump order all custom 1 order.dump id",
                  "run 40"]
     result = run(deck, ranks)
     order = [columns["id"].tolist() for _, columns in result.dump("order.dump")]
     require(order[0] == [1.0, 2.0, 3.0] and order[-1] == [3.0, 2.0, 1.0], f"grains are in order {order[-1]}, were {order[0]}: no swap")
     table = result.thermo()[0]
-    require(table["c_solver[3]"][-1] == 41.0, f"{table['c_solver[3]'][-1]} contacts in 41 evaluations")
-    require_equal(np.diff(table["c_solver[4]"]), np.ones(40), "Newton steps")
+    require(table[C_SOLVER["pairs_touching"]][-1] == 41.0, f"{table[C_SOLVER['pairs_touching']][-1]} contacts in 41 evaluations")
+    require_equal(np.diff(table[C_SOLVER["steps"]]), np.ones(40), "Newton steps")
 
 
 CURVED = "curvatureLimitFactor 2"

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from case import main, require, require_close, require_equal, require_same_snapshots
+from columns import outputs
 from deck import Deck, Material, dump_grains, dump_local, shear, thermo
 from ellipsoid_walls import run_in_folder_with_floor
 from oracle.sphere_law import contacts
@@ -14,9 +15,13 @@ from packing import Grain, Packing, dense_packing
 from run import run
 from sphere_law import law_of
 
+C_EACH = outputs("contact/grain").of("each")
+C_LOSS = outputs("dissipation").of("loss")
+C_STRESS = outputs("stress/contact").of("stress")
+
 WARNING = "LIGGGHTS does not limit tangential damping"
 BOX = Box(np.eye(3) * 1e3, np.zeros(3), np.zeros((3, 3)))
-LOSSES = [f"c_loss[{k}]" for k in range(1, 6)]
+LOSSES = C_LOSS.vector()
 # Both are a handful of operations on numbers that were dumped in full.
 ROUNDING = 1e-12
 
@@ -28,8 +33,8 @@ def passing(**choices):
     choices.setdefault("material", Material(friction=(0.1,)))
     deck = Deck(packing, boundary="f f f", **choices)
     deck.body = ["compute rows all contact/local", "compute loss all dissipation mode instantaneous", "compute stress all stress/contact",
-                 "compute each all contact/grain", "compute mobilised all reduce max c_each[5]", *dump_grains(packing, 1),
-                 *dump_local("rows", ROW_WIDTH, 1, "rows"), *thermo(1, *LOSSES, "c_stress[32]", "c_mobilised")]
+                 "compute each all contact/grain", f"compute mobilised all reduce max {C_EACH['mobilisation']}", *dump_grains(packing, 1),
+                 *dump_local("rows", ROW_WIDTH, 1, "rows"), *thermo(1, *LOSSES, C_STRESS["sliding"], "c_mobilised")]
     return deck
 
 
@@ -44,7 +49,7 @@ def check_measures(rows, expected, table):
         require_close(rows[name], expected[name], ROUNDING, name, max(1.0, np.abs(expected[name]).max()))
     speed = np.linalg.norm(expected["ut"])
     damped = float(expected["gamma_t"][0]) * speed ** 2
-    found = [table[q][0] for q in (*LOSSES, "c_stress[32]", "c_mobilised")]
+    found = [table[q][0] for q in (*LOSSES, C_STRESS["sliding"], "c_mobilised")]
     require_close(found, [0.0, 0.0, damped, 1.0, 1.0, 1.0, expected["mobilisation"][0]], ROUNDING, "measures", damped)
 
 
@@ -80,7 +85,7 @@ def repeated_row(ranks):
     deck = passing(extra="setup neutral")
     deck.body += ["run 0", "run 2"]
     before, after = run(deck, ranks).thermo()
-    for name in (*LOSSES, "c_stress[32]", "c_mobilised"):
+    for name in (*LOSSES, C_STRESS["sliding"], "c_mobilised"):
         require_close(after[name][0], before[name][0], ROUNDING, name)
 
 
@@ -92,7 +97,7 @@ def after_a_change(ranks):
     require("were changed since the last run" in result.output, "the change was not noticed")
     first = result.thermo()[1]
     require_close(first["c_mobilised"].max(), 1.0, ROUNDING, "largest mobilisation")
-    require(first["c_stress[32]"][0] == 1.0, "the contact is not at its limit: nothing is proved")
+    require(first[C_STRESS["sliding"]][0] == 1.0, "the contact is not at its limit: nothing is proved")
 
 
 def below_the_limit(ranks):
@@ -109,13 +114,13 @@ def packings(ranks):
     packing = dense_packing(1.5, speed=2.0)
     deck = Deck(packing, surface="ellipsoid", extra="setup neutral", material=Material(friction=(0.05,)))
     deck.body = ["compute each all contact/grain", "compute rows all contact/local mobilisation", "compute most all reduce max c_rows",
-                 "compute stress all stress/contact", shear(0.05), *thermo(1, "c_most", "c_stress[32]"), "run 0",
+                 "compute stress all stress/contact", shear(0.05), *thermo(1, "c_most", C_STRESS["sliding"]), "run 0",
                  "velocity all set 0 0 0.5 sum yes", "set group all omegax 3", "run 0"]
     bounded, unbounded = run(deck, ranks).thermo(), run(replace(deck, extra=""), ranks).thermo()
     for ours, hosts in zip(bounded, unbounded):
         require_close(ours["c_most"][0], 1.0, ROUNDING, "largest mobilisation")
         require(hosts["c_most"][0] > 5.0, "the host keeps the limit: nothing is proved")
-        require_equal(ours["c_stress[32]"], hosts["c_stress[32]"], "sliding fraction")
+        require_equal(ours[C_STRESS["sliding"]], hosts[C_STRESS["sliding"]], "sliding fraction")
 
 
 def on_a_wall(friction, wall, extra):

@@ -7,12 +7,16 @@ import math
 import numpy as np
 
 from case import main, require, require_close
+from columns import outputs
 from deck import Deck, Material, dump_grains, dump_local, shear, thermo
 from oracle.contacts import grain_table
 from oracle.state import ROW_WIDTH, grains_of, rows_of
 from oracle.surface import surface_table
 from packing import Grain, Packing, dense_packing
 from run import run
+
+C_EACH = outputs("contact/grain").of("each")
+C_LOSS = outputs("dissipation").of("loss")
 
 ENERGY, FRICTION = 1e5, 0.3
 # Positions of order 10 give overlaps of order 0.01.
@@ -36,7 +40,7 @@ def of_spheroids(extra):
         bins = [f"c_surface[{k}][8]" for k in range(1, 11)]
         deck.body = [shear(0.05), "compute rows all contact/local", "compute each all contact/grain", "compute surface all contact/surface",
                      *dump_grains(packing, steps), *dump_local("rows", ROW_WIDTH, steps, "rows"),
-                     "dump each all custom 40 each.dump id c_each[1] c_each[2] c_each[5]", 'dump_modify each sort id format "%d %.17g %.17g %.17g"',
+                     f"dump each all custom 40 each.dump id {C_EACH['N_c']} {C_EACH['N_sliding']} {C_EACH['mobilisation']}", 'dump_modify each sort id format "%d %.17g %.17g %.17g"',
                      *thermo(steps, "vol", *bins), f"run {steps}"]
         result = run(deck, ranks)
         grains, rows = grains_of(result.dump("grains.dump")[-1][1]), rows_of(result.dump("rows.dump")[-1][1], "rows")
@@ -53,7 +57,7 @@ def of_spheroids(extra):
 
         each = result.dump("each.dump")[-1][1]
         table = grain_table({**rows, "mobilisation": expected}, grains, np.ones(len(grains.ids), bool))
-        require_close(each["c_each[5]"], table[:, 4], ROUNDING, "contact/grain", 1.0)
+        require_close(each[C_EACH["mobilisation"]], table[:, 4], ROUNDING, "contact/grain", 1.0)
         volume = result.thermo()[0]["vol"][-1]
         on_surface = surface_table({**rows, "mobilisation": expected}, grains, volume, np.ones(len(grains.ids), bool))[0][:, 7]
         require_close([result.thermo()[0][b][-1] for b in bins], on_surface, ROUNDING, "contact/surface", 1.0)
@@ -89,11 +93,11 @@ def liquid_bridge(model):
         deck = Deck(packing, cohesion=model, extra="tangential_damping off", material=Material(friction=(FRICTION,)), timestep=1e-4)
         lines = list(replace(deck, body=[
             "compute rows all contact/local", *dump_local("rows", ROW_WIDTH, 1, "rows"), "compute loss all dissipation mode instantaneous",
-            *thermo(1, "c_loss[2]"), "run 100"]).lines())
+            *thermo(1, C_LOSS["P_t"]), "run 100"]).lines())
         at = next(k for k, line in enumerate(lines) if line.startswith("pair_style"))
         lines[at:at] = [f"fix {name} all property/global {name} {value}" for name, value in LIQUID.items()]
         result = run("\n".join(lines) + "\n", ranks)
-        losses, slid, dragged, stuck = result.thermo()[0]["c_loss[2]"], 0, 0.0, 0.0
+        losses, slid, dragged, stuck = result.thermo()[0][C_LOSS["P_t"]], 0, 0.0, 0.0
         for step, columns in result.dump("rows.dump"):
             rows = rows_of(columns, "rows")
             if not len(rows["fn"]):

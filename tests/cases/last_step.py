@@ -9,11 +9,16 @@ import numpy as np
 
 from case import main, require, require_close, require_equal, require_same_snapshots
 from catalogue import DIRECTION, DISPLACEMENT, FABRIC, MEMORY, SURFACE, strain_lines
+from columns import outputs
 from deck import Deck, dump_grains, shear, thermo
 from packing import dense_packing
 from refusal import require_refused
 from run import run
 from watch import Watched
+
+C_GRAIN = outputs("contact/grain").of("grain")
+C_LOSS = outputs("dissipation").of("loss")
+C_STRESS = outputs("stress/contact").of("stress")
 
 RATE = 0.05
 STRESS = Watched("stress", "stress/contact", True, 35)
@@ -81,14 +86,14 @@ def grains_move_as_without(ranks):
 
 def in_formulas(ranks):
     """A variable by its name, in a condition, and through another variable."""
-    lines = ["variable ratio equal c_stress[27]*2", "variable twice equal v_ratio+c_loss[1]", "run 6",
+    lines = [f"variable ratio equal {C_STRESS['mu_eff']}*2", f"variable twice equal v_ratio+{C_LOSS['P_n']}", "run 6",
              'print "ASKED $(step) twice $(v_twice)"', 'print "ratio ${ratio}"',
              'if "$(c_fabric[22]) > 10" then "print \'ASKED 6 many 1\'"']
     result = run(deck(*lines, computes=SEEN), ranks)
     found = printed(result, ["twice", "many"])
     expected, _ = reference([6], SEEN, ranks)
     names = columns(SEEN)
-    ratio, loss = (expected[0][-1][names.index(q)] for q in ("c_stress[27]", "c_loss[1]"))
+    ratio, loss = (expected[0][-1][names.index(q)] for q in (C_STRESS["mu_eff"], C_LOSS["P_n"]))
     require_close(found[6][0], [2.0 * ratio + loss, 1.0], 1e-14, "formulas, whose parts the host writes with 15 digits")
     named = float(re.search(r"^ratio (\S+)$", result.file("log.liggghts").read_text(), re.M).group(1))
     require_close(named, 2.0 * ratio, 1e-9, "ratio, which the host writes with ten digits")
@@ -149,10 +154,10 @@ def stays_until_the_next_run(ranks):
 
 def grains_change_between_runs(ranks):
     """Numbers of single grains: not of a step that nobody asked for, and not when grains are others than then."""
-    grain, dumped = "compute grain all contact/grain", "write_dump all custom grains.dump id c_grain[1]"
+    grain, dumped = "compute grain all contact/grain", f"write_dump all custom grains.dump id {C_GRAIN['N_c']}"
     asked = [*thermo(5, "c_most"), "run 5"]
-    most = "compute most all reduce max c_grain[1]"
-    within = run(deck(grain, "dump d all custom 5 grains.dump id c_grain[1]", "run 5"), ranks).dump("grains.dump")[-1]
+    most = f"compute most all reduce max {C_GRAIN['N_c']}"
+    within = run(deck(grain, f"dump d all custom 5 grains.dump id {C_GRAIN['N_c']}", "run 5"), ranks).dump("grains.dump")[-1]
     after = run(deck(grain, most, *asked, dumped), ranks).dump("grains.dump")[-1]
     for found, expected in zip(*(np.array(list(s[1].values()))[:, np.argsort(s[1]["id"])] for s in (after, within))):
         require_equal(found, expected, "asked within the run, and once more after it")

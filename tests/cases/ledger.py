@@ -6,16 +6,21 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_equal, require_same_snapshots
+from columns import outputs
 from collisions import kinetic_energy
 from deck import Deck, Material, dump_grains, number, rayleigh_time, shear, thermo
 from oracle.ledger import ENTRIES, STORES
 from packing import Grain, Packing, dense_packing, tilted
 from run import run
 
+C_E = outputs("energy/ledger").of("e")
+C_LOSS = outputs("dissipation").of("loss")
+C_S = outputs("stress/contact").of("s")
+
 WORKS, LOSSES, STORED = ENTRIES[:4], ENTRIES[4:], STORES
 NAMES = (*ENTRIES, *STORED, "residual", "relative")
-TOTALS = [f"c_e[{k}]" for k in range(1, 20)]
-RATES = [f"c_e[{k}]" for k in range(20, 38)]
+TOTALS = C_E.vector()[:19]
+RATES = C_E.vector()[19:]
 LEDGER = "compute e all energy/ledger"
 UNDAMPED = "tangential_damping off"
 # Every identity holds to rounding. Energies are sums of up to 1e3 grains and contacts over up to 1e4 steps, with velocities 10 times the
@@ -115,7 +120,7 @@ def known_collision(ranks):
     start = packing.grains[0].mass() * 0.25
     require_close([a["D_t"], a["G_k"], a["G_p"], a["G_open"], a["K_rot"], a["W_other"]], np.zeros(6), 1e-13, "nothing but damping", start)
     require_close(account(table, 0)["K_tr"], start, 1e-14, "kinetic energy before")
-    require(table["c_e[14]"].max() > 0.5 * start, "the elastic energy does not take the kinetic one")
+    require(table[C_E["U_n"]].max() > 0.5 * start, "the elastic energy does not take the kinetic one")
 
 
 def models(choices):
@@ -148,8 +153,8 @@ def packing_closes(packing, tolerance=ROUNDING, **choices):
     def case(ranks):
         table = run(sheared(packing, **choices), ranks).thermo()[0]
         for row in range(1, len(table["step"])):
-            require(abs(table["c_e[18]"][row]) <= tolerance * turnover(account(table, row)),
-                    f"step {table['step'][row]}: residual {table['c_e[18]'][row]:.3e}")
+            require(abs(table[C_E["residual"]][row]) <= tolerance * turnover(account(table, row)),
+                    f"step {table['step'][row]}: residual {table[C_E['residual']][row]:.3e}")
         require_closed(account(table), tolerance)
     return case
 
@@ -210,10 +215,10 @@ def reopening(surface, factor):
                                 extra=UNDAMPED, contact_distance_factor=factor))
         turn = [] if surface == "default" else ["unfix integrate", "fix integrate all nve/spheroid"]
         deck.body = [*turn, "neighbor 3.0 bin", "group left id 1", "group right id 2", "fix push left addforce 20000 0 0",
-                     "fix pull right addforce -20000 0 0", LEDGER, "compute s all stress/contact", *thermo(1, *TOTALS, "c_s[30]"), "run 400"]
+                     "fix pull right addforce -20000 0 0", LEDGER, "compute s all stress/contact", *thermo(1, *TOTALS, C_S["N_c"]), "run 400"]
         result = run(deck, ranks)
         table = result.thermo()[0]
-        openings = (np.diff(table["c_s[30]"]) < 0).sum()
+        openings = (np.diff(table[C_S["N_c"]]) < 0).sum()
         require(openings >= 3, f"only {openings} openings")
         builds = int(next(line for line in result.output.splitlines() if line.startswith("Neighbor list builds")).split()[-1])
         require(builds == 0, f"{builds} neighbour lists were built")
@@ -266,7 +271,7 @@ def restart_before_the_first_step(ranks):
 def asked_within_a_step(ranks):
     """A force that is a ten-millionth of W_other, asked for in the middle of the step, as the step before left it: it stays what it is."""
     deck = sheared(dense_packing(atom_style="sphere", speed=0.3), 0.01)
-    deck.body.insert(-4, "variable push equal c_e[4]*1e-7")
+    deck.body.insert(-4, f"variable push equal {C_E['W_other']}*1e-7")
     deck.body[-4:-4] = ["fix push all addforce v_push 0 0"]
     a = account(run(deck, ranks).thermo()[0])
     require_closed(a)
@@ -290,8 +295,8 @@ def elastic_energy(choices):
         deck = with_ledger(Deck(packing, timestep=0.01 * rayleigh_time(), surface="ellipsoid", extra=choices.pop("extra", UNDAMPED), **choices))
         deck.body = ["unfix integrate", "fix integrate all nve/spheroid", LEDGER, *thermo(1, *TOTALS, RATES[12]), "run 2500"]
         table = run(deck, ranks).thermo()[0]
-        largest, step = table["c_e[14]"].max(), np.abs(table[RATES[12]]).max() * deck.dt()
-        changes = np.abs(np.diff(table["c_e[14]"])).max()
+        largest, step = table[C_E["U_n"]].max(), np.abs(table[RATES[12]]).max() * deck.dt()
+        changes = np.abs(np.diff(table[C_E["U_n"]])).max()
         print(f"U_n up to {largest:.4g}, changes in a step up to {changes:.3g}, G_dt in a step up to {step:.3g}")
         require(changes > 0.01 * largest > 0.0, "no collision, or too fine")
         require(step <= 1e-3 * largest, f"G_dt is {step} in a step, of an energy of {largest}")
@@ -366,9 +371,9 @@ def undisturbed(ranks):
 def rates_add_up(ranks):
     """Totals are the sums of rates; compute dissipation mode ledger tells the same D_n, D_t, D_damp; the scalar is the relative residual."""
     deck = sheared(dense_packing(1.5, speed=0.3), 0.02, extra="", motion=press(2e5))
-    loss = [f"c_loss[{k}]" for k in range(1, 6)]
+    loss = C_LOSS.vector()
     deck.body = [*deck.body[:-3], "compute loss all dissipation mode ledger", "compute s all stress/contact",
-                 *thermo(1, *TOTALS, *RATES, "c_e", *loss, "c_loss", "c_s[30]"), "run 300"]
+                 *thermo(1, *TOTALS, *RATES, "c_e", *loss, "c_loss", C_S["N_c"]), "run 300"]
     table, dt = run(deck, ranks).thermo()[0], deck.dt()
     a = account(table)
     require_closed(a)
@@ -376,20 +381,20 @@ def rates_add_up(ranks):
     for name, total, rate in zip(NAMES, TOTALS, RATES):
         change = table[total] - table[total][0]
         require_close(np.cumsum(table[rate][1:]) * dt, change[1:], 1e-10, f"rate of {name}", turnover(a))
-    require_close(table["c_loss[1]"][1:], table[RATES[4]][1:], 1e-13, "P_n", np.abs(table[RATES[4]]).max())
-    require_close(table["c_loss[2]"][1:], table[RATES[5]][1:], 1e-13, "P_t", np.abs(table[RATES[4]]).max())
-    require_close(table["c_loss[3]"][1:], table[RATES[6]][1:], 1e-13, "P_t,damp", np.abs(table[RATES[4]]).max())
-    require_close(table["c_loss"], table["c_loss[1]"] + table["c_loss[2]"] + table["c_loss[3]"], 1e-13, "sum", np.abs(table["c_loss"]).max())
-    require_equal(table["c_loss[4]"], table["c_s[30]"], "contacts")
-    require_equal(table["c_e"], np.abs(table["c_e[19]"]), "scalar")
+    require_close(table[C_LOSS["P_n"]][1:], table[RATES[4]][1:], 1e-13, "P_n", np.abs(table[RATES[4]]).max())
+    require_close(table[C_LOSS["P_t"]][1:], table[RATES[5]][1:], 1e-13, "P_t", np.abs(table[RATES[4]]).max())
+    require_close(table[C_LOSS["P_t_damp"]][1:], table[RATES[6]][1:], 1e-13, "P_t,damp", np.abs(table[RATES[4]]).max())
+    require_close(table["c_loss"], table[C_LOSS["P_n"]] + table[C_LOSS["P_t"]] + table[C_LOSS["P_t_damp"]], 1e-13, "sum", np.abs(table["c_loss"]).max())
+    require_equal(table[C_LOSS["N_c"]], table[C_S["N_c"]], "contacts")
+    require_equal(table["c_e"], np.abs(table[C_E["residual_relative"]]), "scalar")
 
 
 def step_mode_is_the_trapezium(ranks):
     """compute dissipation mode step tells F.v at the ends of steps; D_n of the ledger is its trapezium rule, up to terms of the ends."""
     deck = sheared(dense_packing(atom_style="sphere", speed=0.4), 0.05)
-    deck.body = [*deck.body[:-3], "compute loss all dissipation mode step", *thermo(1, *TOTALS, "c_loss[1]"), "run 500"]
+    deck.body = [*deck.body[:-3], "compute loss all dissipation mode step", *thermo(1, *TOTALS, C_LOSS["P_n"]), "run 500"]
     table, dt = run(deck, ranks).thermo()[0], deck.dt()
-    power = table["c_loss[1]"][200:]
+    power = table[C_LOSS["P_n"]][200:]
     rule = dt * (power.sum() - 0.5 * (power[0] + power[-1]))
     found = account(table)["D_n"] - account(table, 200)["D_n"]
     # Each end differs by dt^2/4m (F_damping . F): some percents of one step's loss, of 300 steps.

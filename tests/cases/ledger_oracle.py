@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from case import main, require, require_close
+from columns import outputs
 from deck import Deck, Material, box_columns, dump_grains, shear, thermo
 from oracle.ledger import ENTRIES, STORES, Snapshot, book
 from oracle.state import box_of, grains_of
@@ -12,10 +13,13 @@ from packing import dense_packing, tilted
 from sphere_law import law_of
 from run import run
 
+C_LEDGER = outputs("energy/ledger").of("ledger")
+F_PRESS = outputs("press/strain").of("press")
+
 STEPS = 60
 COLUMNS = (*ENTRIES, *STORES)
 RATES = [f"c_ledger[{k}]" for k in range(20, 20 + len(ENTRIES))]
-STORED = [f"c_ledger[{k}]" for k in range(14, 18)]
+STORED = C_LEDGER.vector()[13:17]
 # Differences of energies of one step: rounding of the dumped state and of springs followed over all steps, as in sphere_law.py.
 TOLERANCE = 1e-8
 
@@ -23,7 +27,7 @@ TOLERANCE = 1e-8
 def follows(deck, motion, box_at, frame_at):
     """`box_at(table, step)`: the box that the evaluation of a step saw; `frame_at`: gradient and centre of the step after it."""
     deck = replace(deck, extra=f"ledger on {deck.extra}".strip())
-    columns = [*box_columns(), *RATES, *STORED, "c_ledger[18]", "c_ledger[6]", *(["f_press[5]"] if "press" in motion[0] else [])]
+    columns = [*box_columns(), *RATES, *STORED, C_LEDGER["residual"], C_LEDGER["D_t"], *([F_PRESS["L_rate"]] if "press" in motion[0] else [])]
     deck.body = [*motion, "compute ledger all energy/ledger", *dump_grains(deck.packing, 1), *thermo(1, *columns), f"run {STEPS}"]
 
     def case(ranks):
@@ -41,7 +45,7 @@ def follows(deck, motion, box_at, frame_at):
             stored = {**now.stored(dt), "K_tr": end}
             check_step(table, step + 1, moved, jump, stored, dt, largest)
         require(largest["D_n"] > 0.0 and (deck.tangential != "history" or largest["G_open"] > 0.0), "nothing happened")
-        residual = np.abs(table["c_ledger[18]"]).max()
+        residual = np.abs(table[C_LEDGER["residual"]]).max()
         require(residual <= 1e-12 * sum(stored.values()), f"the residual is {residual}")
         for name in COLUMNS:
             print(f"{name}: largest {largest[name]:.3e}")
@@ -78,10 +82,10 @@ def under_control(rate=0.03, rest="gain 2e-6 maxrate 10 limit 0.05", **choices):
 
     def box_at(table, step):
         before = max(step - 1, 0)
-        return box_of(table, before, rate, table["f_press[5]"][before])
+        return box_of(table, before, rate, table[F_PRESS["L_rate"]][before])
 
     def frame_at(table, step):
-        box = box_of(table, step, rate, table["f_press[5]"][step])
+        box = box_of(table, step, rate, table[F_PRESS["L_rate"]][step])
         return box.gradient, box.centre
 
     motion = [f"fix press all press/strain axis y target 3e5 shear xy rate {rate} every 1e-3 {rest}"]

@@ -6,10 +6,13 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_equal
+from columns import outputs
 from deck import Deck, number, thermo
 from packing import DENSITY, Grain, Packing, dense_packing, numbers, tilted
 from run import run
 from watch import Flow, Watched, deforming, watch
+
+C_MOVED = outputs("displacement/shear").of("moved")
 
 FLUCTUATION = Watched("moving", "fluctuation", True, 14, (10, 5))
 MOVED = Watched("moved", "displacement/shear strain v_strain", True, 8)
@@ -195,8 +198,8 @@ def later_grains(ranks):
                             "velocity all set 0.5 0 0 units box", "run 5", f"create_atoms 1 single {numbers(x)} units box",
                             f"set atom {len(packing.grains)} diameter 2 density 1000 vx 9", "run 5"])
     table = run(deck, ranks).thermo()[-1]
-    require_equal(table["c_moved[8]"], np.full(6, len(lone.grains)), "grains tracked")
-    require_close(table["c_moved[2]"][-1], (0.5 * 10 * deck.dt()) ** 2, 1e-10, "<d_x^2>")
+    require_equal(table[C_MOVED["N"]], np.full(6, len(lone.grains)), "grains tracked")
+    require_close(table[C_MOVED["d2_x"]][-1], (0.5 * 10 * deck.dt()) ** 2, 1e-10, "<d_x^2>")
 
 
 def replaced_grains(ranks):
@@ -208,8 +211,8 @@ def replaced_grains(ranks):
                                f"create_atoms 1 single {numbers(packing.grains[-1].position)} units box",
                                f"set atom {last} diameter 0.2 density 1000 vx 9", "run 5"])
     table = run(deck, ranks).thermo()[-1]
-    require_equal(table["c_moved[8]"][1:], np.full(5, last - 1), "grains tracked")
-    require_close(table["c_moved[2]"][-1], (0.5 * 10 * deck.dt()) ** 2, 1e-10, "<d_x^2>")
+    require_equal(table[C_MOVED["N"]][1:], np.full(5, last - 1), "grains tracked")
+    require_close(table[C_MOVED["d2_x"]][-1], (0.5 * 10 * deck.dt()) ** 2, 1e-10, "<d_x^2>")
 
 
 def rarely_asked(rate):

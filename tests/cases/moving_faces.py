@@ -5,12 +5,18 @@ from dataclasses import replace
 import numpy as np
 
 from case import main, require, require_close, require_same_snapshots
+from columns import outputs
 from deck import Deck, dump_grains, number, thermo
 from packing import Grain, Packing, dense_packing
 from refusal import require_refused
 from run import run
 
-MOVED = [f"c_moved[{k}]" for k in range(1, 9)]
+C_LAYERED = outputs("fluctuation").of("layered")
+C_MOVED = outputs("displacement/shear").of("moved")
+C_PROFILE = outputs("fluctuation").of("profile")
+C_SMECTIC = outputs("layering").of("smectic")
+
+MOVED = C_MOVED.vector()
 RATE, DT = 0.2, 1e-3
 
 
@@ -47,18 +53,18 @@ def follows_the_flyer(boundary, group="all"):
 def top_layer(ranks):
     """Between neighbour lists the flyer is above the face that will follow it: it belongs to the highest of four layers,
     not to the lowest."""
-    told = [f"c_profile[{k}][2]" for k in range(1, 5)] + ["c_smectic[4]", "c_layered[3]"]
+    told = [f"c_profile[{k}][2]" for k in range(1, 5)] + [C_SMECTIC["N"], C_LAYERED["dv_z"]]
     lines = ["compute profile all fluctuation plane xz layers 4\ncompute smectic all layering axis z layers 4\n"
              "compute layered all fluctuation plane xz flow layers 4 layers 4"]
     part = measured(scene(boundary="p p s"), ranks, *lines, "run 150", every=10, told=told)[0]
     # Four at the bottom, one at the top, four at 5 of 1 to 6 or more: in layers 3 or 4 (there with the flyer).
-    require((part["c_profile[1][2]"] == 4.0).all(), f"grains in the lowest layer: {part['c_profile[1][2]']}")
-    require((part["c_profile[4][2]"] >= 1.0).all(), f"grains in the highest layer: {part['c_profile[4][2]']}")
-    require((part["c_smectic[4]"] == 9.0).all(), "layering lost grains")
+    require((part[C_PROFILE[1, "N"]] == 4.0).all(), f"grains in the lowest layer: {part[C_PROFILE[1, 'N']]}")
+    require((part[C_PROFILE[4, "N"]] >= 1.0).all(), f"grains in the highest layer: {part[C_PROFILE[4, 'N']]}")
+    require((part[C_SMECTIC["N"]] == 9.0).all(), "layering lost grains")
     # With four still grains in the layer of the flyer: dv = 1 - 1/5 and 4 x -1/5; alone it is its layer's mean.
-    together = part["c_profile[4][2]"] == 5.0
+    together = part[C_PROFILE[4, "N"]] == 5.0
     expected = np.where(together, np.sqrt((0.8 ** 2 + 4 * 0.2 ** 2) / 9.0), 0.0)
-    require_close(part["c_layered[3]"], expected, 1e-12, "rms dv_z against layers", 1.0)
+    require_close(part[C_LAYERED["dv_z"]], expected, 1e-12, "rms dv_z against layers", 1.0)
 
 
 def in_a_shear_flow(ranks):
@@ -69,8 +75,8 @@ def in_a_shear_flow(ranks):
     deck = replace(deck, packing=replace(deck.packing, grains=grains))
     part = measured(deck, ranks, f"fix flow all deform 1 xy erate {number(RATE)} remap v", "run 1500")[0]
     t = np.arange(0, 1501, 100) * DT
-    require_close(part["c_moved[2]"], 0.0 * t, 1e-20, "<d_x^2>", 1.0)
-    require_close(part["c_moved[4]"], t ** 2 / 9.0, 1e-12, "<d_z^2>", 1.0)
+    require_close(part[C_MOVED["d2_x"]], 0.0 * t, 1e-20, "<d_x^2>", 1.0)
+    require_close(part[C_MOVED["d2_z"]], t ** 2 / 9.0, 1e-12, "<d_z^2>", 1.0)
 
 
 def change_box(words, boundary="p p f", **choices):

@@ -5,9 +5,12 @@ import math
 import numpy as np
 
 from case import main, require_close
+from columns import outputs
 from deck import Deck, thermo
 from packing import Grain, Packing
 from run import run
+
+C_N = outputs("nematic").of("n")
 
 ROOT = math.sqrt(0.5)
 ALONG_Z, ALONG_X, ALONG_Y = (1, 0, 0, 0), (ROOT, 0, ROOT, 0), (ROOT, -ROOT, 0, 0)
@@ -24,7 +27,7 @@ def turned(angle, shape=PROLATE):
 def order(grains, ranks, omega=(0.0, 0.0, 0.0)):
     placed = [Grain((5.0 * k + 2.5, 5.0, 5.0), shape, quaternion, omega=omega) for k, (shape, quaternion) in enumerate(grains)]
     packing = Packing((max(5.0 * len(placed), 10.0), 10.0, 10.0), placed)
-    vector = [f"c_n[{k}]" for k in range(1, 21)]
+    vector = C_N.vector()
     deck = Deck(packing, body=["compute n all nematic", *thermo(1, "c_n", *vector), "run 0"])
     table = run(deck, ranks).thermo()[0]
     return table["c_n"][0], np.array([table[q][0] for q in vector])

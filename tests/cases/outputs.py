@@ -9,7 +9,7 @@ import re
 import numpy as np
 
 from case import main, require, require_close, require_equal
-from columns import columns
+from columns import outputs
 from deck import Deck, shear, thermo
 from make_columns import COMMANDS, FILE, kind_of, made, tables
 from packing import dense_packing
@@ -30,7 +30,7 @@ def deck(*lines, **choices):
 
 def pairs(ID, style, names):
     """(v_ID_name, c_ID[k]) of each."""
-    return [(f"v_{ID}_{name}", columns(style).word(ID, name)) for name in names]
+    return [(f"v_{ID}_{name}", outputs(style).word(ID, name)) for name in names]
 
 
 def require_same(table, both, what):
@@ -43,7 +43,7 @@ def everything(norm="no"):
     lines, both = ["variable strain equal 0.02*step*dt"], []
     for k, (style, keywords) in enumerate(COMMANDS.items()):
         lines += [f"{kind_of(style)} it{k} all {style} {keywords}", f"outputs it{k}"]
-        own = columns(style)
+        own = outputs(style)
         names = own.names("vector") + [one["name"] for one in own.outputs("scalar") if one["name"] not in own.names("vector")]
         both += [(f"v_it{k}_{name}", own.word(f"it{k}", name), style, name) for name in names]
     words = [word for named, counted, *_ in both for word in (named, counted)]
@@ -70,7 +70,7 @@ def norm(ranks):
     divided = run(text, ranks).thermo()[-1]
     grains = len(PACKING.grains)
     for _, counted, style, name in both:
-        own = columns(style)
+        own = outputs(style)
         one = next(o for o in own.outputs("vector") + own.outputs("scalar") if o["name"] == name)
         by = grains if one["extensive"] and not one["whole"] and kind_of(style) == "compute" else 1
         require_equal(divided[counted] * 1.0, plain[counted] / by, f"{style} {name}")
@@ -121,7 +121,7 @@ def pages(ranks):
     """The tables of the pages name what the program names, with its units, all of it."""
     bad = []
     for style in COMMANDS:
-        own = columns(style)
+        own = outputs(style)
         known = {(kind, one["index"], one["name"], one["unit"], extent(one))
                  for kind in ("scalar", "vector", "array", "per grain", "local") for one in own.outputs(kind)}
         found = set(rows_of_page(page_of(style)))
@@ -133,7 +133,7 @@ def pages(ranks):
 def declared_in_words(ranks):
     """Every output has a name that a variable may have, a unit and a meaning."""
     for style in COMMANDS:
-        own = columns(style)
+        own = outputs(style)
         for kind in ("scalar", "vector", "array", "per grain", "local"):
             for one in own.outputs(kind):
                 require(re.fullmatch(r"\w+", one["name"]) and one["unit"] and len(one["meaning"]) > 1, f"{style}: {one}")
@@ -144,7 +144,7 @@ def declared_in_words(ranks):
 def read_everywhere(ranks):
     """thermo, fix ave/time (to its six digits), print, other variables and ${} read the names; headings and headers carry them."""
     both = pairs("stress", "stress/contact", ASKED)
-    p = columns("stress/contact").word("stress", "P")
+    p = outputs("stress/contact").word("stress", "P")
     result = run(deck(*STRESS, "variable twice equal 2*v_stress_P", f"variable counted equal 2*{p}",
                       "fix named all ave/time 5 1 5 v_stress_P v_stress_mu_eff v_twice file named.txt",
                       f"fix counted all ave/time 5 1 5 {p} {both[1][1]} v_counted file counted.txt",
@@ -171,8 +171,8 @@ def announced(ranks):
             *thermo(4, "v_stress_P", "v_fabric_N_c"), "run 21"]
     result = run(deck(*body), ranks)
     require(list(result.thermo()[-1]["step"]) == [0, 4, 8, 12, 16, 20, 21], "steps of thermo")
-    counted = [line.replace("v_power_P_n", columns("dissipation").word("power", "P_n"))
-               .replace("v_fabric_deviator", columns("fabric").word("fabric", "deviator")) for line in body]
+    counted = [line.replace("v_power_P_n", outputs("dissipation").word("power", "P_n"))
+               .replace("v_fabric_deviator", outputs("fabric").word("fabric", "deviator")) for line in body]
     other = run(deck(*counted), ranks)
     for (name, one), (_, another) in zip(result.averages("named.txt").items(), other.averages("named.txt").items()):
         require_equal(one, another, name)
@@ -221,9 +221,9 @@ def prefixes(ranks):
                       "outputs power prefix _", *thermo(1, "v_s1_P", "v_stress_P", "c_stress", "v___P_total", "c_power"), "run 2"), ranks)
     require_same(result.thermo()[-1], [("v_s1_P", "c_stress"), ("v_stress_P", "c_stress"), ("v___P_total", "c_power")], "prefix")
     press = Deck(PACKING, body=["fix press all press/strain axis y target 1e5 shear xy rate 0.05 every 1e-4", "outputs press prefix box",
-                                *thermo(1, "v_box_P_mean", "f_press", "v_box_L", columns("press/strain").word("press", "L")), "run 3"])
+                                *thermo(1, "v_box_P_mean", "f_press", "v_box_L", outputs("press/strain").word("press", "L")), "run 3"])
     require_same(run(press, ranks).thermo()[-1],
-                 [("v_box_P_mean", "f_press"), ("v_box_L", columns("press/strain").word("press", "L"))], "fix")
+                 [("v_box_P_mean", "f_press"), ("v_box_L", outputs("press/strain").word("press", "L"))], "fix")
 
 
 def chosen(ranks):
@@ -247,12 +247,12 @@ def listed_only(ranks):
     require("array | 2 | N_c | - | extensive, whole | c_beta[i][2] |" in text, "no line of N_c")
     require("array: i from 1 to 12, one row per bin of beta" in text, "no word about rows")
     require("v_beta_" not in text, "a variable of a column")
-    require(columns("contact/direction").word("beta", "N_c", 7) == "c_beta[7][2]", "columns.py")
+    require(outputs("contact/direction").word("beta", "N_c", 7) == "c_beta[7][2]", "columns.py")
 
 
 def users_own(ranks):
     """A variable that reads the same already is as good."""
-    p = columns("stress/contact").word("stress", "P")
+    p = outputs("stress/contact").word("stress", "P")
     result = run(deck("compute stress all stress/contact", f"variable stress_P equal {p}", "outputs stress",
                       *thermo(1, "v_stress_P", p), "run 1"), ranks)
     require_same(result.thermo()[-1], [("v_stress_P", p)], "own")

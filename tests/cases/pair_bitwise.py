@@ -3,9 +3,12 @@
 from dataclasses import replace
 
 from case import main, require, require_same_snapshots
+from columns import outputs
 from deck import Deck, Material, dump_grains, shear, thermo
 from packing import dense_packing
 from run import run
+
+C_STRESS = outputs("stress/contact").of("stress")
 
 STEPS = 2000
 STRAIN = 0.7  # the box flips once, at 0.5
@@ -23,10 +26,10 @@ def requires_same_trajectory(deck):
         plain = run(replace(deck, pair="gran", body=[*deck.body, f"run {STEPS}"]), ranks).dump("grains.dump")
         idle = run(replace(deck, body=[*deck.body, f"run {STEPS}"]), ranks).dump("grains.dump")
         watched = run(replace(deck, body=[*deck.body, "compute stress all stress/contact", "compute loss all dissipation",
-                                          *thermo(1, "c_stress", "c_stress[30]", "c_loss"), f"run {STEPS}"]), ranks)
+                                          *thermo(1, "c_stress", C_STRESS["N_c"], "c_loss"), f"run {STEPS}"]), ranks)
         require_same_snapshots(idle, plain, "gran/insitu against gran")
         require_same_snapshots(watched.dump("grains.dump"), plain, "gran/insitu, observed each step, against gran")
-        contacts = watched.thermo()[0]["c_stress[30]"]
+        contacts = watched.thermo()[0][C_STRESS["N_c"]]
         require(contacts.mean() >= 2 * grains, f"too few contacts to prove anything: {contacts.mean()} of {grains} grains")
     return case
 

@@ -7,9 +7,12 @@ import math
 import numpy as np
 
 from case import main, require, require_close
+from columns import outputs
 from deck import POISSON, YOUNG, Deck, thermo
 from packing import Grain, Packing
 from run import run
+
+F_PRESS = outputs("press/strain").of("press")
 
 WIDTH, LENGTH, DISTANCE, STEPS = 6.0, 8.0, 6.02, 600
 EVERY, RESTITUTION, BETA = 5, 0.5, 0.5
@@ -77,13 +80,13 @@ def follows_by_hand(gain, change, law="hertz"):
         start = Contact(law, LENGTH, 0.0, grains[0].mass())
         target = change * start.pressure
         deck.body = ["unfix integrate", f"fix press all press/strain axis y target {target!r} every/step {EVERY} gain {gain} "
-                     "limit 0.5 momentum no", *thermo(1, "f_press", "f_press[4]", "f_press[5]", "f_press[7]"), f"run {STEPS}"]
+                     "limit 0.5 momentum no", *thermo(1, "f_press", F_PRESS["L"], F_PRESS["L_rate"], F_PRESS["clipped"]), f"run {STEPS}"]
         table = run(deck, ranks).thermo()[0]
         lengths, rates, pressures = by_hand(law, target, gain, grains[0].mass(), deck.dt())
-        require(table["f_press[7]"][-1] == 0.0, "an input was clipped: not the recursion by hand")
+        require(table[F_PRESS["clipped"]][-1] == 0.0, "an input was clipped: not the recursion by hand")
         # Overlaps are differences of lengths 400 times as large.
-        require_close(table["f_press[4]"], lengths, 1e-12, "L")
-        require_close(table["f_press[5]"], rates, 1e-9, "dL/dt")
+        require_close(table[F_PRESS["L"]], lengths, 1e-12, "L")
+        require_close(table[F_PRESS["L_rate"]], rates, 1e-9, "dL/dt")
         require_close(table["f_press"], pressures, 1e-9, "averaged pressure")
         require_close(pressures[-1], target, 1e-3, "the recursion by hand ends at the target")
     return case

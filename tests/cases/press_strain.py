@@ -6,13 +6,16 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_same_snapshots
+from columns import outputs
 from deck import POISSON, YOUNG, Deck, box_columns, dump_grains, number, thermo
 from oracle.sphere_law import Law, contacts
 from oracle.state import box_of, grains_of
 from packing import dense_packing, tilted
 from run import run
 
-STATE = ["f_press", *[f"f_press[{k}]" for k in range(1, 9)]]
+F_PRESS = outputs("press/strain").of("press")
+
+STATE = ["f_press", *F_PRESS.vector()]
 STRAIN, TARGET, NOW, LENGTH, VELOCITY, INPUTS, CLIPPED, ERROR = STATE[1:]
 
 

@@ -4,9 +4,12 @@ from dataclasses import replace
 import re
 
 from case import main, require, require_same_snapshots
+from columns import outputs
 from deck import Deck, Material, dump_grains, rayleigh_time, shear, thermo
 from packing import dense_packing
 from run import run
+
+C_F = outputs("fluctuation").of("f")
 
 SPHERES = dense_packing(atom_style="sphere", speed=0.05)
 TIME_STEP = "pair_style gran/insitu: the time step"
@@ -59,7 +62,7 @@ def quiet(ranks):
     dense = Deck(dense_packing(atom_style="sphere", overlap=-0.05, speed=0.02), timestep=0.05 * rayleigh_time(), body=body)
     gas = dense_packing(atom_style="sphere", overlap=-0.3, speed=0.0)
     half = 0.5 * 0.05 * gas.edges[1]
-    body = [shear(0.05), f"velocity all ramp vx {-half} {half} y 0 {gas.edges[1]} units box", "compute f all fluctuation", *thermo(1, "c_f[13]"),
+    body = [shear(0.05), f"velocity all ramp vx {-half} {half} y 0 {gas.edges[1]} units box", "compute f all fluctuation", *thermo(1, C_F["deviation"]),
             "run 15"]
     for deck in (dense, Deck(gas, timestep=0.02 * rayleigh_time(), body=body)):
         output = run(deck, ranks).output
@@ -91,7 +94,7 @@ def unstable_from_the_start(ranks):
 
 def profile(ranks):
     """Grains at rest in a box that shears: the flow is not the box's."""
-    body = [shear(0.05), "velocity all set 0 0 0", "compute f all fluctuation", *thermo(1, "c_f[13]"), "run 15"]
+    body = [shear(0.05), "velocity all set 0 0 0", "compute f all fluctuation", *thermo(1, C_F["deviation"]), "run 15"]
     line = said(Deck(dense_packing(atom_style="sphere", overlap=-0.3, speed=0.0), timestep=0.02 * rayleigh_time(), body=body), OTHERS[3], ranks)
     number, limit = (float(x) for x in re.search(r"flow by (\S+) of rate x L \(rms over layers; limit ([^;]+);", line).groups())
     require(0.25 < number < 0.33 and 0.1 <= limit < 0.2, f"the numbers are {number}, {limit}")  # 1/(2 sqrt 3) = 0.289 for even layers; twice the noise of 10 layers of 100 grains

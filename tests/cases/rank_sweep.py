@@ -7,10 +7,15 @@ import numpy as np
 
 from case import main, require
 from catalogue import DISPLACEMENT, MEMORY
+from columns import outputs
 from deck import Deck, thermo
 from everything import LEDGER, RATE, Differences, Questions, differences, press
 from packing import dense_packing, tilted
 from run import run
+
+C_MEMORY = outputs("velocity/memory").of("memory")
+C_STRESS = outputs("stress/contact").of("stress")
+F_PRESS = outputs("press/strain").of("press")
 
 # Sums in another order. What a few sums of 1e3 terms lose is 1e-14 of their scale; angles and eigenvectors multiply that by scale over gap, and
 # three steps of a stiff packing (forces answer to positions by E a/F = 1e3 and more) do the same to single forces.
@@ -67,9 +72,9 @@ def sweep(start, grids, table=None):
         questions, on = state_of(start)
         one = on("1 1 1")
         told = one.thermo()[-1]
-        require(told["c_stress[30]"].min() > 100 and told["c_stress[32]"].max() > 0.0, "too few contacts, or none that slides")
-        require(told["c_memory[3]"][-1] > 4 and told["f_press[6]"][-1] > 3, "nothing was remembered")
-        require(np.ptp(told["f_press[5]"]) > 0.0 and np.ptp(told["f_press[7]"]) == 0.0, "no input that is not clipped")
+        require(told[C_STRESS["N_c"]].min() > 100 and told[C_STRESS["sliding"]].max() > 0.0, "too few contacts, or none that slides")
+        require(told[C_MEMORY["samples"]][-1] > 4 and told[F_PRESS["inputs"]][-1] > 3, "nothing was remembered")
+        require(np.ptp(told[F_PRESS["L_rate"]]) > 0.0 and np.ptp(told[F_PRESS["clipped"]]) == 0.0, "no input that is not clipped")
         require((np.diff(told["xy"]).min() < 0.0) == start.flips, f"tilts {told['xy']}: the box was to turn back: {start.flips}")
         worst = Differences()
         for grid in grids:

@@ -5,9 +5,12 @@ from dataclasses import replace
 import numpy as np
 
 from case import main, require, require_close
+from columns import outputs
 from deck import Deck, shear, thermo
 from packing import dense_packing, in_the_open
 from run import run
+
+C_S = outputs("stress/contact").of("s")
 
 # Sums in another order; for non-spheres the host's solver, stopped at about 1e-7, sees a contact from one side or the other.
 SUMS, SOLVER = 1e-10, 2e-6
@@ -76,7 +79,7 @@ def stress_atom(deck):
     """The host's own tally, sum of stress/atom over the volume. Its xy entry is r_x F_y: our total yx."""
     sums = [f"compute sum{k} all reduce sum c_atoms[{k}]" for k in range(1, 7)]
     body = [shear(0.02), "compute s all stress/contact", "compute atoms all stress/atom pair", *sums,
-            *thermo(50, "vol", *[f"c_sum{k}" for k in range(1, 7)], *[f"c_s[{k}]" for k in range(1, 8)]), "run 300"]
+            *thermo(50, "vol", *[f"c_sum{k}" for k in range(1, 7)], *C_S.vector()[:7]), "run 300"]
 
     def case(ranks):
         table = run(replace(deck, body=body), ranks).thermo()[0]

@@ -9,14 +9,20 @@ import numpy as np
 
 from case import main, require, require_close, require_same_snapshots
 from catalogue import DISPLACEMENT, MEMORY, strain_lines
+from columns import outputs
 from deck import Deck, dump_grains, shear, thermo
 from packing import dense_packing, tilted
 from run import FLUSHED, Started, rows_so_far, run, wait_for_steps, wait_until
 from watch import Watched
 
+C_LEDGER = outputs("energy/ledger").of("ledger")
+C_MEMORY = outputs("velocity/memory").of("memory")
+C_STRESS = outputs("stress/contact").of("stress")
+F_PRESS = outputs("press/strain").of("press")
+
 RATE = 0.05
 PRESS = f"fix press all press/strain axis y target 2e5 shear xy rate {RATE} every 7e-4"
-STATE = ["f_press", *[f"f_press[{k}]" for k in range(1, 9)]]
+STATE = ["f_press", *F_PRESS.vector()]
 SPHERES, SPHEROIDS = dense_packing(atom_style="sphere"), dense_packing(1.5)
 RUNNING = Watched("running", "velocity/correlation bins 6 average running", True, 5, (6, 4))
 FILES = ("even.restart", "odd.restart")
@@ -29,7 +35,7 @@ def neutral(packing, surface="ellipsoid", **choices):
 def everything_with_state(deck):
     """Pressure control, what computes remember, the energy ledger: lines, and what thermo prints of them."""
     computes = [DISPLACEMENT, MEMORY, RUNNING]
-    told = [*STATE, *(q for w in computes for q in w.columns()), *[f"c_ledger[{k}]" for k in range(1, 38)]]
+    told = [*STATE, *(q for w in computes for q in w.columns()), *C_LEDGER.vector()]
     return [*strain_lines(RATE), PRESS, *(w.define("all") for w in computes), "compute ledger all energy/ledger"], told
 
 
@@ -79,7 +85,7 @@ def measures_go_on(ranks):
         # A scale for what is nearly nothing: the turnover of the ledger, the residual being its rounding.
         ledger = name.startswith("c_ledger[")
         scale = max(np.abs(expected[f"c_ledger[{k}]"]).max() for k in range(1, 18)) if ledger else max(1e-9, np.abs(values).max())
-        if name == "c_ledger[19]":
+        if name == C_LEDGER["residual_relative"]:
             scale = 1.0
         require_close(found[name], values[6:], 1e-9, name, scale)
 
@@ -107,7 +113,7 @@ def restart_is_exact(packing, surface="ellipsoid", extra="setup neutral ledger o
         through = run(replace(deck, body=[*lines, *thermo(1, *told), "run 45", "write_restart half.restart", *rest]), ranks)
         again = run(deck.restarted(through.folder / "half.restart", [*lines, *rest]), ranks)
         expected, found = through.thermo()[-1], again.thermo()[-1]
-        require(expected["c_memory[3]"][-1] > 5 and expected["f_press[6]"][-1] > 2, "nothing was measured")
+        require(expected[C_MEMORY["samples"]][-1] > 5 and expected[F_PRESS["inputs"]][-1] > 2, "nothing was measured")
         first = 0 if "neutral" in extra else 1  # by the host's custom the first row of a run tells of forces formed anew
         same_tables({k: v[first:] for k, v in found.items()}, {k: v[first:] for k, v in expected.items()}, 0.0, 1.0)
         require_same_snapshots(again.dump("grains.dump")[-1:], through.dump("grains.dump")[-1:], "restarted against write and go on")
@@ -163,7 +169,7 @@ def stopped_by(number, to_one_rank=False):
         deck = neutral(SPHERES)
         lines, told = everything_with_state(deck)
         body = [*lines, *thermo(10, *told), FLUSHED,
-                "fix means all ave/time 1 1 1 f_press[1] c_stress[1] file means.txt", f"run {steps} upto", "print 'went on'"]
+                f"fix means all ave/time 1 1 1 {F_PRESS['strain']} {C_STRESS['sxx']} file means.txt", f"run {steps} upto", "print 'went on'"]
         body.insert(len(lines), "compute stress all stress/contact")
         under_way = Started(replace(deck, body=body), ranks)
         wait_for_steps(under_way)

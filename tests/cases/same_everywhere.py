@@ -6,11 +6,17 @@ import numpy as np
 
 from case import main, require, require_close, require_equal, require_same_snapshots
 from catalogue import BLOCKS, DISPLACEMENT, MEMORY, everything, strain_lines
+from columns import outputs
 from deck import Deck, dump_grains, shear, thermo
 from packing import dense_packing, in_the_open, tilted
 from refusal import refusal
 from run import run
 from watch import grain_columns
+
+C_FABRIC = outputs("fabric").of("fabric")
+C_GRAIN = outputs("contact/grain").of("grain")
+C_MEMORY = outputs("velocity/memory").of("memory")
+C_MOVED = outputs("displacement/shear").of("moved")
 
 # Sums in another order; for non-spheres the host's solver, stopped at about 1e-7, sees a contact from one side or the other. Angles,
 # eigenvectors and single grains or bins, where nothing averages, amplify either.
@@ -89,7 +95,7 @@ def same_on(deck, tolerance, group_lines=(), group="all"):
     def case(ranks):
         state = state_of(deck)
         one, many = (measure(deck, state, n, group_lines, group) for n in (1, ranks))
-        require(one.thermo()[-1]["c_fabric[22]"][0] > 50, "the state has too few contacts")
+        require(one.thermo()[-1][C_FABRIC["N_c"]][0] > 50, "the state has too few contacts")
         same_results(many, one, deck.packing, tolerance)
     return case
 
@@ -139,11 +145,11 @@ def does_not_disturb(packing):
         silent = [shear(RATE), *dump_grains(packing, steps), f"run {steps}"]
         lines = measuring(deck, steps)
         talking = [line for line in lines if not line.startswith(("dump", "run"))]
-        talking += [*dump_grains(packing, steps), "dump asked all custom 1 asked.dump id c_grain[1]", f"run {steps}"]
+        talking += [*dump_grains(packing, steps), f"dump asked all custom 1 asked.dump id {C_GRAIN['N_c']}", f"run {steps}"]
         expected = run(replace(deck, body=silent), ranks)
         found = run(replace(deck, body=talking), ranks)
         require_same_snapshots(found.dump("grains.dump"), expected.dump("grains.dump"), "measured in every step against not at all")
-        require(found.thermo()[-1]["c_fabric[22]"].mean() > 100, "too few contacts to prove anything")
+        require(found.thermo()[-1][C_FABRIC["N_c"]].mean() > 100, "too few contacts to prove anything")
     return case
 
 
@@ -161,7 +167,7 @@ def restart_continues(packing, other_ranks=None):
         through = run(replace(deck, body=[*start, "run 60", "write_restart half.restart", "run 60"]), other_ranks or ranks)
         again = run(deck.restarted(through.folder / "half.restart", [*start, "run 60"]), ranks)
         expected, found = through.thermo()[-1], again.thermo()[-1]
-        require(expected["c_memory[3]"][-1] > 5 and expected["c_moved[2]"][-1] > 0.0, "nothing was measured")
+        require(expected[C_MEMORY["samples"]][-1] > 5 and expected[C_MOVED["d2_x"]][-1] > 0.0, "nothing was measured")
         for name, values in expected.items():
             # Other ranks add up in another order, through 60 chaotic steps.
             require_close(found[name], values, 1e-9 if other_ranks else 0.0, f"{name} after the restart", max(1e-9, np.abs(values).max()))

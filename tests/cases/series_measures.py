@@ -5,11 +5,14 @@ from dataclasses import replace
 import numpy as np
 
 from case import main, require, require_close
+from columns import outputs
 from deck import Deck, number
 from oracle import comparison_motion as comparison
 from oracle import correlation, motion
 from packing import dense_packing, tilted
 from watch import Flow, Watched, deforming, image_of, pressed, watch
+
+F_FLOW = outputs("press/strain").of("flow")
 
 # Sums of some hundred terms in double precision; squares of displacements of 1e-3 grains, differences of positions of 10.
 EXACT, DISPLACED = 1e-10, 1e-9
@@ -55,7 +58,7 @@ def agrees(deck, flow, plane="xy", group="all", check=None):
     """Strain comes from fix press/strain, or else from a variable."""
     axes = tuple("xyz".index(a) for a in plane)
     every = 6.5 * EVERY * flow.rate * deck.dt()
-    told, words = ("f_flow[1]", "") if flow.length_rate else ("v_strain", " strain v_strain")
+    told, words = (F_FLOW["strain"], "") if flow.length_rate else ("v_strain", " strain v_strain")
     body = [*deck.body, f"variable strain equal step*dt*{number(flow.rate)}"]
 
     def case(ranks):

@@ -7,10 +7,18 @@ import numpy as np
 
 from case import main, require, require_close
 from catalogue import everything
+from columns import outputs
 from deck import Deck, thermo
 from memory import NOTED, SANITIZED, require_flat, watched_run
 from packing import dense_packing
 from watch import Watched
+
+C_E = outputs("energy/ledger").of("e")
+C_FABRIC = outputs("fabric").of("fabric")
+C_GRAIN = outputs("contact/grain").of("grain")
+C_MOVING = outputs("fluctuation").of("moving")
+C_STRESS = outputs("stress/contact").of("stress")
+F_PRESS = outputs("press/strain").of("press")
 
 RATE, TARGET = 0.02, 2e4
 MORE = [Watched("stress", "stress/contact", True, 35), Watched("power", "dissipation", True, 5),
@@ -32,12 +40,12 @@ def soaked(packing, steps, chunk, every):
     computes = measures(packing)
     asked = [q for w in computes for q in w.columns()]
     deck.body += [f"fix press all press/strain axis y target {TARGET} shear xy rate {RATE} every 1e-3",
-                  *(w.define("all") for w in computes), "compute rows all contact/local", "compute largest all reduce max c_rows[11] c_grain[1]",
-                  *thermo(every, "f_press[1]", "f_press", *asked, "c_largest[1]", "c_largest[2]"),
-                  f"fix means all ave/time {every // 20} 10 {every} f_press c_e[18] c_stress[26] c_fabric[20] c_moving[9] file means.txt",
+                  *(w.define("all") for w in computes), "compute rows all contact/local", f"compute largest all reduce max c_rows[11] {C_GRAIN['N_c']}",
+                  *thermo(every, F_PRESS["strain"], "f_press", *asked, "c_largest[1]", "c_largest[2]"),
+                  f"fix means all ave/time {every // 20} 10 {every} f_press {C_E['residual']} {C_STRESS['P']} {C_FABRIC['angle']} {C_MOVING['E_ratio']} file means.txt",
                   f"fix curve all ave/time {every // 2} 1 {every} c_direct mode vector file curve.txt",
                   f"dump rows all local {chunk} rows.dump c_rows[1] c_rows[2] c_rows[15]",
-                  f"dump grains all custom {chunk} grains.dump id x y z c_grain[1] c_grain[4]",
+                  f"dump grains all custom {chunk} grains.dump id x y z {C_GRAIN['N_c']} {C_GRAIN['P_t']}",
                   f"restart {chunk // 2} soak.a.restart soak.b.restart"]
     deck.body += [f"run {chunk}", NOTED] * (steps // chunk)
     return deck
@@ -52,13 +60,13 @@ def soak(packing, steps, chunk, every):
         require(all(np.isfinite(v).all() for v in last.values()), "a measure is not finite")
         # Lists and the measures' bins have found their largest size in the first tenth.
         require_flat(kilobytes[len(kilobytes) // 10:], 512.0, f"{len(packing.grains)} grains, {length} steps")
-        require_close(last["f_press[1]"][-1], RATE * length * deck.dt(), 1e-9, "strain")
+        require_close(last[F_PRESS["strain"]][-1], RATE * length * deck.dt(), 1e-9, "strain")
         # A residual is a sum of `steps` rounding errors of 1e-16 of energies up to 1e3 times what was lost in a step.
         require(last["c_e"][-1] < 1e-9, f"the ledger's residual is {last['c_e'][-1]} of the losses")
         means = result.averages("means.txt")["f_press"]
         # Some 100 grains: the pressure of an instant swings by a tenth or so, its mean over the second half does not.
         require_close(means[len(means) // 2:].mean(), TARGET, 0.05, "mean pressure")
-        print(f"residual {last['c_e'][-1]:.2e} of the losses; strain {last['f_press[1]'][-1]:.3f}; mean pressure "
+        print(f"residual {last['c_e'][-1]:.2e} of the losses; strain {last[F_PRESS['strain']][-1]:.3f}; mean pressure "
               f"{means[len(means) // 2:].mean():.0f}")
     return case
 

@@ -5,11 +5,14 @@ from dataclasses import replace
 import numpy as np
 
 from case import main, require, require_close
+from columns import outputs
 from deck import POISSON, Deck, Material, box_columns, dump_grains, dump_local, shear, thermo
 from oracle.sphere_law import Law, contacts
 from oracle.state import ROW_WIDTH, box_of, grains_of, rows_of
 from packing import dense_packing
 from run import run
+
+F_PRESS = outputs("press/strain").of("press")
 
 STEPS = 40
 # Spring, overlap and velocities carry the round-off of 40 steps and of differences of positions 10 times as large.
@@ -39,7 +42,7 @@ def follows_the_law(deck, motion, box_at):
     deck = replace(deck, body=[*motion, "compute rows all contact/local", "compute now all dissipation mode instantaneous",
                                "compute loss all dissipation", *dump_grains(deck.packing, 1),
                                *dump_local("rows", ROW_WIDTH, 1, "rows")])
-    columns = [*box_columns(), *quantities, *(["f_press[5]"] if "press" in motion[0] else [])]
+    columns = [*box_columns(), *quantities, *([F_PRESS["L_rate"]] if "press" in motion[0] else [])]
     deck.body += [*thermo(1, *columns), f"run {STEPS}"]
 
     def case(ranks):
@@ -50,7 +53,7 @@ def follows_the_law(deck, motion, box_at):
             check_rows(rows_of(dumped, "rows"), expected, step)
             check_powers(expected, [table[q][step] for q in quantities], deck.dt(), step)
             slid += int(expected["sliding"].sum())
-        require("f_press[5]" not in table or np.ptp(table["f_press[5]"]) > 0.01, "the box length did not change")
+        require(F_PRESS["L_rate"] not in table or np.ptp(table[F_PRESS["L_rate"]]) > 0.01, "the box length did not change")
         require(deck.tangential == "off" or slid > STEPS, f"only {slid} sliding contacts")
     return case
 
@@ -76,7 +79,7 @@ def under_control(deck, rate=0.03):
 
     def box_at(table, step):
         before = max(step - 1, 0)
-        return box_of(table, before, rate, table["f_press[5]"][before])
+        return box_of(table, before, rate, table[F_PRESS["L_rate"]][before])
 
     return follows_the_law(deck, motion, box_at)
 

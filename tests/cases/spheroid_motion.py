@@ -6,10 +6,14 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_equal, require_same_snapshots
+from columns import outputs
 from deck import Deck, dump_grains, rayleigh_time, shear, thermo
 from oracle.measures import rotation
 from packing import DENSITY, Grain, Packing, dense_packing
 from run import run
+
+C_ORDER = outputs("nematic").of("order")
+C_STRESS = outputs("stress/contact").of("stress")
 
 SPHEROID = ["unfix integrate", "fix integrate all nve/spheroid"]
 MOTION = "id x y z vx vy vz angmomx angmomy angmomz omegax omegay omegaz quat1 quat2 quat3 quat4"
@@ -152,10 +156,10 @@ def collision(shape):
         for fraction in (0.08, 0.04, 0.02):
             dt = fraction * rayleigh_time(min(shape))
             steps = int(round(1.2 / dt))
-            deck = Deck(packing, timestep=dt, body=["compute stress all stress/contact", *thermo(1, "c_stress[30]"),
+            deck = Deck(packing, timestep=dt, body=["compute stress all stress/contact", *thermo(1, C_STRESS["N_c"]),
                                                     *dump_grains(packing, steps, columns=MOTION), f"run {steps}"])
             host, ours = both(deck, ranks)
-            contacts = ours.thermo()[0]["c_stress[30]"]
+            contacts = ours.thermo()[0][C_STRESS["N_c"]]
             require(contacts.max() == 1.0 and contacts[-1] == 0.0, "the grains did not meet and part")
             (_, first), (_, a) = host.dump("grains.dump")
             b = ours.dump("grains.dump")[1][1]
@@ -170,7 +174,7 @@ def collision(shape):
 
 def sheared(packing, strain, steps, every):
     deck = Deck(packing)
-    names = ["c_stress[26]", "c_stress[27]", "c_stress[31]", "c_order", "c_order[15]"]
+    names = [C_STRESS["P"], C_STRESS["mu_eff"], C_STRESS["Z"], "c_order", C_ORDER["omega_z"]]
     deck.body = [shear(strain / (steps * deck.dt())), "compute stress all stress/contact", "compute order all nematic",
                  *thermo(every, *names), *dump_grains(packing, steps, columns=MOTION), f"run {steps}"]
     return deck, names

@@ -6,9 +6,12 @@ import numpy as np
 
 from case import require
 from catalogue import DIRECT, DIRECTION, DISPLACEMENT, FABRIC, FLUCTUATION, GRAIN, LAYERING, MEMORY, MESH, SURFACE, strain_lines
+from columns import outputs
 from deck import box_columns, dump_grains, dump_local, thermo
 from oracle.state import ROW_COLUMNS, ROW_WIDTH, grains_of, rows_of
 from watch import Watched, grain_columns
+
+F_PRESS = outputs("press/strain").of("press")
 
 RATE = 0.05
 STRESS = Watched("stress", "stress/contact", True, 35)
@@ -38,8 +41,8 @@ BLOCKS = {
     "moved": {"strain": (1,), "<d^2>": (0, 2, 3, 4), "D": (5, 6, 7), "grains": (8,)},
     "memory": {"strain of memory": (0, 1, 2), "samples": (3,)},
 }
-PRESS = {"pressure": ("f_press", "f_press[2]", "f_press[3]"), "strain": ("f_press[1]",), "L": ("f_press[4]",), "dL/dt": ("f_press[5]",),
-         "inputs": ("f_press[6]", "f_press[7]"), "error": ("f_press[8]",), "box": box_columns()}
+PRESS = {"pressure": ("f_press", F_PRESS["target"], F_PRESS["P"]), "strain": (F_PRESS["strain"],), "L": (F_PRESS["L"],), "dL/dt": (F_PRESS["L_rate"],),
+         "inputs": (F_PRESS["inputs"], F_PRESS["clipped"]), "error": (F_PRESS["error"],), "box": box_columns()}
 BOUNDED = {"surface": 2, "direction": 1}  # the column of counts of computes that bin contacts by an angle
 MOTION = {"x": ("x", "y", "z"), "v": ("vx", "vy", "vz"), "omega": ("omegax", "omegay", "omegaz"), "force": ("fx", "fy", "fz"),
           "torque": ("tqx", "tqy", "tqz")}
@@ -150,7 +153,7 @@ def differences(questions, found, expected, moments=slice(None), numbers=None):
         # P/P_t - 1 is of the order 1, and dL/dt = k_p P_t (P/P_t - 1), where P is near its target too.
         scale = 1.0 if name.endswith(": error") else None
         if name.endswith(": dL/dt"):
-            scale = float(np.abs(b).max()) / min(max(float(np.abs(tables[1]["f_press[8]"]).max()), 1e-300), 1.0)
+            scale = float(np.abs(b).max()) / min(max(float(np.abs(tables[1][F_PRESS["error"]]).max()), 1e-300), 1.0)
         worst.note(name, _scaled(a, b, scale or None))
     for (watched, a), (_, b) in zip(*(_tables_of_thermo(questions, t) for t in tables)):
         _compare_bins(watched, a, b, worst)

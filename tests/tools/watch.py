@@ -8,6 +8,9 @@ import numpy as np
 from deck import GRAIN_COLUMNS, SPHEROID_COLUMNS, Deck, box_columns, dump_grains, dump_local, number, thermo
 from oracle.state import ROW_WIDTH, Box, grains_of, rows_of
 from run import run
+from columns import outputs
+
+F_FLOW = outputs("press/strain").of("flow")
 
 
 @dataclass(frozen=True)
@@ -51,7 +54,7 @@ def pressed(rate, target=1e5, plane=(0, 1), every="1e-3"):
     """fix press/strain: the box shears, and L_y moves."""
     name = "xyz"[plane[0]] + "xyz"[plane[1]]
     line = f"fix flow all press/strain axis y target {number(target)} shear {name} rate {number(rate)} every {every}"
-    return Flow(line, rate, plane, "f_flow[5]")
+    return Flow(line, rate, plane, F_FLOW["L_rate"])
 
 
 @dataclass
