@@ -206,8 +206,8 @@ def box_scaled(ranks):
     require_equal(second[F_PRESS["L"]], second["ly"], "length")
     require_close(second["ly"][0], 1.001 * first["ly"][-1], 1e-14, "length after the change")
     require_equal(second[F_PRESS["strain"]][0], first[F_PRESS["strain"]][-1], "strain")
-    for k in (2, 3, 4):
-        before, after = first[f"c_moved[{k}]"][-1], second[f"c_moved[{k}]"][:2]
+    for square in ("d2_x", "d2_y", "d2_z"):
+        before, after = first[C_MOVED[square]][-1], second[C_MOVED[square]][:2]
         require_equal(after[0], before, "mean square of displacement")
         require(abs(after[1] - before) < 3e-6, f"it jumps from {before} to {after[1]}")  # the scaling itself: 1e-5
     require_close(second["c_books"], 0.0 * second["c_books"], 1e-12, "relative residual of the ledger", 1.0)

@@ -13,6 +13,7 @@ from oracle.state import ROW_WIDTH
 from packing import Grain, Packing, dense_packing, tilted
 from run import run
 
+C_ROWS = outputs("contact/local").of("rows")
 C_SOLVER = outputs("contact/solver").of("solver")
 
 # Of the rms force, and of that times the radius 1. The host's solver stops by the angle of the normals, at about 1e-5; its points, and so
@@ -29,7 +30,7 @@ def evaluated(deck, state, surface, ranks):
     """Grains and contacts at the moment of a restart file, and the counts of the solver."""
     lines = [*dump_grains(deck.packing, 1), "compute rows all contact/local", *dump_local("rows", ROW_WIDTH, 1, "rows"), "run 0"]
     result = run(replace(deck, surface=surface).restarted(state, lines), ranks)
-    return result.dump("grains.dump")[0][1], len(result.dump("rows.dump")[0][1]["c_rows[1]"])
+    return result.dump("grains.dump")[0][1], len(result.dump("rows.dump")[0][1][C_ROWS["id_i"]])
 
 
 def made_by(surface, deck, ranks):

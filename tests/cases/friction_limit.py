@@ -17,6 +17,7 @@ from run import run
 
 C_EACH = outputs("contact/grain").of("each")
 C_LOSS = outputs("dissipation").of("loss")
+C_SURFACE = outputs("contact/surface").of("surface")
 
 ENERGY, FRICTION = 1e5, 0.3
 # Positions of order 10 give overlaps of order 0.01.
@@ -37,7 +38,7 @@ def of_spheroids(extra):
     def case(ranks):
         packing, steps = dense_packing(1.5), 40
         deck = Deck(packing, surface="ellipsoid", cohesion="sjkr", extra=extra, material=Material(friction=(FRICTION,), cohesion=(ENERGY,)))
-        bins = [f"c_surface[{k}][8]" for k in range(1, 11)]
+        bins = [C_SURFACE[k, "mobilisation"] for k in range(1, 11)]
         deck.body = [shear(0.05), "compute rows all contact/local", "compute each all contact/grain", "compute surface all contact/surface",
                      *dump_grains(packing, steps), *dump_local("rows", ROW_WIDTH, steps, "rows"),
                      f"dump each all custom 40 each.dump id {C_EACH['N_c']} {C_EACH['N_sliding']} {C_EACH['mobilisation']}", 'dump_modify each sort id format "%d %.17g %.17g %.17g"',

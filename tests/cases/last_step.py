@@ -16,6 +16,7 @@ from refusal import require_refused
 from run import run
 from watch import Watched
 
+C_FABRIC = outputs("fabric").of("fabric")
 C_GRAIN = outputs("contact/grain").of("grain")
 C_LOSS = outputs("dissipation").of("loss")
 C_STRESS = outputs("stress/contact").of("stress")
@@ -88,7 +89,7 @@ def in_formulas(ranks):
     """A variable by its name, in a condition, and through another variable."""
     lines = [f"variable ratio equal {C_STRESS['mu_eff']}*2", f"variable twice equal v_ratio+{C_LOSS['P_n']}", "run 6",
              'print "ASKED $(step) twice $(v_twice)"', 'print "ratio ${ratio}"',
-             'if "$(c_fabric[22]) > 10" then "print \'ASKED 6 many 1\'"']
+             f'if "$({C_FABRIC["N_c"]}) > 10" then "print \'ASKED 6 many 1\'"']
     result = run(deck(*lines, computes=SEEN), ranks)
     found = printed(result, ["twice", "many"])
     expected, _ = reference([6], SEEN, ranks)
@@ -146,7 +147,7 @@ def stays_until_the_next_run(ranks):
     require_equal(found[0], expected[0][-1], "after the run")
     require_equal(found[1], expected[0][-1], "after a run that evaluates nothing")
     found = found[1:]
-    kinetic = [quantities.index(f"c_stress[{k}]") for k in range(20, 26)]
+    kinetic = [quantities.index(C_STRESS[f"s{ab}_kinetic"]) for ab in "xx yy zz xy xz yz".split()]
     # The mean velocity is 1: what is left of each grain's is the rounding of sums of 1.
     require(bool((np.abs(found[1][kinetic]) < 1e-12 * np.abs(found[0][kinetic]).max()).all()),
             f"of the next run: {found[1][kinetic]}")
@@ -171,7 +172,7 @@ def grains_change_between_runs(ranks):
 def rows_after_a_run(ranks):
     """contact/local by write_dump: the rows of the last step."""
     rows = ["compute rows all contact/local id overlap fn"]
-    names = "c_rows[1] c_rows[2] c_rows[3] c_rows[4]"
+    names = " ".join(outputs("contact/local", ("id_i", "id_j", "overlap", "fn")).of("rows").all("local"))
     told = run(deck(*rows, f"dump d all local 5 rows.dump {names}", "run 5"), ranks).dump("rows.dump")[-1]
     found = run(deck(*rows, "run 5", f"write_dump all local rows.dump {names}"), ranks).dump("rows.dump")[-1]
 

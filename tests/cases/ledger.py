@@ -19,8 +19,8 @@ C_S = outputs("stress/contact").of("s")
 
 WORKS, LOSSES, STORED = ENTRIES[:4], ENTRIES[4:], STORES
 NAMES = (*ENTRIES, *STORED, "residual", "relative")
-TOTALS = C_E.vector()[:19]
-RATES = C_E.vector()[19:]
+TOTALS = C_E.vector()[:len(NAMES)]
+RATES = C_E.vector()[len(NAMES):]
 LEDGER = "compute e all energy/ledger"
 UNDAMPED = "tangential_damping off"
 # Every identity holds to rounding. Energies are sums of up to 1e3 grains and contacts over up to 1e4 steps, with velocities 10 times the
@@ -293,9 +293,9 @@ def elastic_energy(choices):
     def case(ranks):
         packing = meeting(SHAPES["long-1.5"], 0.3, 0.0)
         deck = with_ledger(Deck(packing, timestep=0.01 * rayleigh_time(), surface="ellipsoid", extra=choices.pop("extra", UNDAMPED), **choices))
-        deck.body = ["unfix integrate", "fix integrate all nve/spheroid", LEDGER, *thermo(1, *TOTALS, RATES[12]), "run 2500"]
+        deck.body = ["unfix integrate", "fix integrate all nve/spheroid", LEDGER, *thermo(1, *TOTALS, C_E["G_dt_rate"]), "run 2500"]
         table = run(deck, ranks).thermo()[0]
-        largest, step = table[C_E["U_n"]].max(), np.abs(table[RATES[12]]).max() * deck.dt()
+        largest, step = table[C_E["U_n"]].max(), np.abs(table[C_E["G_dt_rate"]]).max() * deck.dt()
         changes = np.abs(np.diff(table[C_E["U_n"]])).max()
         print(f"U_n up to {largest:.4g}, changes in a step up to {changes:.3g}, G_dt in a step up to {step:.3g}")
         require(changes > 0.01 * largest > 0.0, "no collision, or too fine")
@@ -321,18 +321,19 @@ def groups(ranks):
     deck = sheared(dense_packing(1.5, speed=0.3), 0.05)
     parts = ["group half id 1:60", "group one id 7", "group nobody id 99999"]
     computes = [f"compute {name} {name} energy/ledger" for name in ("half", "one", "nobody")]
-    columns = [f"c_{name}[{k}]" for name in ("half", "one", "nobody") for k in range(1, 20)]
+    told = {name: outputs("energy/ledger").of(name).vector()[:len(NAMES)] for name in ("half", "one", "nobody")}
+    columns = [word for words in told.values() for word in words]
     deck.body = [*deck.body[:-4], *parts, *computes, *thermo(100, *TOTALS, *columns), "run 600"]
     table = run(deck, ranks).thermo()[0]
     everyone = account(table)
     require_closed(everyone)
-    half = {n: table[f"c_half[{k}]"][-1] for k, n in enumerate(NAMES, 1)}
+    half = {n: table[word][-1] for n, word in zip(NAMES, told["half"])}
     require_closed(half, what="half")
     require(0.0 < half["D_n"] < everyone["D_n"] and abs(half["W_other"]) > 0.0, "half of the grains")
-    one = {n: table[f"c_one[{k}]"][-1] for k, n in enumerate(NAMES, 1)}
+    one = {n: table[word][-1] for n, word in zip(NAMES, told["one"])}
     require_close(one["residual"], 0.0, ROUNDING, "one grain", turnover(everyone))
     require(one["D_n"] == 0.0 and one["W_other"] != 0.0, "one grain has no contact with itself")
-    require_equal([table[f"c_nobody[{k}]"][-1] for k in range(1, 20)], np.zeros(19), "nobody")
+    require_equal([table[word][-1] for word in told["nobody"]], np.zeros(len(NAMES)), "nobody")
 
 
 def falling(ranks):
@@ -381,9 +382,9 @@ def rates_add_up(ranks):
     for name, total, rate in zip(NAMES, TOTALS, RATES):
         change = table[total] - table[total][0]
         require_close(np.cumsum(table[rate][1:]) * dt, change[1:], 1e-10, f"rate of {name}", turnover(a))
-    require_close(table[C_LOSS["P_n"]][1:], table[RATES[4]][1:], 1e-13, "P_n", np.abs(table[RATES[4]]).max())
-    require_close(table[C_LOSS["P_t"]][1:], table[RATES[5]][1:], 1e-13, "P_t", np.abs(table[RATES[4]]).max())
-    require_close(table[C_LOSS["P_t_damp"]][1:], table[RATES[6]][1:], 1e-13, "P_t,damp", np.abs(table[RATES[4]]).max())
+    require_close(table[C_LOSS["P_n"]][1:], table[C_E["D_n_rate"]][1:], 1e-13, "P_n", np.abs(table[C_E["D_n_rate"]]).max())
+    require_close(table[C_LOSS["P_t"]][1:], table[C_E["D_t_rate"]][1:], 1e-13, "P_t", np.abs(table[C_E["D_n_rate"]]).max())
+    require_close(table[C_LOSS["P_t_damp"]][1:], table[C_E["D_damp_rate"]][1:], 1e-13, "P_t,damp", np.abs(table[C_E["D_n_rate"]]).max())
     require_close(table["c_loss"], table[C_LOSS["P_n"]] + table[C_LOSS["P_t"]] + table[C_LOSS["P_t_damp"]], 1e-13, "sum", np.abs(table["c_loss"]).max())
     require_equal(table[C_LOSS["N_c"]], table[C_S["N_c"]], "contacts")
     require_equal(table["c_e"], np.abs(table[C_E["residual_relative"]]), "scalar")

@@ -18,8 +18,8 @@ F_PRESS = outputs("press/strain").of("press")
 
 STEPS = 60
 COLUMNS = (*ENTRIES, *STORES)
-RATES = [f"c_ledger[{k}]" for k in range(20, 20 + len(ENTRIES))]
-STORED = C_LEDGER.vector()[13:17]
+RATES = [C_LEDGER[f"{name}_rate"] for name in ENTRIES]
+STORED = [C_LEDGER[name] for name in STORES]
 # Differences of energies of one step: rounding of the dumped state and of springs followed over all steps, as in sphere_law.py.
 TOLERANCE = 1e-8
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from case import main, require, require_close, require_equal
+from columns import outputs
 from deck import Deck, Material, box_columns, dump_grains, dump_local, shear, thermo
 from oracle import measures
 from oracle.state import ROW_WIDTH, box_of, grains_of, rows_of
@@ -20,18 +21,17 @@ EXACT = 1e-10
 TWO_SIDED = 2e-6
 
 
-def vector(name, size):
-    return [f"c_{name}[{k}]" for k in range(1, size + 1)]
+COMPUTES = {"stress": "stress/contact", "now": "dissipation mode instantaneous", "loss": "dissipation mode step", "order": "nematic"}
 
 
-COMPUTES = {"stress": ("stress/contact", 35), "now": ("dissipation mode instantaneous", 5), "loss": ("dissipation mode step", 5),
-            "order": ("nematic", 20)}
+def vector(name):
+    return outputs(COMPUTES[name].split()[0]).of(name).vector()
 
 
 def watched(deck, group="all"):
     """The deck with every compute on `group` in thermo, and with dumps of grains, of all contacts and of the group's."""
-    computes = [f"compute {name} {group} {command}" for name, (command, _) in COMPUTES.items()]
-    quantities = [q for name, (_, size) in COMPUTES.items() for q in (f"c_{name}", *vector(name, size))]
+    computes = [f"compute {name} {group} {command}" for name, command in COMPUTES.items()]
+    quantities = [q for name in COMPUTES for q in (f"c_{name}", *vector(name))]
     return replace(deck, body=[*deck.body, *computes, "compute rows all contact/local", f"compute own {group} contact/local",
                                *thermo(1, *box_columns(), *quantities), *dump_grains(deck.packing, EVERY),
                                *dump_local("rows", ROW_WIDTH, EVERY, "rows"), *dump_local("own", ROW_WIDTH, EVERY, "own"),
@@ -47,7 +47,7 @@ class Moment:
     box: object
 
     def vector(self, name):
-        return np.array([self.told[q] for q in vector(name, COMPUTES[name][1])])
+        return np.array([self.told[q] for q in vector(name)])
 
 
 def within(rows, low, high):

@@ -45,15 +45,15 @@ def follows_the_flyer(boundary, group="all"):
         t = np.arange(0, 1501, 100) * DT
         expected = (speed * t) ** 2 / 9.0 if group == "all" else np.zeros(len(t))
         # A position is a sum of 1500 steps.
-        for k, square in ((2, 0.0 * t), (3, 0.0 * t), (4, expected)):
-            require_close(part[f"c_moved[{k}]"], square, 1e-12 if group == "all" else 0.0, f"element {k}", 1.0)
+        for name, square in (("d2_x", 0.0 * t), ("d2_y", 0.0 * t), ("d2_z", expected)):
+            require_close(part[C_MOVED[name]], square, 1e-12 if group == "all" else 0.0, name, 1.0)
     return case
 
 
 def top_layer(ranks):
     """Between neighbour lists the flyer is above the face that will follow it: it belongs to the highest of four layers,
     not to the lowest."""
-    told = [f"c_profile[{k}][2]" for k in range(1, 5)] + [C_SMECTIC["N"], C_LAYERED["dv_z"]]
+    told = [C_PROFILE[k, "N"] for k in range(1, 5)] + [C_SMECTIC["N"], C_LAYERED["dv_z"]]
     lines = ["compute profile all fluctuation plane xz layers 4\ncompute smectic all layering axis z layers 4\n"
              "compute layered all fluctuation plane xz flow layers 4 layers 4"]
     part = measured(scene(boundary="p p s"), ranks, *lines, "run 150", every=10, told=told)[0]
@@ -90,7 +90,7 @@ def change_box(words, boundary="p p f", **choices):
         for k in range(3):
             square = (8.0 * drift[k] ** 2 + flyer[k] ** 2) / 9.0 * t ** 2
             # Positions of 10 grains are sums of 1000 steps; squares.
-            require_close(parts[1][f"c_moved[{2 + k}]"], square, 1e-11, f"element {2 + k}", max(1.0, square[-1]))
+            require_close(parts[1][C_MOVED[f"d2_{'xyz'[k]}"]], square, 1e-11, f"<d_{'xyz'[k]}^2>", max(1.0, square[-1]))
     return case
 
 

@@ -5,9 +5,12 @@ from dataclasses import replace
 import numpy as np
 
 from case import main, require, require_close, require_same_snapshots
+from columns import outputs
 from deck import Deck, dump_grains, shear, thermo
 from packing import Grain, Packing, dense_packing, in_the_open
 from run import run
+
+C_ROWS = outputs("contact/local").of("rows")
 
 STEPS = 600
 WARNING = "neigh_modify contact_distance_factor 1.05"
@@ -33,7 +36,7 @@ def local_output_does_not_disturb(ranks, **choices):
 def contact_local_output_does_not_disturb(ranks):
     deck = moving()
     silent = run(replace(deck, body=[*deck.body, f"run {STEPS}"]), ranks).dump("grains.dump")
-    output = ["compute rows all contact/local", "dump rows all local 50 rows.dump c_rows[1]", f"run {STEPS}"]
+    output = ["compute rows all contact/local", f"dump rows all local 50 rows.dump {C_ROWS['id_i']}", f"run {STEPS}"]
     talking = run(replace(deck, body=[*deck.body, *output]), ranks)
     require_same_snapshots(talking.dump("grains.dump"), silent, "with contact/local output against without")
 
@@ -78,7 +81,7 @@ def sinks_come_and_go(ranks):
     """Computes deleted between runs, the pair style replaced under a living compute, and both in `clear`."""
     deck = moving()
     model = f"pair_style gran/insitu {deck.model()}"
-    define = ["compute stress all stress/contact", "compute rows all contact/local", "compute count all reduce sum c_rows[1]"]
+    define = ["compute stress all stress/contact", "compute rows all contact/local", f"compute count all reduce sum {C_ROWS['id_i']}"]
     deck.body = [*define, *thermo(5, "c_stress", "c_count"), "run 20", *thermo(5, "step"), "uncompute count", "uncompute stress",
                  "run 20", model, "pair_coeff * *", "run 20", "uncompute rows", *define, *thermo(5, "c_stress", "c_count"), "run 20",
                  model, "pair_coeff * *", "run 20", "clear"]

@@ -86,9 +86,8 @@ def same_results(found, expected, packing, tolerance):
             if watched.array[0]:
                 same_array(watched, a1, a2, tolerance, f"step {row}")
     for (step, left), (_, right) in zip(found.dump("grains.dump"), expected.dump("grains.dump")):
-        for k in range(1, 7):
-            name = f"c_grain[{k}]"
-            require_close(left[name], right[name], tolerance, f"step {step}, contact/grain [{k}]", max(np.abs(right[name]).max(), 1e-12))
+        for name in C_GRAIN.all("per grain"):
+            require_close(left[name], right[name], tolerance, f"step {step}, contact/grain {name}", max(np.abs(right[name]).max(), 1e-12))
 
 
 def same_on(deck, tolerance, group_lines=(), group="all"):
@@ -133,7 +132,7 @@ def empty_group(packing):
                 require_equal(vector, np.zeros_like(vector), f"{watched.command} of nobody")
                 require_equal(array, np.zeros_like(array), f"{watched.command} of nobody")
         for _, columns in result.dump("grains.dump"):
-            require(all(not columns[f"c_grain[{k}]"].any() for k in range(1, 7)), "contact/grain of nobody")
+            require(all(not columns[name].any() for name in C_GRAIN.all("per grain")), "contact/grain of nobody")
     return case
 
 

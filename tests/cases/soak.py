@@ -17,6 +17,7 @@ C_E = outputs("energy/ledger").of("e")
 C_FABRIC = outputs("fabric").of("fabric")
 C_GRAIN = outputs("contact/grain").of("grain")
 C_MOVING = outputs("fluctuation").of("moving")
+C_ROWS = outputs("contact/local").of("rows")
 C_STRESS = outputs("stress/contact").of("stress")
 F_PRESS = outputs("press/strain").of("press")
 
@@ -40,11 +41,11 @@ def soaked(packing, steps, chunk, every):
     computes = measures(packing)
     asked = [q for w in computes for q in w.columns()]
     deck.body += [f"fix press all press/strain axis y target {TARGET} shear xy rate {RATE} every 1e-3",
-                  *(w.define("all") for w in computes), "compute rows all contact/local", f"compute largest all reduce max c_rows[11] {C_GRAIN['N_c']}",
+                  *(w.define("all") for w in computes), "compute rows all contact/local", f"compute largest all reduce max {C_ROWS['normal_z']} {C_GRAIN['N_c']}",
                   *thermo(every, F_PRESS["strain"], "f_press", *asked, "c_largest[1]", "c_largest[2]"),
                   f"fix means all ave/time {every // 20} 10 {every} f_press {C_E['residual']} {C_STRESS['P']} {C_FABRIC['angle']} {C_MOVING['E_ratio']} file means.txt",
                   f"fix curve all ave/time {every // 2} 1 {every} c_direct mode vector file curve.txt",
-                  f"dump rows all local {chunk} rows.dump c_rows[1] c_rows[2] c_rows[15]",
+                  f"dump rows all local {chunk} rows.dump {C_ROWS['id_i']} {C_ROWS['id_j']} {C_ROWS['overlap']}",
                   f"dump grains all custom {chunk} grains.dump id x y z {C_GRAIN['N_c']} {C_GRAIN['P_t']}",
                   f"restart {chunk // 2} soak.a.restart soak.b.restart"]
     deck.body += [f"run {chunk}", NOTED] * (steps // chunk)

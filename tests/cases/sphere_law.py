@@ -38,7 +38,7 @@ def ordered(rows):
 
 def follows_the_law(deck, motion, box_at):
     """`motion`: the fix that moves the box; `box_at(table, step)`: the box that the force evaluation of a step saw."""
-    quantities = [f"c_{c}[{k}]" for c in ("now", "loss") for k in range(1, 6)]
+    quantities = [word for ID in ("now", "loss") for word in outputs("dissipation").of(ID).vector()]
     deck = replace(deck, body=[*motion, "compute rows all contact/local", "compute now all dissipation mode instantaneous",
                                "compute loss all dissipation", *dump_grains(deck.packing, 1),
                                *dump_local("rows", ROW_WIDTH, 1, "rows")])

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from columns import outputs
+
 ROW_COLUMNS = {"id": 2, "image": 3, "point": 3, "normal": 3, "branch": 3, "overlap": 1, "force": 3, "fn": 1, "fn_damping": 1, "ft": 3,
                "un": 1, "ut": 3, "sliding": 1, "slip": 1, "mobilisation": 1}
 ROW_WIDTH = sum(ROW_COLUMNS.values())
@@ -73,7 +75,7 @@ def grains_of(columns):
 
 def rows_of(columns, compute):
     """A dump of all columns of compute contact/local, by name; one-number columns as vectors."""
-    table = np.stack([columns[f"c_{compute}[{k}]"] for k in range(1, ROW_WIDTH + 1)], axis=1)
+    table = np.stack([columns[word] for word in outputs("contact/local").of(compute).all("local")], axis=1)
     rows, first = {}, 0
     for name, width in ROW_COLUMNS.items():
         rows[name] = table[:, first] if width == 1 else table[:, first:first + width]
