@@ -47,7 +47,9 @@ class Columns:
             for one in self.outputs(kind):
                 if one["name"] == name:
                     return one["index"]
-        raise KeyError(f"{self.style} has no output '{name}'; there are {', '.join(n for k in LISTS for n in self.names(k))}")
+        raise KeyError(
+            f"{self.style} has no output '{name}'; there are {', '.join(n for k in LISTS for n in self.names(k))}"
+        )
 
     def at(self, name):
         """Counted from 0, as in Python."""

@@ -44,7 +44,8 @@ void add_sources(Owner **owners, int n, const char *kind, std::vector<Source> &a
   for (int k = 0; k < n; k++) {
     const auto *declared = dynamic_cast<DeclaresOutputs *>(owners[k]);
     const std::string id = owners[k]->id, style = declared ? declared->declared_style() : owners[k]->style;
-    all.push_back({id, std::string(kind) + " " + id + " (" + style + ")", std::string(1, kind[0]) + "_" + id, declared});
+    all.push_back({id, std::string(kind) + " " + id + " (" + style + ")", std::string(1, kind[0]) + "_" + id,
+                   declared});
   }
 }
 
@@ -63,7 +64,8 @@ Source source_of(const Modify &modify, const std::string &id, const Arguments &c
   }
   const std::string requirement = "'ID' must be that of a compute or fix with named outputs, got '" + id + "'";
   if (found.size() > 1)
-    complaints.fail(requirement + ", which is both " + found[0].description + " and " + found[1].description + ": rename one");
+    complaints.fail(requirement + ", which is both " + found[0].description + " and " + found[1].description +
+                    ": rename one");
   if (found.empty() && !other.empty()) complaints.fail(requirement + ", " + other + ", whose outputs have no names");
   if (found.empty()) complaints.fail(requirement + grainscope::nearest_name(id, named));
   return found[0];
@@ -82,18 +84,27 @@ std::string in_brackets(std::size_t k) { return "[" + std::to_string(k) + "]"; }
 std::vector<Line> lines_of(const Source &source, const std::string &prefix) {
   const Outputs &outputs = source.declared->outputs();
   std::vector<Line> lines;
-  const auto define = [&](const char *kind, const std::string &index, const NamedOutput &one, const std::string &formula) {
+  const auto define = [&](const char *kind, const std::string &index, const NamedOutput &one,
+                          const std::string &formula) {
     const std::string name = prefix + "_" + one.name;
     lines.push_back({kind, index, &one, name, formula, "v_" + name + " = " + formula});
   };
   const auto list = [&](const char *kind, const OutputList &all, const std::string &before) {
-    for (std::size_t k = 0; k < all.size(); k++)
-      lines.push_back({kind, std::to_string(k + 1), &all[k], "", "", source.reads + before + (all.size() > 1 ? in_brackets(k + 1) : "")});
+    for (std::size_t k = 0; k < all.size(); k++) {
+      const std::string index = all.size() > 1 ? in_brackets(k + 1) : "";
+      lines.push_back({kind, std::to_string(k + 1), &all[k], "", "", source.reads + before + index});
+    }
   };
   for (const NamedOutput &one : outputs.scalar) {
-    const auto same = std::find_if(outputs.vector.begin(), outputs.vector.end(), [&one](const NamedOutput &o) { return o.name == one.name; });
-    if (same == outputs.vector.end()) define("scalar", "-", one, source.reads);
-    else lines.push_back({"scalar", "-", &one, "", "", source.reads + ", the same as " + source.reads + in_brackets(same - outputs.vector.begin() + 1)});
+    const auto &vector = outputs.vector;
+    const auto same =
+        std::find_if(vector.begin(), vector.end(), [&one](const NamedOutput &o) { return o.name == one.name; });
+    if (same == vector.end()) {
+      define("scalar", "-", one, source.reads);
+      continue;
+    }
+    const std::string element = source.reads + in_brackets(same - vector.begin() + 1);
+    lines.push_back({"scalar", "-", &one, "", "", source.reads + ", the same as " + element});
   }
   for (std::size_t k = 0; k < outputs.vector.size(); k++)
     define("vector", std::to_string(k + 1), outputs.vector[k], source.reads + in_brackets(k + 1));
@@ -120,12 +131,17 @@ std::string table_of(const std::vector<std::vector<std::string>> &rows) {
 }
 
 std::string table_of(const Source &source, const std::vector<Line> &lines) {
-  std::vector<std::vector<std::string>> rows = {{"kind", "index", "name", "unit", "int/extensive", "read as", "meaning"}};
-  for (const Line &one : lines)
-    rows.push_back({one.kind, one.index, one.output->name, one.output->unit, text_of(one.output->extent), one.read_as, one.output->meaning});
+  std::vector<std::vector<std::string>> rows = {
+      {"kind", "index", "name", "unit", "int/extensive", "read as", "meaning"}};
+  for (const Line &one : lines) {
+    const NamedOutput &output = *one.output;
+    rows.push_back(
+        {one.kind, one.index, output.name, output.unit, text_of(output.extent), one.read_as, output.meaning});
+  }
   std::string text = "Outputs of " + source.description + "\n" + table_of(rows);
   const Outputs &outputs = source.declared->outputs();
-  if (!outputs.columns.empty()) text += "array: i from 1 to " + std::to_string(outputs.rows) + ", one row per " + outputs.row + "\n";
+  if (!outputs.columns.empty())
+    text += "array: i from 1 to " + std::to_string(outputs.rows) + ", one row per " + outputs.row + "\n";
   return text;
 }
 
@@ -156,7 +172,8 @@ void define(LAMMPS *lmp, const std::vector<Line> &lines, const Arguments &compla
 }
 
 bool may_begin_a_name(const std::string &prefix) {
-  return !prefix.empty() && std::all_of(prefix.begin(), prefix.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
+  return !prefix.empty() && std::all_of(prefix.begin(), prefix.end(), plain);
 }
 
 }

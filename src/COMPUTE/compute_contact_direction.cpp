@@ -90,7 +90,8 @@ void ComputeContactDirection::compute_array() {
   for (int k = 0; k < 2 * impl_->half; k++) {
     const double *s = &all[k % impl_->half * SUMS];
     const double per_contact = s[CONTACTS] > 0.0 ? 1.0 / s[CONTACTS] : 0.0;
-    put_row(k, {(k + 0.5) * bin, s[CONTACTS], contacts > 0.0 ? s[CONTACTS] / (2.0 * contacts * bin) : 0.0, s[NORMAL] * per_contact,
-                s[TANGENTIAL] * per_contact, s[ALONG] * per_contact, s[NORMAL], s[TANGENTIAL], s[ALONG]});
+    const double density = contacts > 0.0 ? s[CONTACTS] / (2.0 * contacts * bin) : 0.0;
+    put_row(k, {(k + 0.5) * bin, s[CONTACTS], density, s[NORMAL] * per_contact, s[TANGENTIAL] * per_contact,
+                s[ALONG] * per_contact, s[NORMAL], s[TANGENTIAL], s[ALONG]});
   }
 }

@@ -14,12 +14,11 @@ ComputeStyle(contact/direction,ComputeContactDirection)
 
 namespace LAMMPS_NS {
 
-/** Contact normals binned by their angle beta in a plane of the laboratory; each contact counts at beta and at beta + pi, with its two
- *  grains, so that the rows are symmetric to the last bit.
- *  array (bins x 9): 1 beta of the bin's middle [rad], in (0, 2 pi), 2 contacts, 3 density [1/rad], integral 1, means over the bin's
- *  contacts: 4 magnitude of F_n projected on the plane, 5 of F_t projected, 6 component of F_t along (-sin beta, cos beta), signed [force];
- *  7-9 the sums that 4-6 are means of [force].
- *  Contacts whose projected normal is shorter than 1e-9 are left out. 0 for an empty group, but 1.
+/** Contact normals binned by their angle beta in a plane of the laboratory; each contact counts at beta and at beta
+ *  + pi, with its two grains, so that the rows are symmetric to the last bit.
+ *  Array: bins rows; forces are magnitudes of F_n and F_t projected on the plane, and the component of F_t along
+ *  (-sin beta, cos beta), signed. Contacts whose projected normal is shorter than 1e-9 are left out. 0 for an empty
+ *  group, but beta.
  *  Source: Bilotto, Trulsson & Molinari 2025, Eq. (F1), Fig. 17; doi 10.1103/tj41-6qqk. */
 class ComputeContactDirection : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
  public:

@@ -14,8 +14,7 @@ ComputeStyle(contact/solver,ComputeContactSolver)
 namespace LAMMPS_NS {
 
 /** What the contact solver of `surface ellipsoid` did since pair_style gran/insitu was defined, summed over ranks; see
- *  doc/compute_contact_solver.md. scalar: fallbacks, 0 in a sound run. vector (6): 1 pairs in neighbour lists, over all force
- *  evaluations, 2 pairs given to the solver, 3 of these touching, 4 Newton steps, 5 most Newton steps in one pair, 6 fallbacks. */
+ *  doc/compute_contact_solver.md. Scalar: fallbacks, 0 in a sound run. */
 class ComputeContactSolver : public Compute, public grainscope::DeclaresOutputs {
  public:
   ComputeContactSolver(class LAMMPS *lmp, int &iarg, int narg, char **arg);

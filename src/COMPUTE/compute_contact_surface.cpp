@@ -223,9 +223,10 @@ void ComputeContactSurface::reduce() {
     const double whole_over_part = impl_->unit_area > 0.0 ? impl_->unit_area / impl_->unit_areas[k] : 0.0;
     const double share = contacts > 0.0 ? s[CONTACTS] / contacts : 0.0, per_contact = s[CONTACTS] > 0.0 ? 1.0 / s[CONTACTS] : 0.0;
     const double inhomogeneity = power != 0.0 ? (s[NORMAL_POWER] + s[FRICTION_POWER]) / power * whole_over_part : 0.0;
-    put_row(k, {(k + 0.5) * M_PI_2 / impl_->bins, area, s[CONTACTS], area > 0.0 ? share / area : 0.0, share * whole_over_part,
-                s[NORMAL] * per_contact * per_pressure, s[TANGENTIAL] * per_contact * per_pressure, s[MOBILISATION] * per_contact,
-                s[SLIDING] * per_contact, s[NORMAL_POWER], s[FRICTION_POWER], inhomogeneity, inhomogeneity * whole_over_part,
+    put_row(k, {(k + 0.5) * M_PI_2 / impl_->bins, area, s[CONTACTS], area > 0.0 ? share / area : 0.0,
+                share * whole_over_part, s[NORMAL] * per_contact * per_pressure,
+                s[TANGENTIAL] * per_contact * per_pressure, s[MOBILISATION] * per_contact, s[SLIDING] * per_contact,
+                s[NORMAL_POWER], s[FRICTION_POWER], inhomogeneity, inhomogeneity * whole_over_part,
                 s[NORMAL] * per_pressure, s[TANGENTIAL] * per_pressure, s[MOBILISATION], s[SLIDING]});
   }
   put_vector({pressure * force->nktv2p, impl_->unit_area * impl_->mean_square, impl_->grains});

@@ -242,7 +242,8 @@ void ComputeDisplacementShear::compute_vector() {
   for (int k = 0; k < 3 && spread > 0.0; k++)
     slopes[k] = 0.5 * (n * shared[STRAIN_SQUARE + k] - shared[STRAIN] * shared[SQUARE + k]) / spread;
   const double *d2 = shared + MEAN;
-  put_vector({shared[STRAIN_1] - shared[STRAIN_0], d2[0], d2[1], d2[2], slopes[0], slopes[1], slopes[2], shared[GRAINS]});
+  put_vector({shared[STRAIN_1] - shared[STRAIN_0], d2[0], d2[1], d2[2], slopes[0], slopes[1], slopes[2],
+              shared[GRAINS]});
   scalar = d2[1];
 }
 

@@ -17,14 +17,13 @@ namespace LAMMPS_NS {
 
 class FixGrainRecord;
 
-/** How far grains have moved against the affine motion of a sheared box since a given strain. Between two calls, X is a grain's position
- *  with image flags from boxlo + (L_x, L_y, L_z)/2, H the box edges with the driven tilt continued through flips, s = H^-1 X:
- *  d += (H_1 + H_2)/2 (s_2 - s_1).
- *  Along an axis whose faces follow the grains (boundary s or m) there is no affine motion: its edge is taken as it is
- *  at the second call.
- *  scalar: <d_y^2> [distance^2], intensive.
- *  vector (8, intensive): 1 strain since the start, 2-4 <d_x^2> <d_y^2> <d_z^2> [distance^2], 5-7 D_x D_y D_z, half the slope of 2-4 over
- *  strain, least squares with free intercept over all calls [distance^2], 8 grains. Zero before the start and for an empty group.
+/** How far grains have moved against the affine motion of a sheared box since a given strain. Between two calls, X
+ *  is a grain's position with image flags from boxlo + (L_x, L_y, L_z)/2, H the box edges with the driven tilt
+ *  continued through flips, s = H^-1 X:  d += (H_1 + H_2)/2 (s_2 - s_1).
+ *  Along an axis whose faces follow the grains (boundary s or m) there is no affine motion: its edge is taken as it
+ *  is at the second call.
+ *  Scalar: <d_y^2>. Vector: strain, <d^2>, and D, half their slope over strain, least squares with free intercept
+ *  over all calls. Zero before the start and for an empty group.
  *  Source: Bilotto, Trulsson & Molinari 2025, App. E, Fig. 16; doi 10.1103/tj41-6qqk. */
 class ComputeDisplacementShear : public Compute, public grainscope::DeclaresOutputs, public grainscope::BoxWatcher {
  public:

@@ -25,7 +25,8 @@ grainscope::Outputs declared() {
   outputs.scalar = {{"P_total", "energy/time", extensive, "P_n + P_t + P_t_damp"}};
   outputs.vector = {{"P_n", "energy/time", extensive, "power lost by normal damping"},
                     {"P_t", "energy/time", extensive, "power lost by friction of sliding contacts"},
-                    {"P_t_damp", "energy/time", extensive, "power lost by tangential damping of contacts that do not slide"},
+                    {"P_t_damp", "energy/time", extensive,
+                     "power lost by tangential damping of contacts that do not slide"},
                     {"N_c", "-", extensive, "contacts"},
                     {"N_sliding", "-", extensive, "sliding contacts"}};
   return outputs;

@@ -15,12 +15,12 @@ ComputeStyle(dissipation,ComputeDissipation)
 namespace LAMMPS_NS {
 
 /** Power dissipated by contacts between grains of the group, positive = energy lost per time.
- *  mode instantaneous: P_n = -sum F_damping u_n, P_t = -sum_sliding F_t . u_t, with the velocities that entered the force.
- *  mode step: P_n pairs the damping forces with the velocities at the end of the step; P_t = sum |F_t| slip / dt, slip the length cut
- *  from the spring.
- *  mode ledger: both as compute energy/ledger books them, exact. P_t,damp is the loss of tangential damping, paired as P_n.
- *  scalar: P_n + P_t + P_t,damp [energy/time], extensive.
- *  vector (5, extensive): P_n, P_t, P_t,damp, contacts, sliding contacts. Zero for an empty group.
+ *  mode instantaneous: P_n = -sum F_damping u_n, P_t = -sum_sliding F_t . u_t, with the velocities that entered the
+ *  force.
+ *  mode step: P_n pairs the damping forces with the velocities at the end of the step; P_t = sum |F_t| slip / dt, slip
+ *  the length cut from the spring.
+ *  mode ledger: both as compute energy/ledger books them, exact. P_t,damp is the loss of tangential damping, paired
+ *  as P_n. Scalar: P_n + P_t + P_t,damp. Zero for an empty group.
  *  Source: Bilotto, Trulsson & Molinari 2025, Eq. (4), App. B; doi 10.1103/tj41-6qqk. */
 class ComputeDissipation : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
  public:

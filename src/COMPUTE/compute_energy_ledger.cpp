@@ -19,12 +19,14 @@ grainscope::Outputs declared() {
   grainscope::OutputList totals;
   totals.add_each("shear box frame other", {"W_*", "energy", extensive, "work W_* since the compute was defined"})
       .add_each("n t damp rolling", {"D_*", "energy", extensive, "loss D_* since the compute was defined"})
-      .add_each("k p n open dt", {"G_*", "energy", extensive, "G_*, what the contact law and the time step take, since the compute was defined"})
+      .add_each("k p n open dt", {"G_*", "energy", extensive,
+                                  "G_*, what the contact law and the time step take, since the compute was defined"})
       .add_each("U_n U_t K_tr K_rot", {"*", "energy", extensive, "stored energy * now"})
       .add({"residual", "energy", extensive, "what does not add up, since the compute was defined"});
   grainscope::Outputs outputs;
   outputs.vector = totals;
-  outputs.vector.add({"residual_relative", "-", intensive, "residual over |D_n| + |D_t| + |D_damp| + |D_rolling|, 0 while nothing was lost"});
+  outputs.vector.add({"residual_relative", "-", intensive,
+                      "residual over |D_n| + |D_t| + |D_damp| + |D_rolling|, 0 while nothing was lost"});
   for (const grainscope::NamedOutput &one : totals)
     outputs.vector.add({one.name + "_rate", "energy/time", extensive, "rate of " + one.name + " in the last step"});
   outputs.scalar = {{"imbalance", "-", intensive, "magnitude of residual_relative"}};

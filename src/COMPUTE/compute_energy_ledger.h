@@ -13,11 +13,11 @@ ComputeStyle(energy/ledger,ComputeEnergyLedger)
 
 namespace LAMMPS_NS {
 
-/** Where the energy of a group goes: what came in, what is stored and what was lost since the compute was defined, and whether it adds up.
- *  scalar: |residual| over |D_n| + |D_t| + |D_damp| + |D_rolling| [-], intensive; 0 while nothing was lost.
- *  vector (37, extensive but for 19): 1-4 work W_shear, W_box, W_frame, W_other [energy]; 5-8 losses D_n, D_t, D_damp, D_rolling; 9-13 what the
- *  contact law and the time step take G_k, G_p, G_n, G_open, G_dt; 14-17 stored now U_n, U_t, K_tr, K_rot; 18 residual, 19 the same over the
- *  losses as above; 20-37 the rates of 1-18 in the last step [power], 0 before the first. Zero for an empty group. */
+/** Where the energy of a group goes: what came in (W), what is stored (U, K) and what was lost (D, G) since the
+ *  compute was defined, whether it adds up (residual), and the rates of all of it in the last step, 0 before the
+ *  first.
+ *  Scalar: |residual| over |D_n| + |D_t| + |D_damp| + |D_rolling|; 0 while nothing was lost. Zero for an empty
+ *  group. */
 class ComputeEnergyLedger : public Compute, public grainscope::DeclaresOutputs {
  public:
   ComputeEnergyLedger(class LAMMPS *lmp, int &iarg, int narg, char **arg);

@@ -34,13 +34,16 @@ grainscope::Outputs declared(const std::vector<const Weighted *> &chosen) {
   outputs.vector.add_each(six, {"F_*", "-", intensive, "fabric, mean of n_a n_b"})
       .add_each("1 2 3", {"eigenvalue_*", "-", intensive, "eigenvalue * of the fabric, descending"});
   for (const char *axis : {"1", "2", "3"})
-    outputs.vector.add_each("x y z", {std::string("eigenvector_") + axis + "_*", "-", intensive, std::string("* of eigenvector ") + axis});
+    outputs.vector.add_each("x y z", {std::string("eigenvector_") + axis + "_*", "-", intensive,
+                                      std::string("* of eigenvector ") + axis});
   const grainscope::NamedOutput deviator = {"deviator", "-", intensive, "sqrt(3/2 F':F')"};
   outputs.vector.add(deviator)
       .add({"angle", "rad", intensive, "principal angle in the plane"})
       .add({"ratio", "-", intensive, "anisotropy, eigenvalue_1 over eigenvalue_2"})
       .add({"N_c", "-", whole, "contacts"});
-  for (const Weighted *one : chosen) outputs.vector.add_each(six, {std::string(one->output) + "_*", "-", intensive, std::string(one->name) + " tensor, *"});
+  for (const Weighted *one : chosen)
+    outputs.vector.add_each(
+        six, {std::string(one->output) + "_*", "-", intensive, std::string(one->name) + " tensor, *"});
   outputs.scalar = {deviator};
   return outputs;
 }

@@ -19,7 +19,8 @@ using grainscope::MeanFlow;
 
 namespace {
 
-constexpr auto intensive = grainscope::Extent::intensive, extensive = grainscope::Extent::extensive, whole = grainscope::Extent::whole;
+constexpr auto intensive = grainscope::Extent::intensive, extensive = grainscope::Extent::extensive;
+constexpr auto whole = grainscope::Extent::whole;
 
 const int sums_of_layer = 5;  // mass, grains, momentum
 
@@ -42,8 +43,9 @@ grainscope::Outputs declared(int layers) {
       .add({"rate_measured", "1/time", intensive, "shear rate of the grains"})
       .add({"deviation", "-", intensive, "deviation of the velocity profile from the box's flow, over |rate| L"})
       .add({"deviation_by_chance", "-", intensive, "what noise alone would give"});
-  grainscope::OutputList columns = {{"position", "distance", intensive, "middle of the layer along the gradient, from the box centre"},
-                                    {"N", "-", whole, "grains of the layer"}};
+  grainscope::OutputList columns = {
+      {"position", "distance", intensive, "middle of the layer along the gradient, from the box centre"},
+      {"N", "-", whole, "grains of the layer"}};
   columns.add_each("x y z", {"u_*", "velocity", intensive, "mean velocity * by mass less the box's flow"});
   outputs.set_array(layers, "layer", columns);
   return outputs;

@@ -21,7 +21,8 @@ grainscope::Outputs declared(int lags) {
                     {"peak_lag", "distance", intensive, "its lag"},
                     {"C0", "1/distance", intensive, "C at lag 0"},
                     {"N", "-", whole, "grains"}};
-  outputs.set_array(lags, "lag", {{"lag", "distance", intensive, "lag y"}, {"C", "1/distance", intensive, "correlation of the density"}});
+  outputs.set_array(lags, "lag", {{"lag", "distance", intensive, "lag y"},
+                                  {"C", "1/distance", intensive, "correlation of the density"}});
   return outputs;
 }
 

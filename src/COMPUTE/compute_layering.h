@@ -14,11 +14,12 @@ ComputeStyle(layering,ComputeLayering)
 
 namespace LAMMPS_NS {
 
-/** Correlation of the number density across layers (smectic order), dn = n(y) - n, n = N/V, A = V/L the mean cross-section:
- *  C(y) = A/(n L) int dn(y') dn(y' + y) dy', periodic, for lags y that are multiples of L/layers.
- *  array (layers/2 + 1 rows x 2): 1 lag y [distance], 2 C [1/distance].
- *  vector (4): 1 largest C beyond lag 0, 2 its lag, 3 C(0), 4 grains. scalar: 1 over 3 [-], in [-1, 1]. All 0 for an empty group, but lags.
- *  Source: Bilotto, Trulsson & Molinari 2025, Sec. III A, doi 10.1103/tj41-6qqk; Marschall et al. 2019, doi 10.1103/PhysRevLett.122.188002. */
+/** Correlation of the number density across layers (smectic order), dn = n(y) - n, n = N/V, A = V/L the mean
+ *  cross-section: C(y) = A/(n L) int dn(y') dn(y' + y) dy', periodic, for lags y that are multiples of L/layers.
+ *  Array: layers/2 + 1 lags. Scalar: largest C beyond lag 0 over C(0), in [-1, 1]. All 0 for an empty group, but
+ *  lags.
+ *  Source: Bilotto, Trulsson & Molinari 2025, Sec. III A, doi 10.1103/tj41-6qqk; Marschall et al. 2019, doi
+ *  10.1103/PhysRevLett.122.188002. */
 class ComputeLayering : public Compute, public grainscope::DeclaresOutputs {
  public:
   ComputeLayering(class LAMMPS *lmp, int &iarg, int narg, char **arg);

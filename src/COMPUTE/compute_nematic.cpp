@@ -56,10 +56,10 @@ void ComputeNematic::compute_vector() {
 
   const grainscope::Nematic nematic(sums);
   const Eigen::Matrix3d &m = nematic.q;
-  put_vector({m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2), nematic.director[0], nematic.director[1], nematic.director[2],
-              nematic.biaxiality, nematic.theta, nematic.director_theta, nematic.spin[0], nematic.spin[1], nematic.spin[2],
-              nematic.grains_with_axis, nematic.grains_with_theta, nematic.eigenvalues[0], nematic.eigenvalues[1],
-              nematic.eigenvalues[2]});
+  const auto &axis = nematic.director, &spin = nematic.spin, &eigenvalue = nematic.eigenvalues;
+  put_vector({m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2), axis[0], axis[1], axis[2], nematic.biaxiality,
+              nematic.theta, nematic.director_theta, spin[0], spin[1], spin[2], nematic.grains_with_axis,
+              nematic.grains_with_theta, eigenvalue[0], eigenvalue[1], eigenvalue[2]});
   scalar = nematic.order;
 }
 

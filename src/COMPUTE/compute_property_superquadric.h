@@ -16,7 +16,8 @@ namespace LAMMPS_NS {
 
 /** The host's compute property/atom, which knows shapes and orientations of atom style ellipsoid only, and with atom
  *  style superquadric: shapex shapey shapez semi-axes [length], quatw quati quatj quatk quaternion from the grain's
- *  frame to the laboratory's [-], blockiness1 blockiness2 [-]. Zero outside the group. See doc/compute_property_atom.md. */
+ *  frame to the laboratory's [-], blockiness1 blockiness2 [-]. Zero outside the group. See
+ *  doc/compute_property_atom.md. */
 class ComputePropertySuperquadric : public ComputePropertyAtom, public grainscope::DeclaresOutputs {
  public:
   ComputePropertySuperquadric(class LAMMPS *lmp, int &iarg, int narg, char **arg);

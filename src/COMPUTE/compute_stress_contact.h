@@ -17,13 +17,10 @@ namespace grainscope { struct StressSums; }
 
 namespace LAMMPS_NS {
 
-/** Contact stress sigma_ab = -1/Omega sum_contacts F_a r_b (F on i, r = x_i - x_j, each contact once, Omega the whole box; tension
- *  positive) and what follows from it. A contact counts when both grains are in the group.
- *  scalar: P = -sigma_yy [pressure].
- *  vector (35, intensive except 30; pressure unless noted): 1-6 total xx yy zz xy xz yz (ab: F_a r_b), 7 total yx, 8-13 normal part,
- *  14-19 tangential part, 20-25 kinetic part -1/Omega sum m dv_a dv_b of peculiar velocities, 26 P, 27 mu_eff = sigma_xy/P,
- *  28 (sigma_xx - sigma_yy)/P, 29 (sigma_yy - sigma_zz)/P, 30 contacts N_c, 31 Z = 2 N_c/N, 32 sliding fraction, 33 mean and
- *  34 largest overlap [distance], 35 kappa = min(alpha,1) (E/P)^(2/3). Ratios to P are 0 when P <= 0; everything is 0 for an empty group.
+/** Contact stress sigma_ab = -1/Omega sum_contacts F_a r_b (F on i, r = x_i - x_j, each contact once, Omega the
+ *  whole box; tension positive), its kinetic part -1/Omega sum m dv_a dv_b of peculiar velocities, and what follows
+ *  from it. A contact counts when both grains are in the group. Scalar: P = -sigma_yy. Ratios to P are 0 when
+ *  P <= 0; everything is 0 for an empty group.
  *  Source: Bilotto, Trulsson & Molinari 2025, Eq. (2), App. D, G; doi 10.1103/tj41-6qqk. */
 class ComputeStressContact : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
  public:

@@ -14,11 +14,10 @@ ComputeStyle(velocity/correlation,ComputeVelocityCorrelation)
 
 namespace LAMMPS_NS {
 
-/** Correlation in space of one component of the motion dv of grains against a mean flow, over pairs at their nearest images:
- *  C(r) = (sum over pairs in the bin of dv_i dv_j)/pairs/<dv^2>, in equal bins over [0, range).
- *  array (bins x 4): 1 r, the bin's middle [distance], 2 C [-], 3 sum dv_i dv_j [dv^2], extensive, 4 pairs, each once, extensive.
- *  vector (5): 1 length l of the fit exp(-r/l) to the bins with C > 0.05 [distance], 2 its standard error, 3 <dv^2>, 4 grains,
- *  5 bins in the fit. scalar: l. Bins that end below the smallest diameter, and an empty group, give 0.
+/** Correlation in space of one component of the motion dv of grains against a mean flow, over pairs at their nearest
+ *  images: C(r) = (sum over pairs in the bin of dv_i dv_j)/pairs/<dv^2>, in equal bins over [0, range).
+ *  Array: bins of r. Scalar: length l of the fit exp(-r/l) to the bins with C > 0.05. Bins that end below the
+ *  smallest diameter, and an empty group, give 0.
  *  Source: Bilotto, Trulsson & Molinari 2025, Eq. (7) and Fig. 9, doi 10.1103/tj41-6qqk. */
 class ComputeVelocityCorrelation : public Compute, public grainscope::DeclaresOutputs {
  public:

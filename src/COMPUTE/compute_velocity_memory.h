@@ -16,11 +16,10 @@ namespace LAMMPS_NS {
 
 class FixGrainRecord;
 
-/** How long a grain's velocity fluctuation is remembered: C(lag) = <dv(strain) dv(strain + lag)> / <dv^2>, over grains and over all samples
- *  as origins. A sample is taken when a call finds that the strain has passed another multiple of `every`.
- *  array (lags + 1 rows x 4): 1 mean strain between the samples [-], 2 C [-], 3 sum of products, 4 number of products.
- *  vector (4, intensive): 1 strain g of exp(-lag/g), least squares over C > 0.05, 0 when C does not decay, 2 its
- *  standard error, 3 samples, 4 lags in the fit. scalar: 1.
+/** How long a grain's velocity fluctuation is remembered: C(lag) = <dv(strain) dv(strain + lag)> / <dv^2>, over
+ *  grains and over all samples as origins. A sample is taken when a call finds that the strain has passed another
+ *  multiple of `every`. Array: lags + 1 rows. Scalar: strain g of exp(-lag/g), least squares over C > 0.05, 0 when C
+ *  does not decay.
  *  Zero for an empty group. Source: Bilotto, Trulsson & Molinari 2025, Eq. (7) in time; doi 10.1103/tj41-6qqk. */
 class ComputeVelocityMemory : public Compute, public grainscope::DeclaresOutputs {
  public:

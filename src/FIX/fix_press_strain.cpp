@@ -100,7 +100,8 @@ const std::vector<FixPressStrain::Impl::Element> &FixPressStrain::Impl::elements
 
 grainscope::Outputs FixPressStrain::Impl::declared() {
   grainscope::Outputs outputs;
-  outputs.scalar = {{"P_mean", "pressure", grainscope::Extent::intensive, "pressure averaged over the last completed interval"}};
+  outputs.scalar = {{"P_mean", "pressure", grainscope::Extent::intensive,
+                     "pressure averaged over the last completed interval"}};
   for (const Element &one : elements()) outputs.vector.add(one.output);
   return outputs;
 }

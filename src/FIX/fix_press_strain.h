@@ -15,10 +15,10 @@ FixStyle(press/strain,FixPressStrain)
 
 namespace LAMMPS_NS {
 
-/** Shears the box at a true rate and holds the normal pressure along one axis by moving that box length at strain (or time) intervals.
- *  scalar: pressure averaged over the last completed interval. vector (8, intensive): strain, target, pressure now, L, dL/dt, inputs,
- *  inputs clipped, relative error of the averaged pressure. It is a fix deform to the host, which then remaps velocities across the
- *  moving faces. Source: Bilotto, Trulsson & Molinari 2025, Sec. II; doi 10.1103/tj41-6qqk. */
+/** Shears the box at a true rate and holds the normal pressure along one axis by moving that box length at strain
+ *  (or time) intervals. Scalar: pressure averaged over the last completed interval. It is a fix deform to the host,
+ *  which then remaps velocities across the moving faces. Source: Bilotto, Trulsson & Molinari 2025, Sec. II; doi
+ *  10.1103/tj41-6qqk. */
 class FixPressStrain : public FixDeform, public grainscope::DeclaresOutputs, public grainscope::ContactSink {
  public:
   FixPressStrain(class LAMMPS *lmp, int narg, char **arg);

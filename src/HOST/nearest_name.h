@@ -7,7 +7,8 @@
 
 namespace grainscope {
 
-/** ": did you mean 'fabric'?", of `names` the one that differs from `name` by the fewest letters; nothing where none is near. */
+/** ": did you mean 'fabric'?", of `names` the one that differs from `name` by the fewest letters; nothing where none is
+ *  near. */
 std::string nearest_name(const std::string &name, const std::vector<std::string> &names);
 
 }

@@ -94,18 +94,22 @@ void DeclaresOutputs::require_good_names() const {
   std::set<std::string> found;
   for (const OutputList *list : {&outputs_.vector, &outputs_.columns, &outputs_.per_grain, &outputs_.local})
     for (const NamedOutput &one : *list) {
-      const bool plain = std::all_of(one.name.begin(), one.name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
-      if (!plain || one.name.empty() || !found.insert(one.name).second)
-        throw std::logic_error(style_ + ": '" + one.name + "' cannot name an output: it must be letters, digits and underscores, once");
+      const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
+      const bool good = !one.name.empty() && std::all_of(one.name.begin(), one.name.end(), plain);
+      if (!good || !found.insert(one.name).second)
+        throw std::logic_error(style_ + ": '" + one.name +
+                               "' cannot name an output: it must be letters, digits and underscores, once");
     }
 }
 
 void DeclaresOutputs::require_count(std::size_t given, const OutputList &declared, const char *what) const {
   if (given == declared.size()) return;
-  throw std::logic_error(style_ + ": " + std::to_string(given) + " " + what + " are given, " + std::to_string(declared.size()) + " are declared");
+  throw std::logic_error(style_ + ": " + std::to_string(given) + " " + what + " are given, " +
+                         std::to_string(declared.size()) + " are declared");
 }
 
-void DeclaresOutputs::put(const double *values, std::size_t n, double *to, const OutputList &declared, const char *what) const {
+void DeclaresOutputs::put(const double *values, std::size_t n, double *to, const OutputList &declared,
+                          const char *what) const {
   require_count(n, declared, what);
   std::copy(values, values + n, to);
 }

@@ -14,8 +14,8 @@ class Fix;
 
 namespace grainscope {
 
-/** How a number grows with the system. `whole`: as extensive, but `thermo_modify norm yes` does not divide it by the number
- *  of grains: a number of contacts is wanted as it is. */
+/** How a number grows with the system. `whole`: as extensive, but `thermo_modify norm yes` does not divide it by the
+ *  number of grains: a number of contacts is wanted as it is. */
 enum class Extent { intensive, extensive, whole };
 
 /** One number that a compute or fix gives, or one column. */
@@ -49,8 +49,8 @@ struct Outputs {
   void set_array(int how_many, const std::string &of, const OutputList &list);
 };
 
-/** A compute or fix that says what it gives, once: flags, sizes and storage for LIGGGHTS and what the command `outputs` prints follow
- *  from that. */
+/** A compute or fix that says what it gives, once: flags, sizes and storage for LIGGGHTS and what the command `outputs`
+ *  prints follow from that. */
 class DeclaresOutputs {
  public:
   virtual ~DeclaresOutputs() {}
@@ -63,10 +63,18 @@ class DeclaresOutputs {
   void declare(LAMMPS_NS::Fix *fix, const std::string &style, const Outputs &outputs);
 
   /** All elements of the vector, in the order of the declaration; of a row of the array, likewise. */
-  template <std::size_t N> void put_vector(const double (&values)[N]) { put(values, N, vector_.data(), outputs_.vector, "elements"); }
-  template <std::size_t N> void put_row(int row, const double (&values)[N]) { put(values, N, array_[row], outputs_.columns, "columns"); }
-  /** For what is written one after the other: `end` is where the last element was followed by. */
-  void require_all_elements(const double *end) const { require_count(end - vector_.data(), outputs_.vector, "elements"); }
+  template <std::size_t N>
+  void put_vector(const double (&values)[N]) {
+    put(values, N, vector_.data(), outputs_.vector, "elements");
+  }
+  template <std::size_t N>
+  void put_row(int row, const double (&values)[N]) {
+    put(values, N, array_[row], outputs_.columns, "columns");
+  }
+  /** For a vector that was written one element after the other: `end` is behind the last. */
+  void require_all_elements(const double *end) const {
+    require_count(end - vector_.data(), outputs_.vector, "elements");
+  }
   /** For what has places of its own. */
   void require_count(std::size_t given, const OutputList &declared, const char *what) const;
   double array_bytes() const { return rows_.bytes(); }

@@ -112,7 +112,6 @@ def cohesive(ranks):
     require(table[C_SOLVER["pairs_listed"]][-1] == 0.0 and table[C_SOLVER["pairs_touching"]][-1] > 0.0, "not the host's loop")
 
 
-
 CASES = {
     "spheroid-0.33": sheared(dense_packing(0.33), strain=1.7),
     "spheroid-1.5": sheared(dense_packing(1.5), strain=1.7),

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Outputs have names: what `outputs` prints and defines, columns.json and the tables of the pages agree with the program, and everything that
-reads a variable of `outputs` gets the number of c_ID[k] to the last bit."""
+"""Outputs have names: what `outputs` prints and defines, columns.json and the tables of the pages agree with the
+program, and everything that reads a variable of `outputs` gets the number of c_ID[k] to the last bit."""
 import json
 import os
 from pathlib import Path
@@ -44,11 +44,17 @@ def everything(norm="no"):
     for k, (style, keywords) in enumerate(COMMANDS.items()):
         lines += [f"{kind_of(style)} it{k} all {style} {keywords}", f"outputs it{k}"]
         own = outputs(style)
-        names = own.names("vector") + [one["name"] for one in own.outputs("scalar") if one["name"] not in own.names("vector")]
+        names = own.names("vector") + [
+            one["name"] for one in own.outputs("scalar") if one["name"] not in own.names("vector")
+        ]
         both += [(f"v_it{k}_{name}", own.word(f"it{k}", name), style, name) for name in names]
     words = [word for named, counted, *_ in both for word in (named, counted)]
-    made = Deck(PACKING, surface="ellipsoid", extra="ledger on tangential_damping off",
-                body=[*lines, *thermo(2, *words), f"thermo_modify norm {norm}", "run 4"])
+    made = Deck(
+        PACKING,
+        surface="ellipsoid",
+        extra="ledger on tangential_damping off",
+        body=[*lines, *thermo(2, *words), f"thermo_modify norm {norm}", "run 4"],
+    )
     return made, both
 
 
@@ -77,7 +83,10 @@ def norm(ranks):
 
 
 def json_is_made(ranks):
-    require(json.loads(FILE.read_text()) == made(), f"{FILE.name} is not what the program says: tests/tools/make_columns.py --write")
+    require(
+        json.loads(FILE.read_text()) == made(),
+        f"{FILE.name} is not what the program says: tests/tools/make_columns.py --write",
+    )
 
 
 def expanded(cell):
@@ -122,8 +131,11 @@ def pages(ranks):
     bad = []
     for style in COMMANDS:
         own = outputs(style)
-        known = {(kind, one["index"], one["name"], one["unit"], extent(one))
-                 for kind in ("scalar", "vector", "array", "per grain", "local") for one in own.outputs(kind)}
+        known = {
+            (kind, one["index"], one["name"], one["unit"], extent(one))
+            for kind in ("scalar", "vector", "array", "per grain", "local")
+            for one in own.outputs(kind)
+        }
         found = set(rows_of_page(page_of(style)))
         bad += [f"{page_of(style).name} lacks {row}" for row in sorted(known - found, key=str)]
         bad += [f"{page_of(style).name} has {row}, which is not so" for row in sorted(found - known, key=str)]
@@ -136,20 +148,31 @@ def declared_in_words(ranks):
         own = outputs(style)
         for kind in ("scalar", "vector", "array", "per grain", "local"):
             for one in own.outputs(kind):
-                require(re.fullmatch(r"\w+", one["name"]) and one["unit"] and len(one["meaning"]) > 1, f"{style}: {one}")
+                require(
+                    re.fullmatch(r"\w+", one["name"]) and one["unit"] and len(one["meaning"]) > 1, f"{style}: {one}"
+                )
         names = [name for kind in ("vector", "array", "per grain", "local") for name in own.names(kind)]
         require(len(set(names)) == len(names), f"{style}: names twice in {names}")
 
 
 def read_everywhere(ranks):
-    """thermo, fix ave/time (to its six digits), print, other variables and ${} read the names; headings and headers carry them."""
+    """thermo, fix ave/time (to its six digits), print, other variables and ${} read the names; headings and headers
+    carry them."""
     both = pairs("stress", "stress/contact", ASKED)
     p = outputs("stress/contact").word("stress", "P")
-    result = run(deck(*STRESS, "variable twice equal 2*v_stress_P", f"variable counted equal 2*{p}",
-                      "fix named all ave/time 5 1 5 v_stress_P v_stress_mu_eff v_twice file named.txt",
-                      f"fix counted all ave/time 5 1 5 {p} {both[1][1]} v_counted file counted.txt",
-                      *thermo(5, *(word for pair in both for word in pair), "v_twice", "v_counted"), "run 20",
-                      f'print "ASKED ${{stress_P}} $(v_stress_P) $({p})"'), ranks)
+    result = run(
+        deck(
+            *STRESS,
+            "variable twice equal 2*v_stress_P",
+            f"variable counted equal 2*{p}",
+            "fix named all ave/time 5 1 5 v_stress_P v_stress_mu_eff v_twice file named.txt",
+            f"fix counted all ave/time 5 1 5 {p} {both[1][1]} v_counted file counted.txt",
+            *thermo(5, *(word for pair in both for word in pair), "v_twice", "v_counted"),
+            "run 20",
+            f'print "ASKED ${{stress_P}} $(v_stress_P) $({p})"',
+        ),
+        ranks,
+    )
     table = result.thermo()[-1]
     require_same(table, both, "thermo")
     require_close(table["v_twice"], table["v_counted"], HANDED_ON, "a variable of a variable")
@@ -159,20 +182,34 @@ def read_everywhere(ranks):
         require_equal(one, other, f"fix ave/time: {left}, {right}")
     log = result.file("log.liggghts").read_text()
     heading = next(line.split() for line in log.splitlines() if line.split()[:1] == ["Step"])
-    require(heading[1] == "stress_P" and heading[3] == "stress_mu_eff" and heading[9] == "stress_sxy_kinetic", f"headings {heading}")
+    require(
+        heading[1] == "stress_P" and heading[3] == "stress_mu_eff" and heading[9] == "stress_sxy_kinetic",
+        f"headings {heading}",
+    )
     said = re.findall(r"^ASKED (\S+) (\S+) (\S+)$", log, flags=re.M)[-1]
     require(float(said[0]) == float(said[1]) == float(f"{float(said[2]):.15g}"), f"print: {said}")
 
 
 def announced(ranks):
     """A compute that is reached by names alone is ready on the steps that need it."""
-    body = [*STRESS, "compute power all dissipation mode instantaneous", "outputs power", "compute fabric all fabric", "outputs fabric",
-            "fix named all ave/time 3 2 6 v_power_P_n v_fabric_deviator file named.txt",
-            *thermo(4, "v_stress_P", "v_fabric_N_c"), "run 21"]
+    body = [
+        *STRESS,
+        "compute power all dissipation mode instantaneous",
+        "outputs power",
+        "compute fabric all fabric",
+        "outputs fabric",
+        "fix named all ave/time 3 2 6 v_power_P_n v_fabric_deviator file named.txt",
+        *thermo(4, "v_stress_P", "v_fabric_N_c"),
+        "run 21",
+    ]
     result = run(deck(*body), ranks)
     require(list(result.thermo()[-1]["step"]) == [0, 4, 8, 12, 16, 20, 21], "steps of thermo")
-    counted = [line.replace("v_power_P_n", outputs("dissipation").word("power", "P_n"))
-               .replace("v_fabric_deviator", outputs("fabric").word("fabric", "deviator")) for line in body]
+    counted = [
+        line.replace("v_power_P_n", outputs("dissipation").word("power", "P_n")).replace(
+            "v_fabric_deviator", outputs("fabric").word("fabric", "deviator")
+        )
+        for line in body
+    ]
     other = run(deck(*counted), ranks)
     for (name, one), (_, another) in zip(result.averages("named.txt").items(), other.averages("named.txt").items()):
         require_equal(one, another, name)
@@ -182,8 +219,17 @@ def lasting(ranks):
     """In a loop of runs, after another `outputs`, after a restart and after clear."""
     both = pairs("stress", "stress/contact", ASKED)
     asked = thermo(1, *(word for pair in both for word in pair))
-    first = deck(*STRESS, *asked, "write_restart state.restart", "variable k loop 3", "label more", "outputs stress", "run 2", "next k",
-                 "jump SELF more")
+    first = deck(
+        *STRESS,
+        *asked,
+        "write_restart state.restart",
+        "variable k loop 3",
+        "label more",
+        "outputs stress",
+        "run 2",
+        "next k",
+        "jump SELF more",
+    )
     result = run(first, ranks)
     tables_of_runs = result.thermo()
     require(len(tables_of_runs) == 3, f"{len(tables_of_runs)} runs")
@@ -217,32 +263,81 @@ def printed_once(ranks):
 
 def prefixes(ranks):
     """The same numbers under another name, for a compute and a fix; and the scalar that no element is."""
-    result = run(deck("compute stress all stress/contact", "outputs stress prefix s1", "outputs stress", "compute power all dissipation",
-                      "outputs power prefix _", *thermo(1, "v_s1_P", "v_stress_P", "c_stress", "v___P_total", "c_power"), "run 2"), ranks)
-    require_same(result.thermo()[-1], [("v_s1_P", "c_stress"), ("v_stress_P", "c_stress"), ("v___P_total", "c_power")], "prefix")
-    press = Deck(PACKING, body=["fix press all press/strain axis y target 1e5 shear xy rate 0.05 every 1e-4", "outputs press prefix box",
-                                *thermo(1, "v_box_P_mean", "f_press", "v_box_L", outputs("press/strain").word("press", "L")), "run 3"])
-    require_same(run(press, ranks).thermo()[-1],
-                 [("v_box_P_mean", "f_press"), ("v_box_L", outputs("press/strain").word("press", "L"))], "fix")
+    result = run(
+        deck(
+            "compute stress all stress/contact",
+            "outputs stress prefix s1",
+            "outputs stress",
+            "compute power all dissipation",
+            "outputs power prefix _",
+            *thermo(1, "v_s1_P", "v_stress_P", "c_stress", "v___P_total", "c_power"),
+            "run 2",
+        ),
+        ranks,
+    )
+    require_same(
+        result.thermo()[-1], [("v_s1_P", "c_stress"), ("v_stress_P", "c_stress"), ("v___P_total", "c_power")], "prefix"
+    )
+    press = Deck(
+        PACKING,
+        body=[
+            "fix press all press/strain axis y target 1e5 shear xy rate 0.05 every 1e-4",
+            "outputs press prefix box",
+            *thermo(1, "v_box_P_mean", "f_press", "v_box_L", outputs("press/strain").word("press", "L")),
+            "run 3",
+        ],
+    )
+    require_same(
+        run(press, ranks).thermo()[-1],
+        [("v_box_P_mean", "f_press"), ("v_box_L", outputs("press/strain").word("press", "L"))],
+        "fix",
+    )
 
 
 def chosen(ranks):
     """What keywords choose is named, in the order asked for."""
-    result = run(deck("compute fabric all fabric force/tangential branch", "outputs fabric", "compute rows all contact/local fn id",
-                      "outputs rows", "compute one all contact/local fn", "outputs one", "compute shapes all property/atom mass shapey",
-                      "outputs shapes", "run 0"))
+    result = run(
+        deck(
+            "compute fabric all fabric force/tangential branch",
+            "outputs fabric",
+            "compute rows all contact/local fn id",
+            "outputs rows",
+            "compute one all contact/local fn",
+            "outputs one",
+            "compute shapes all property/atom mass shapey",
+            "outputs shapes",
+            "run 0",
+        )
+    )
     vector = [one["name"] for one in said(result, "fabric")["vector"]]
-    require(vector[22:] == [f"{tensor}_{ab}" for tensor in ("force_tangential", "branch") for ab in "xx yy zz xy xz yz".split()], f"{vector}")
+    require(
+        vector[22:]
+        == [f"{tensor}_{ab}" for tensor in ("force_tangential", "branch") for ab in "xx yy zz xy xz yz".split()],
+        f"{vector}",
+    )
     log = result.file("log.liggghts").read_text()
-    for words in ("| fn | force | intensive | c_rows[1] |", "| id_i | - | intensive | c_rows[2] |", "| fn | force | intensive | c_one |",
-                  "| mass | as in LIGGGHTS | intensive | c_shapes[1] |", "| shapey | distance | intensive | c_shapes[2] |"):
+    for words in (
+        "| fn | force | intensive | c_rows[1] |",
+        "| id_i | - | intensive | c_rows[2] |",
+        "| fn | force | intensive | c_one |",
+        "| mass | as in LIGGGHTS | intensive | c_shapes[1] |",
+        "| shapey | distance | intensive | c_shapes[2] |",
+    ):
         require(words in re.sub(" +", " ", log), f"no {words!r}")
 
 
 def listed_only(ranks):
     """Columns are no variables; they are listed with the words that read them, which do."""
-    result = run(deck("compute beta all contact/direction bins 12", "outputs beta",
-                      "fix bins all ave/time 5 1 5 c_beta[2] mode vector file bins.txt", *thermo(5, "c_beta[7][2]"), "run 5"), ranks)
+    result = run(
+        deck(
+            "compute beta all contact/direction bins 12",
+            "outputs beta",
+            "fix bins all ave/time 5 1 5 c_beta[2] mode vector file bins.txt",
+            *thermo(5, "c_beta[7][2]"),
+            "run 5",
+        ),
+        ranks,
+    )
     text = re.sub(" +", " ", result.file("log.liggghts").read_text())
     require("array | 2 | N_c | - | extensive, whole | c_beta[i][2] |" in text, "no line of N_c")
     require("array: i from 1 to 12, one row per bin of beta" in text, "no word about rows")
@@ -253,11 +348,33 @@ def listed_only(ranks):
 def users_own(ranks):
     """A variable that reads the same already is as good."""
     p = outputs("stress/contact").word("stress", "P")
-    result = run(deck("compute stress all stress/contact", f"variable stress_P equal {p}", "outputs stress",
-                      *thermo(1, "v_stress_P", p), "run 1"), ranks)
+    result = run(
+        deck(
+            "compute stress all stress/contact",
+            f"variable stress_P equal {p}",
+            "outputs stress",
+            *thermo(1, "v_stress_P", p),
+            "run 1",
+        ),
+        ranks,
+    )
     require_same(result.thermo()[-1], [("v_stress_P", p)], "own")
 
 
-main({"every-number": every_number, "norm": norm, "json-is-made": json_is_made, "pages": pages, "declared-in-words": declared_in_words,
-      "read-everywhere": read_everywhere, "announced": announced, "lasting": lasting, "printed-once": printed_once,
-      "prefixes": prefixes, "chosen": chosen, "listed-only": listed_only, "users-own": users_own})
+main(
+    {
+        "every-number": every_number,
+        "norm": norm,
+        "json-is-made": json_is_made,
+        "pages": pages,
+        "declared-in-words": declared_in_words,
+        "read-everywhere": read_everywhere,
+        "announced": announced,
+        "lasting": lasting,
+        "printed-once": printed_once,
+        "prefixes": prefixes,
+        "chosen": chosen,
+        "listed-only": listed_only,
+        "users-own": users_own,
+    }
+)

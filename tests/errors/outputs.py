@@ -23,35 +23,72 @@ def words_of(command, message):
 
 
 def clash(define, what):
-    return lines(STRESS, define, "outputs stress", words=[
-        f"ERROR: outputs: 'c_stress[31]' would be variable 'stress_Z', which exists and is {what}: delete that variable first, or give "
-        "another 'prefix' ("])
+    return lines(
+        STRESS,
+        define,
+        "outputs stress",
+        words=[
+            f"ERROR: outputs: 'c_stress[31]' would be variable 'stress_Z', which exists and is {what}: "
+            "delete that variable first, or give "
+            "another 'prefix' ("
+        ],
+    )
 
 
 NAME = "letters, digits and underscores"
-main({
-    "no-words": words_of("outputs", "expected the ID of a compute or fix, got the end of the command"),
-    "other-keyword": words_of("outputs stress as s", "'keyword' must be prefix, got 'as'"),
-    "surplus-word": words_of("outputs stress prefix s t", "'keyword' must be prefix, got 't'"),
-    "two-prefixes": words_of("outputs stress prefix s prefix t", "'prefix' is given twice"),
-    "no-prefix": words_of("outputs stress prefix", f"expected {NAME} after 'prefix', got the end of the command"),
-    "prefix-with-a-slash": words_of("outputs stress prefix a/b", f"'prefix' must be {NAME}, got 'a/b'"),
-    "prefix-with-a-dash": words_of("outputs stress prefix a-b", f"'prefix' must be {NAME}, got 'a-b'"),
-    "empty-prefix": words_of('outputs stress prefix ""', f"'prefix' must be {NAME}, got ''"),
-    "misspelt": lines(STRESS, "outputs strss", words=[WANTED + "'strss': did you mean 'stress'? ("]),
-    "nothing-like-it": lines(STRESS, "outputs temperature", words=[WANTED + "'temperature' ("]),
-    "host-compute": lines("compute energy all ke", "outputs energy",
-                          words=[WANTED + "'energy', compute energy (ke), whose outputs have no names ("]),
-    "host-fix": lines("outputs integrate", words=[WANTED + "'integrate', fix integrate (nve/superquadric), whose outputs have no names ("]),
-    "compute-and-fix": lines("compute press all nematic", "fix press all press/strain axis y target 1e5 every/step 10", "outputs press",
-                             words=[WANTED + "'press', which is both compute press (nematic) and fix press (press/strain): rename one ("]),
-    "before-the-box": refusal(lambda: "outputs stress\n", WANTED + "'stress' ("),
-    "clash-equal": clash("variable stress_Z equal 3*step", "equal to 3*step"),
-    "clash-string": clash("variable stress_Z string four", "of another style than equal"),
-    "clash-index": clash("variable stress_Z index 1 2", "of another style than equal"),
-    "clash-atom": clash("variable stress_Z atom x", "of another style than equal"),
-    "another-compute-of-the-id": lines(
-        STRESS, "outputs stress", "uncompute stress", "compute stress all fabric", "outputs stress",
-        words=["outputs: 'c_stress[22]' would be variable 'stress_N_c', which exists and is equal to c_stress[30]: delete that variable"]),
-    "compute-that-is-gone": lines(STRESS, "outputs stress", "uncompute stress", "variable twice equal 2*v_stress_P",
-                                  "thermo_style custom step v_twice", "run 1", words=["Invalid compute ID in variable formula"])})
+main(
+    {
+        "no-words": words_of("outputs", "expected the ID of a compute or fix, got the end of the command"),
+        "other-keyword": words_of("outputs stress as s", "'keyword' must be prefix, got 'as'"),
+        "surplus-word": words_of("outputs stress prefix s t", "'keyword' must be prefix, got 't'"),
+        "two-prefixes": words_of("outputs stress prefix s prefix t", "'prefix' is given twice"),
+        "no-prefix": words_of("outputs stress prefix", f"expected {NAME} after 'prefix', got the end of the command"),
+        "prefix-with-a-slash": words_of("outputs stress prefix a/b", f"'prefix' must be {NAME}, got 'a/b'"),
+        "prefix-with-a-dash": words_of("outputs stress prefix a-b", f"'prefix' must be {NAME}, got 'a-b'"),
+        "empty-prefix": words_of('outputs stress prefix ""', f"'prefix' must be {NAME}, got ''"),
+        "misspelt": lines(STRESS, "outputs strss", words=[WANTED + "'strss': did you mean 'stress'? ("]),
+        "nothing-like-it": lines(STRESS, "outputs temperature", words=[WANTED + "'temperature' ("]),
+        "host-compute": lines(
+            "compute energy all ke",
+            "outputs energy",
+            words=[WANTED + "'energy', compute energy (ke), whose outputs have no names ("],
+        ),
+        "host-fix": lines(
+            "outputs integrate",
+            words=[WANTED + "'integrate', fix integrate (nve/superquadric), whose outputs have no names ("],
+        ),
+        "compute-and-fix": lines(
+            "compute press all nematic",
+            "fix press all press/strain axis y target 1e5 every/step 10",
+            "outputs press",
+            words=[
+                WANTED + "'press', which is both compute press (nematic) and fix press (press/strain): rename one ("
+            ],
+        ),
+        "before-the-box": refusal(lambda: "outputs stress\n", WANTED + "'stress' ("),
+        "clash-equal": clash("variable stress_Z equal 3*step", "equal to 3*step"),
+        "clash-string": clash("variable stress_Z string four", "of another style than equal"),
+        "clash-index": clash("variable stress_Z index 1 2", "of another style than equal"),
+        "clash-atom": clash("variable stress_Z atom x", "of another style than equal"),
+        "another-compute-of-the-id": lines(
+            STRESS,
+            "outputs stress",
+            "uncompute stress",
+            "compute stress all fabric",
+            "outputs stress",
+            words=[
+                "outputs: 'c_stress[22]' would be variable 'stress_N_c', which exists and is equal to c_stress[30]: "
+                "delete that variable"
+            ],
+        ),
+        "compute-that-is-gone": lines(
+            STRESS,
+            "outputs stress",
+            "uncompute stress",
+            "variable twice equal 2*v_stress_P",
+            "thermo_style custom step v_twice",
+            "run 1",
+            words=["Invalid compute ID in variable formula"],
+        ),
+    }
+)

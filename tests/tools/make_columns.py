@@ -16,12 +16,24 @@ from run import run
 FILE = Path(__file__).resolve().parents[2] / "tools" / "columns.json"
 # With every keyword that adds outputs.
 COMMANDS = {
-    "stress/contact": "", "fabric": "branch force/normal force/tangential", "contact/direction": "", "contact/surface": "",
-    "contact/grain": "", "contact/local": "", "contact/solver": "", "displacement/shear": "strain v_strain", "dissipation": "",
-    "energy/ledger": "", "fluctuation": "", "layering": "", "nematic": "", "velocity/correlation": "",
+    "stress/contact": "",
+    "fabric": "branch force/normal force/tangential",
+    "contact/direction": "",
+    "contact/surface": "",
+    "contact/grain": "",
+    "contact/local": "",
+    "contact/solver": "",
+    "displacement/shear": "strain v_strain",
+    "dissipation": "",
+    "energy/ledger": "",
+    "fluctuation": "",
+    "layering": "",
+    "nematic": "",
+    "velocity/correlation": "",
     "velocity/memory": "strain v_strain",
     "property/atom": "shapex shapey shapez quatw quati quatj quatk blockiness1 blockiness2",
-    "press/strain": "axis y target 2e4 shear xy rate 0.02 every 1e-3"}
+    "press/strain": "axis y target 2e4 shear xy rate 0.02 every 1e-3",
+}
 FIXES = ("press/strain",)
 
 
@@ -42,16 +54,26 @@ def tables(text):
             if len(words) != len(head):
                 break
             row = dict(zip(head, words))
-            one = {"index": row["index"] if row["index"] == "-" else int(row["index"]), "name": row["name"],
-                   "unit": row["unit"], "extensive": row["int/extensive"] != "intensive",
-                   "whole": row["int/extensive"].endswith("whole"), "meaning": row["meaning"]}
+            one = {
+                "index": row["index"] if row["index"] == "-" else int(row["index"]),
+                "name": row["name"],
+                "unit": row["unit"],
+                "extensive": row["int/extensive"] != "intensive",
+                "whole": row["int/extensive"].endswith("whole"),
+                "meaning": row["meaning"],
+            }
             found[ID].setdefault(row["kind"], []).append(one)
     return found
 
 
 def made():
     packing = dense_packing(1.5)
-    deck = Deck(packing, surface="ellipsoid", extra="ledger on tangential_damping off", body=["variable strain equal 0.02*step*dt"])
+    deck = Deck(
+        packing,
+        surface="ellipsoid",
+        extra="ledger on tangential_damping off",
+        body=["variable strain equal 0.02*step*dt"],
+    )
     IDs = {style: f"it{k}" for k, style in enumerate(COMMANDS)}
     for style, keywords in COMMANDS.items():
         deck.body += [f"{kind_of(style)} {IDs[style]} all {style} {keywords}", f"outputs {IDs[style]}"]
@@ -63,8 +85,11 @@ def text_of(columns):
     """One output a line."""
     styles = []
     for style, entry in columns.items():
-        lists = ",\n".join(f'  "{kind}": [\n' + ",\n".join(f"    {json.dumps(one)}" for one in outputs) + "]"
-                           for kind, outputs in entry.items() if kind != "kind")
+        lists = ",\n".join(
+            f'  "{kind}": [\n' + ",\n".join(f"    {json.dumps(one)}" for one in outputs) + "]"
+            for kind, outputs in entry.items()
+            if kind != "kind"
+        )
         styles.append(f'"{style}": {{"kind": "{entry["kind"]}",\n{lists}}}')
     return "{\n" + ",\n".join(styles) + "\n}\n"
 
