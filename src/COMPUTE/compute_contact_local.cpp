@@ -73,8 +73,11 @@ const Column columns[] = {
 }
 
 struct ComputeContactLocal::Impl {
-  std::vector<const Column *> chosen;
-  std::vector<int> widths;       // of each
+  struct Chosen {
+    const Column *column;
+    int width;
+  };
+  std::vector<Chosen> chosen;
   int width = 0;
   std::vector<double> values;    // the rows, one after the other
   std::vector<double *> rows;
@@ -87,17 +90,18 @@ ComputeContactLocal::ComputeContactLocal(LAMMPS *lmp, int &iarg, int narg, char 
   std::vector<std::string> names;
   for (const Column &column : columns) {
     names.push_back(column.name);
-    if (all) impl_->chosen.push_back(&column);
+    if (all) impl_->chosen.push_back({&column, 0});
   }
   while (!arguments.done()) {
     const std::string name = arguments.keyword(names, "column");
-    impl_->chosen.push_back(std::find_if(std::begin(columns), std::end(columns), [&](const Column &c) { return name == c.name; }));
+    const auto same = [&name](const Column &column) { return name == column.name; };
+    impl_->chosen.push_back({std::find_if(std::begin(columns), std::end(columns), same), 0});
   }
   grainscope::Outputs outputs;
-  for (const Column *column : impl_->chosen) {
-    const grainscope::OutputList list = column->outputs();
+  for (Impl::Chosen &one : impl_->chosen) {
+    const grainscope::OutputList list = one.column->outputs();
     outputs.local.insert(outputs.local.end(), list.begin(), list.end());
-    impl_->widths.push_back(list.size());
+    one.width = list.size();
   }
   impl_->width = outputs.local.size();
   declare(this, outputs);
@@ -122,9 +126,9 @@ void ComputeContactLocal::add_contact(const Contact &c) {
   const Row row = {c, observer_->image_shift(c.j), atom->tag[c.i], atom->tag[c.j]};
   impl_->values.resize(impl_->values.size() + impl_->width);
   double *to = impl_->values.data() + impl_->values.size() - impl_->width;
-  for (std::size_t k = 0; k < impl_->chosen.size(); k++) {
-    impl_->chosen[k]->write(row, to);
-    to += impl_->widths[k];
+  for (const Impl::Chosen &one : impl_->chosen) {
+    one.column->write(row, to);
+    to += one.width;
   }
 }
 
