@@ -46,13 +46,15 @@ void ComputeContactGrain::begin_contacts() {
   impl_->tags.assign(atom->tag, atom->tag + atom->nlocal);
 }
 
-void ComputeContactGrain::add_contact(const Contact &c) {
-  if (!both_in_group(c.i, c.j)) return;
-  const double contribution[ANGLE] = {1.0, c.sliding ? 1.0 : 0.0, 0.5 * grainscope::damping_loss(c), 0.5 * grainscope::friction_loss(c),
-                                      grainscope::mobilisation(c)};
-  for (int k = 0; k < ANGLE; k++) {
-    array_atom[c.i][k] += contribution[k];
-    if (!c.ghost) array_atom[c.j][k] += contribution[k];  // a ghost's owner counts it
+void ComputeContactGrain::add_contacts(grainscope::ContactSpan contacts) {
+  for (const Contact &c : contacts) {
+    if (!counts(c)) continue;
+    const double contribution[ANGLE] = {1.0, c.sliding ? 1.0 : 0.0, 0.5 * grainscope::damping_loss(c),
+                                        0.5 * grainscope::friction_loss(c), grainscope::mobilisation(c)};
+    for (int k = 0; k < ANGLE; k++) {
+      array_atom[c.i][k] += contribution[k];
+      if (!c.ghost()) array_atom[c.j()][k] += contribution[k];  // a ghost's owner counts it
+    }
   }
 }
 

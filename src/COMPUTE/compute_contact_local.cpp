@@ -31,16 +31,16 @@ struct Column {
 const Column columns[] = {
     {"id", 2, [](const Row &r, double *to) { to[0] = r.id_i; to[1] = r.id_j; }},
     {"image", 3, [](const Row &r, double *to) { std::copy(r.image, r.image + 3, to); }},
-    {"point", 3, [](const Row &r, double *to) { put(to, r.contact.point); }},
+    {"point", 3, [](const Row &r, double *to) { put(to, r.contact.motion->point); }},
     {"normal", 3, [](const Row &r, double *to) { put(to, r.contact.normal); }},
     {"branch", 3, [](const Row &r, double *to) { put(to, r.contact.branch); }},
     {"overlap", 1, [](const Row &r, double *to) { *to = r.contact.overlap; }},
     {"force", 3, [](const Row &r, double *to) { put(to, r.contact.force); }},
     {"fn", 1, [](const Row &r, double *to) { *to = r.contact.normal_force; }},
-    {"fn_damping", 1, [](const Row &r, double *to) { *to = r.contact.normal_damping; }},
+    {"fn_damping", 1, [](const Row &r, double *to) { *to = r.contact.motion->normal_damping; }},
     {"ft", 3, [](const Row &r, double *to) { put(to, r.contact.tangential_force); }},
-    {"un", 1, [](const Row &r, double *to) { *to = r.contact.normal_velocity; }},
-    {"ut", 3, [](const Row &r, double *to) { put(to, r.contact.tangential_velocity); }},
+    {"un", 1, [](const Row &r, double *to) { *to = r.contact.motion->normal_velocity; }},
+    {"ut", 3, [](const Row &r, double *to) { put(to, r.contact.motion->tangential_velocity); }},
     {"sliding", 1, [](const Row &r, double *to) { *to = r.contact.sliding; }},
     {"slip", 1, [](const Row &r, double *to) { *to = r.contact.slip; }},
     {"mobilisation", 1, [](const Row &r, double *to) { *to = grainscope::mobilisation(r.contact); }}};
@@ -78,18 +78,23 @@ ComputeContactLocal::~ComputeContactLocal() {}
 /** Of a contact that two owners see (or one owner twice, through an image of itself), the lower ID writes the row; between two images of one
  *  grain, the one whose partner lies toward the positive side. */
 bool ComputeContactLocal::is_mine(const Contact &c) const {
-  if (!c.ghost) return true;
-  if (atom->tag[c.i] != atom->tag[c.j]) return atom->tag[c.i] < atom->tag[c.j];
-  const double *shift = observer_->image_shift(c.j);
+  const int j = c.j();
+  if (!c.ghost()) return true;
+  if (atom->tag[c.i] != atom->tag[j]) return atom->tag[c.i] < atom->tag[j];
+  const double *shift = observer_->image_shift(j);
   const double origin[3] = {0.0, 0.0, 0.0};
   return std::lexicographical_compare(origin, origin + 3, shift, shift + 3);
 }
 
 void ComputeContactLocal::begin_contacts() { impl_->values.clear(); }
 
-void ComputeContactLocal::add_contact(const Contact &c) {
-  if (!both_in_group(c.i, c.j) || !is_mine(c)) return;
-  const Row row = {c, observer_->image_shift(c.j), atom->tag[c.i], atom->tag[c.j]};
+void ComputeContactLocal::add_contacts(grainscope::ContactSpan contacts) {
+  for (const Contact &c : contacts)
+    if (counts(c) && is_mine(c)) add_row(c);
+}
+
+void ComputeContactLocal::add_row(const Contact &c) {
+  const Row row = {c, observer_->image_shift(c.j()), atom->tag[c.i], atom->tag[c.j()]};
   impl_->values.resize(impl_->values.size() + impl_->width);
   double *to = impl_->values.data() + impl_->values.size() - impl_->width;
   for (const Column *column : impl_->chosen) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_fabric.h"
 #include "arguments.h"
+#include "contact_sums.h"
 #include "fabric.h"
 #include "plane.h"
 #include "principal_axes.h"
-#include "update.h"
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -32,14 +32,24 @@ double *put_symmetric(double *at, const Matrix3d &m) {
   return at;
 }
 
+/** The weights depend on the fabric of all contacts: weighted tensors need a second pass. */
+struct Moments : grainscope::ContactCompute::Accumulator {
+  std::vector<grainscope::ContactMoment> of_contacts;
+
+  void reset() override { of_contacts.clear(); }
+  void add(grainscope::ContactSpan contacts, const grainscope::ContactCompute &of) override {
+    for (const Contact &c : contacts)
+      if (of.counts(c)) of_contacts.push_back({c.normal, c.weight, c.branch.norm(), c.normal_force, c.tangential_force.norm()});
+  }
+};
+
 }
 
 struct ComputeFabric::Impl {
   grainscope::Plane plane;
   std::vector<const Weighted *> chosen;
-  grainscope::FabricSums sums;
-  // The weights depend on the fabric of all contacts: the weighted tensors, when asked for, need a second pass.
-  std::vector<grainscope::ContactMoment> moments;
+  grainscope::ContactSums<grainscope::FabricSums> sums;
+  Moments moments;
 };
 
 ComputeFabric::ComputeFabric(LAMMPS *lmp, int &iarg, int narg, char **arg) : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
@@ -50,6 +60,8 @@ ComputeFabric::ComputeFabric(LAMMPS *lmp, int &iarg, int narg, char **arg) : Con
     for (const Weighted &one : weighted_tensors)
       if (keyword == one.name) impl_->chosen.push_back(&one);
   }
+  sums_over(impl_->sums);
+  if (!impl_->chosen.empty()) sums_over(impl_->moments);
   scalar_flag = vector_flag = 1;
   extscalar = 0;
   extvector = 0;
@@ -59,23 +71,8 @@ ComputeFabric::ComputeFabric(LAMMPS *lmp, int &iarg, int narg, char **arg) : Con
 
 ComputeFabric::~ComputeFabric() { delete[] vector; }
 
-void ComputeFabric::begin_contacts() {
-  impl_->sums = grainscope::FabricSums();
-  impl_->moments.clear();
-}
-
-void ComputeFabric::add_contact(const Contact &c) {
-  if (!both_in_group(c.i, c.j)) return;
-  impl_->sums.add(c);
-  if (!impl_->chosen.empty())
-    impl_->moments.push_back({c.normal, c.weight, c.branch.norm(), c.normal_force, c.tangential_force.norm()});
-}
-
-void ComputeFabric::compute_vector() {
-  require_tally();
-  invoked_vector = update->ntimestep;
-  grainscope::FabricSums all = impl_->sums;
-  sum_over_ranks(all.sums.data(), all.sums.size());
+void ComputeFabric::answer() {
+  const grainscope::FabricSums &all = impl_->sums.total(*this);
   const Matrix3d fabric = all.tensor();
   std::fill(vector, vector + size_vector, 0.0);
   scalar = 0.0;
@@ -96,15 +93,9 @@ void ComputeFabric::compute_vector() {
 
   if (impl_->chosen.empty()) return;
   WeightedFabricSums weighted;
-  for (const grainscope::ContactMoment &moment : impl_->moments) weighted.add(moment, fabric);
+  for (const grainscope::ContactMoment &moment : impl_->moments.of_contacts) weighted.add(moment, fabric);
   sum_over_ranks(weighted.sums.data(), weighted.sums.size());
   for (const Weighted *one : impl_->chosen) out = put_symmetric(out, (weighted.*one->tensor)());
 }
 
-double ComputeFabric::compute_scalar() {
-  invoked_scalar = update->ntimestep;
-  if (invoked_vector != update->ntimestep) compute_vector();
-  return scalar;
-}
-
-double ComputeFabric::memory_usage() { return impl_->moments.capacity() * sizeof(grainscope::ContactMoment); }
+double ComputeFabric::memory_usage() { return impl_->moments.of_contacts.capacity() * sizeof(grainscope::ContactMoment); }

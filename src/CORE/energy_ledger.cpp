@@ -40,11 +40,12 @@ LedgerFrame carried(const LedgerFrame &before, const LedgerFrame &after) {
 
 }
 
-void EnergyLedger::set_law(const LedgerLaw &law) {
-  law_ = law;
+void EnergyLedger::set_law(const ContactLaw &law) {
+  const bool spring = law.tangential == TangentialLaw::spring;
+  law_ = {law.exponent, spring, spring || law.tangential == TangentialLaw::viscous, law.rolls};
   energy_factor_ = 1.0 / (1.0 + law.exponent);
   slots_ = 0;
-  const bool used[parts] = {true, true, law.spring || law.viscous, law.viscous, law.rolling};
+  const bool used[parts] = {true, true, law_.spring || law_.viscous, law_.viscous, law_.rolling};
   for (int k = 0; k < parts; k++) slot_[k] = used[k] ? slots_++ : -1;
 }
 
@@ -61,7 +62,7 @@ struct EnergyLedger::Unit {
   Four force, torque_i, torque_j, diagonal, beside;
 
   GRAINSCOPE_INLINE Unit(const Contact &c, const Vector3d &f, const Vector3d &arm_j, double power)
-      : force(four_of(f)), torque_i(torque_of(c.arm, f)), torque_j(torque_of(arm_j, f)) {
+      : force(four_of(f)), torque_i(torque_of(c.motion->arm, f)), torque_j(torque_of(arm_j, f)) {
     const Vector3d &r = c.branch;
     const Four weight = four_times(c.weight);
     diagonal = weight * Four{f[0] * r[0], f[1] * r[1], f[2] * r[2], power};
@@ -88,23 +89,24 @@ GRAINSCOPE_INLINE void EnergyLedger::add_past(const Contact &c, const ContactPas
   const double base0 = of_overlap(past.overlap, law_.exponent), base1 = of_overlap(c.overlap, law_.exponent);
   if (past.overlap > 0.0 && c.overlap > 0.0) {
     // energy = factor d^2 base k, with k = k_n/base: what is left of the stiffness once the overlap is told
-    const double change = c.normal_stiffness / base1 - past.elastic_force / (past.overlap * base0);
+    const double change = c.motion->normal_stiffness / base1 - past.elastic_force / (past.overlap * base0);
     path += 0.5 * energy_factor_ * (past.overlap * past.overlap * base0 + c.overlap * c.overlap * base1) * change;
   }
   contacts_.elastic_path += w * path;
 }
 
-GRAINSCOPE_INLINE void EnergyLedger::add_spring(const Contact &c, const ContactPast &past) {
-  const double w = c.weight, k0 = past.tangential_stiffness, k1 = c.tangential_stiffness;
-  const Vector3d mean = 0.5 * w * (k0 * c.spring_before + k1 * c.spring);
-  const double cut = c.sliding ? mean.dot(c.cut) : 0.0;
+GRAINSCOPE_INLINE void EnergyLedger::add_spring(const Contact &c) {
+  const ContactSpring &s = *c.spring;
+  const double w = c.weight, k0 = c.past ? c.past->tangential_stiffness : 0.0, k1 = c.motion->tangential_stiffness;
+  const Vector3d mean = 0.5 * w * (k0 * s.before + k1 * s.after);
+  const double cut = c.sliding ? mean.dot(s.cut) : 0.0;
   contacts_.friction += cut;
-  contacts_.travel += mean.dot(c.spring - c.spring_before) + cut;
-  const double stiffening = -0.5 * w * (k1 - k0) * c.spring_before.dot(c.spring);
-  if (past.touched) {
+  contacts_.travel += mean.dot(s.after - s.before) + cut;
+  const double stiffening = -0.5 * w * (k1 - k0) * s.before.dot(s.after);
+  if (c.past) {
     contacts_.stiffening += stiffening;
-    contacts_.kept_spring += w * past.spring_work;
-    contacts_.kept_energy += 0.5 * w * k0 * c.spring_before.squaredNorm();
+    contacts_.kept_spring += w * c.past->spring_work;
+    contacts_.kept_energy += 0.5 * w * k0 * s.before.squaredNorm();
   } else {
     contacts_.revived += stiffening;
   }
@@ -113,35 +115,34 @@ GRAINSCOPE_INLINE void EnergyLedger::add_spring(const Contact &c, const ContactP
 GRAINSCOPE_CLONES
 void EnergyLedger::add(const Contact &c, double dt, bool springs_move) {
   cleared_ = false;
-  const double elastic_force = c.normal_stiffness * c.overlap;
-  const Vector3d arm_j = c.arm + c.branch;
-  double *const of_i = wrenches_of(c.i), *const of_j = c.ghost ? nullptr : wrenches_of(c.j);
-  const Unit normal(c, c.normal, arm_j, c.normal_velocity);
+  const ContactMotion &m = *c.motion;
+  const double elastic_force = m.normal_stiffness * c.overlap;
+  const Vector3d arm_j = m.arm + c.branch;
+  double *const of_i = wrenches_of(c.i), *const of_j = c.ghost() ? nullptr : wrenches_of(c.j());
+  const Unit normal(c, c.normal, arm_j, m.normal_velocity);
   add_part(elastic, elastic_force, normal, of_i, of_j);
-  add_part(damping, c.normal_damping, normal, of_i, of_j);
+  add_part(damping, m.normal_damping, normal, of_i, of_j);
   if (slot_[spring] >= 0) {
     // In the first evaluation of a run the host does not turn springs into the contact plane: they may push along the normal too.
-    Vector3d force = c.force - (elastic_force + c.normal_damping) * c.normal;
+    Vector3d force = c.force - (elastic_force + m.normal_damping) * c.normal;
     if (law_.viscous && c.damped) {
-      const Vector3d viscous_force = -c.tangential_damping * c.tangential_velocity;
+      const Vector3d viscous_force = -m.tangential_damping * m.tangential_velocity;
       force -= viscous_force;
-      add_part(viscous, 1.0, Unit(c, viscous_force, arm_j, viscous_force.dot(c.tangential_velocity)), of_i, of_j);
+      add_part(viscous, 1.0, Unit(c, viscous_force, arm_j, viscous_force.dot(m.tangential_velocity)), of_i, of_j);
     }
-    add_part(spring, 1.0, Unit(c, force, arm_j, force.dot(c.tangential_velocity)), of_i, of_j);
+    add_part(spring, 1.0, Unit(c, force, arm_j, force.dot(m.tangential_velocity)), of_i, of_j);
   }
   if (law_.rolling) {
-    Unit unit(c, Vector3d::Zero(), arm_j, c.rolling_torque.dot(c.spin));
-    unit.torque_i = unit.torque_j = four_of(c.rolling_torque);
+    Unit unit(c, Vector3d::Zero(), arm_j, c.rolling->torque.dot(c.rolling->spin));
+    unit.torque_i = unit.torque_j = four_of(c.rolling->torque);
     add_part(rolling, 1.0, unit, of_i, of_j);
   }
   contacts_.normal_energy += c.weight * elastic_force * c.overlap * energy_factor_;
-  if (law_.spring) contacts_.spring_energy += 0.5 * c.weight * c.tangential_stiffness * c.spring.squaredNorm();
+  if (law_.spring) contacts_.spring_energy += 0.5 * c.weight * m.tangential_stiffness * c.spring->after.squaredNorm();
   if (!springs_move) return;
-  static const ContactPast none;
-  const ContactPast &past = c.past ? *c.past : none;
-  if (past.touched) add_past(c, past, elastic_force);
-  else contacts_.new_elastic -= 0.5 * dt * c.weight * elastic_force * c.normal_velocity;
-  if (law_.spring) add_spring(c, past);
+  if (c.past) add_past(c, *c.past, elastic_force);
+  else contacts_.new_elastic -= 0.5 * dt * c.weight * elastic_force * m.normal_velocity;
+  if (law_.spring) add_spring(c);
 }
 
 GRAINSCOPE_CLONES

@@ -17,6 +17,8 @@ struct FabricSums {
     for (int k = 0; k < 6; k++) sums[k] += c.weight * products[k];
     sums[6] += c.weight;
   }
+  void reset() { sums.fill(0.0); }
+  std::array<double, 7> &numbers() { return sums; }
   double contacts() const { return sums[6]; }
   /** <n n>, trace 1; zero without contacts. */
   Eigen::Matrix3d tensor() const;

@@ -83,21 +83,6 @@ void FixLedgerRecord::fail(const std::string &message) const {
   std::abort();  // not reached: error->all ends the run
 }
 
-void FixLedgerRecord::require_known_models() const {
-  const std::string got = ", got '" + impl_->pair->models() + "'";
-  const auto matches = [this](const char *kind, std::initializer_list<const char *> models) {
-    for (const char *model : models)
-      if (impl_->pair->contact_match(kind, model)) return true;
-    return false;
-  };
-  if (!impl_->pair->observer().elastic()) fail("knows the energy of the normal models hertz, hooke, hertz/stiffness and hooke/stiffness only" + got);
-  if (impl_->pair->observer().law() == ContactObserver::TangentialLaw::other)
-    fail("knows the energy of 'tangential' off, no_history and history only" + got);
-  if (!matches("cohesion", {"off"})) fail("does not know the energy of cohesion: only 'cohesion off'" + got);
-  if (!matches("rolling_friction", {"off", "cdt", "epsd", "epsd2"})) fail("knows the work of 'rolling_friction' off, cdt, epsd and epsd2 only" + got);
-  if (!matches("surface", {"default", "superquadric", "ellipsoid"})) fail("knows 'surface' default, superquadric and ellipsoid only" + got);
-}
-
 /** Whether some grain belongs to the ledger's group and to another. Collective. */
 bool FixLedgerRecord::shares_grains(int other_groupbit) const {
   int any = 0;
@@ -143,26 +128,27 @@ void FixLedgerRecord::require_flowing_box() const {
 void FixLedgerRecord::init() {
   impl_->pair = PairGranInsitu::required_by(lmp, impl_->name.c_str());
   ContactObserver &observer = impl_->pair->observer();
-  if (!observer.knows_past())
+  const grainscope::ContactLaw &law = impl_->pair->law();
+  if (!law.keeps_past())
     fail("needs 'ledger on' in pair_style gran/insitu, which remembers what each contact stored, got '" + impl_->pair->models() + "'");
-  require_known_models();
+  if (!law.why_no_energy().empty()) fail(law.why_no_energy());
   if (impl_->pair->renumbered())
     fail("grains were given other IDs, and what is known of contacts goes by ID: say 'compress no' to delete_atoms");
   require_moved_by_verlet();
   require_flowing_box();
-  using Law = ContactObserver::TangentialLaw;
-  const bool history = observer.law() == Law::history;
-  impl_->ledger.set_law({impl_->pair->stressStrainExponent(), history, history || observer.law() == Law::no_history, observer.rolls()});
+  impl_->ledger.set_law(law);
   observer.add(this);
   impl_->arrived = 0.0;
   impl_->stepping = false;
   impl_->dt = update->dt;
 }
 
-void FixLedgerRecord::begin_contacts() { impl_->ledger.begin_evaluation(atom->nlocal, impl_->pair->observer().again()); }
+void FixLedgerRecord::begin_contacts() { impl_->ledger.begin_evaluation(atom->nlocal, impl_->pair->observer().repeats()); }
 
-void FixLedgerRecord::add_contact(const Contact &c) {
-  if (atom->mask[c.i] & atom->mask[c.j] & groupbit) impl_->ledger.add(c, update->dt, impl_->pair->observer().springs_move());
+void FixLedgerRecord::add_contacts(grainscope::ContactSpan contacts) {
+  const bool springs_move = impl_->pair->observer().springs_move();
+  for (const Contact &c : contacts)
+    if (atom->mask[c.i] & atom->mask[c.j()] & groupbit) impl_->ledger.add(c, update->dt, springs_move);
 }
 
 /** Of a sphere, whose angular momentum the host does not keep. */

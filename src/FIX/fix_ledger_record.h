@@ -36,7 +36,7 @@ class FixLedgerRecord : public Fix, public grainscope::ContactSink {
 
   bool wants_contacts() override { return true; }
   void begin_contacts() override;
-  void add_contact(const grainscope::Contact &contact) override;
+  void add_contacts(grainscope::ContactSpan contacts) override;
 
   /** Makes the record of compute `id`, in its constructor; `style` is for messages. Collective. */
   static FixLedgerRecord *make(class LAMMPS *lmp, const char *id, int igroup, const std::string &style);
@@ -54,7 +54,6 @@ class FixLedgerRecord : public Fix, public grainscope::ContactSink {
   std::unique_ptr<Impl> impl_;
 
   [[noreturn]] void fail(const std::string &message) const;
-  void require_known_models() const;
   bool shares_grains(int other_groupbit) const;
   void require_moved_by_verlet() const;
   void require_flowing_box() const;

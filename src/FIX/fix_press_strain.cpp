@@ -59,8 +59,7 @@ struct FixPressStrain::Impl {
   int momentum_groupbit = 1;
   std::string momentum_group;
   grainscope::ContactObserver *observer = nullptr;
-  double exponent = 1.5;
-  bool sticks = true;
+  const grainscope::ContactLaw *law = nullptr;
   bool flip_pending = false;
 
   NetworkResponse now;             // this rank's sums of the last evaluation, over volume
@@ -161,17 +160,15 @@ void FixPressStrain::require_momentum_group() const {
 }
 
 void FixPressStrain::init() {
-  using Law = grainscope::ContactObserver::TangentialLaw;
   Impl &my = *impl_;
   require_controllable_box();
   require_momentum_group();
   PairGranInsitu *pair = PairGranInsitu::required_by(lmp, "fix press/strain");
   my.observer = &pair->observer();
   my.observer->add(this);
-  my.exponent = pair->stressStrainExponent();
-  my.sticks = my.observer->law() == Law::history || my.observer->law() == Law::other;
-  if (my.settings.control.automatic && !my.observer->elastic())
-    press_strain_error(lmp, "'gain auto' knows the stiffness of the normal models hertz, hooke, hertz/stiffness and hooke/stiffness only: give a number");
+  my.law = &pair->law();
+  if (my.settings.control.automatic && !my.law->knows_stiffness())
+    press_strain_error(lmp, std::string("'gain auto' knows the stiffness of the normal models ") + my.law->elastic_models() + " only: give a number");
   evaluate_rate();
   my.box.set_rates(my.velocity, my.settings.rate.value);
   plan_flip();
@@ -207,8 +204,8 @@ void FixPressStrain::begin_contacts() {
   impl_->pressure_step = -1;
 }
 
-void FixPressStrain::add_contact(const grainscope::Contact &contact) {
-  impl_->now.add(contact, impl_->settings.axis, impl_->exponent, impl_->sticks);
+void FixPressStrain::add_contacts(grainscope::ContactSpan contacts) {
+  for (const grainscope::Contact &contact : contacts) impl_->now.add(contact, impl_->settings.axis, *impl_->law);
 }
 
 void FixPressStrain::plan_flip() {

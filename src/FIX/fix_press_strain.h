@@ -34,7 +34,7 @@ class FixPressStrain : public FixDeform, public grainscope::ContactSink {
 
   bool wants_contacts() override { return true; }
   void begin_contacts() override;
-  void add_contact(const grainscope::Contact &contact) override;
+  void add_contacts(grainscope::ContactSpan contacts) override;
 
  private:
   struct Impl;

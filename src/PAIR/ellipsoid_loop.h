@@ -20,13 +20,13 @@ namespace grainscope {
  *  the host's last bit, but neighbours that are surely apart are not looked at. Whatever else is asked of the loop (rigid bodies,
  *  multicontact, stored contact forces, compute pair/gran/local) goes the host's way. */
 template <class Model>
-class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model>, public EndsSprings {
+class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model>, public ResetsOpenSprings {
   using Host = LIGGGHTS::PairStyles::Granular<Model>;
   using PairGran = LAMMPS_NS::PairGran;
 
  public:
   EllipsoidLoop(LAMMPS_NS::LAMMPS *lmp, PairGran *pair, int64_t hash)
-      : Host(lmp, pair, hash), lmp_(lmp), pair_(pair), model_(*Model::newest()),
+      : Host(lmp, pair, hash), lmp_(lmp), pair_(pair), model_(static_cast<Model &>(*static_cast<LAMMPS_NS::PairGranInsitu *>(pair)->reader().model())),
         bodies_(static_cast<LAMMPS_NS::PairGranInsitu *>(pair)->ellipsoid_bodies()),
         surface_(static_cast<LAMMPS_NS::PairGranInsitu *>(pair)->ellipsoid_surface()) {}
 
@@ -75,8 +75,8 @@ class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model>, public EndsS
   EllipsoidBodies &bodies_;
   const EllipsoidSurface &surface_;
 
-  typename Model::Sides s_;
-  typename Model::Force on_i_, on_j_;
+  typename Model::Surfaces s_;
+  typename Model::Forces on_i_, on_j_;
 
   SeparationMemory apart_;
   std::vector<int> first_pair_;  // of each grain in the neighbour list

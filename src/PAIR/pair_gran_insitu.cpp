@@ -3,11 +3,13 @@
 #include "bin_index.h"
 #include "contact_ids.h"
 #include "contact_observer.h"
+#include "contact_reader.h"
 #include "ellipsoid_surface.h"
 #include "fix_run_guard.h"
 #include "fix_setup_memory.h"
 #include "gran_insitu_models.h"
 #include "kept_history.h"
+#include "model_names.h"
 #include "sphere_geometry.h"
 #include "stop_signal.h"
 #include "surface_required.h"
@@ -30,17 +32,22 @@
 
 using namespace LAMMPS_NS;
 using grainscope::BoxState;
+using grainscope::ContactLaw;
 using grainscope::ContactObserver;
+using grainscope::ContactReader;
 using grainscope::TangentialBound;
+using grainscope::TangentialLaw;
 
 struct PairGranInsitu::Impl {
-  explicit Impl(LAMMPS *lmp) : observer(lmp), bodies(lmp), watch(lmp) {}
+  explicit Impl(LAMMPS *lmp) : observer(lmp), reader(observer), bodies(lmp), watch(lmp) {}
   ContactObserver observer;
+  ContactReader reader;
   grainscope::EllipsoidBodies bodies;
   grainscope::EllipsoidSurface surface;
   grainscope::TimeStepWatch watch;
   std::unique_ptr<LIGGGHTS::PairStyles::IGranularPairStyle> loop;
   double **friction = nullptr;
+  int past_column = -1;            // first of the ledger's columns of the contact history, or -1
   std::string models;              // the words of the command, for messages
   bool ledger = false;
   bool neutral = false;
@@ -67,6 +74,10 @@ PairGranInsitu::~PairGranInsitu() {
 const std::string &PairGranInsitu::models() const { return impl_->models; }
 
 ContactObserver &PairGranInsitu::observer() { return impl_->observer; }
+
+ContactReader &PairGranInsitu::reader() { return impl_->reader; }
+
+const ContactLaw &PairGranInsitu::law() const { return impl_->reader.law(); }
 
 bool PairGranInsitu::renumbered() const { return impl_->renumbered; }
 
@@ -102,7 +113,7 @@ void PairGranInsitu::settings(int narg, char **arg) {
     error->all(FLERR, ("pair_style gran/insitu: invalid contact model (check for typos, and enable at least one model), got '" + received +
                        "'").c_str());
   history_arg.clear();
-  impl_->observer.set_past(-1);
+  impl_->past_column = -1;
   dnum_pairgran = 0;
   impl_->loop.reset(grainscope::create_observed_loop(hash, lmp, this));
   impl_->loop->settings(narg, arg, this);
@@ -134,14 +145,14 @@ bool PairGranInsitu::take_setting(std::vector<char *> &words, const char *keywor
 }
 
 void PairGranInsitu::add_past_columns() {
-  impl_->observer.set_past(history_arg.size());
-  for (int k = 0; k < ContactObserver::past_columns; k++) add_history_value(ContactObserver::past_column(k), "0");
+  impl_->past_column = history_arg.size();
+  for (int k = 0; k < ContactReader::past_columns; k++) add_history_value(ContactReader::past_column(k), "0");
   if (comm->me != 0) return;
   for (FILE *out : {screen, logfile})
     if (out)
       fprintf(out, "pair_style gran/insitu: 'ledger on' keeps %d numbers more for every pair of neighbours (%d instead of %d); restart files "
-              "with and without them are not interchangeable\n", ContactObserver::past_columns, dnum_pairgran,
-              dnum_pairgran - ContactObserver::past_columns);
+              "with and without them are not interchangeable\n", ContactReader::past_columns, dnum_pairgran,
+              dnum_pairgran - ContactReader::past_columns);
 }
 
 namespace {
@@ -165,7 +176,7 @@ void PairGranInsitu::require_same_columns_in_restart() {
   double columns[2];  // the host writes the number of columns, and one more
   memcpy(columns, state, sizeof columns);
   const int found = static_cast<int>(grainscope::whole_count(columns[0], 1e6)), wanted = dnum_pairgran;
-  const int past = ContactObserver::past_columns;
+  const int past = ContactReader::past_columns;
   const std::string numbers = std::to_string(found) + " numbers per contact, and this pair_style has " + std::to_string(wanted) + ": ";
   if (found == wanted) return;
   if (found == wanted - past && impl_->ledger)
@@ -197,36 +208,34 @@ void PairGranInsitu::init_style() {
 }
 
 void PairGranInsitu::init_granular() {
-  using Law = ContactObserver::TangentialLaw;
   impl_->loop->init_granular();
-  Law law = Law::other;
-  if (contact_match("tangential", "off")) law = Law::off;
-  else if (contact_match("tangential", "no_history")) law = Law::no_history;
-  else if (contact_match("tangential", "history")) law = Law::history;
-  int spring = 0;
-  if (law == Law::history)
-    while (history_arg[spring].name != "shearx") spring++;
-  impl_->observer.set_law(law, spring);
-  bool elastic = false;
-  for (const char *model : {"hertz", "hooke", "hertz/stiffness", "hooke/stiffness"}) elastic = elastic || contact_match("normal", model);
-  impl_->observer.set_elastic(elastic);
-  impl_->observer.set_rolling(!contact_match("rolling_friction", "off"));
-  impl_->observer.set_limits_force(impl_->models.find("limitForce on") != std::string::npos);
-  impl_->observer.set_wet(contact_match("cohesion", "washino/capillary/viscous") ||
-                          contact_match("cohesion", "easo/capillary/viscous"));
-  impl_->sphere_model = contact_match("surface", "superquadric") ? grainscope::SphereGeometry::of(*this) : "";
-
+  ContactLaw law = grainscope::law_of_models(impl_->models, [this](const char *kind, const char *name) { return contact_match(kind, name); });
+  law.exponent = stressStrainExponent();
+  law.past_column = impl_->past_column;
+  if (law.tangential == TangentialLaw::spring) law.spring_column = column_of("shearx");
   impl_->friction = nullptr;
-  if (law == Law::no_history || law == Law::history) {
+  if (law.tangential == TangentialLaw::viscous || law.tangential == TangentialLaw::spring) {
     force->registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
     force->registry.connect("coeffFrict", impl_->friction, "pair_style gran/insitu");
   }
-  impl_->observer.set_friction(impl_->friction);
+  law.friction = impl_->friction;
+  impl_->reader.set_law(law);
+  impl_->observer.set_keeps_past(law.keeps_past());
+  impl_->sphere_model = contact_match("surface", "superquadric") ? grainscope::SphereGeometry::of(*this) : "";
+}
+
+/** Of the contact history. */
+int PairGranInsitu::column_of(const std::string &name) const {
+  for (std::size_t k = 0; k < history_arg.size(); k++)
+    if (history_arg[k].name == name) return static_cast<int>(k);
+  error->all(FLERR, ("pair_style gran/insitu: the contact history must have a column '" + name + "' for the tangential spring, got '" + impl_->models +
+                     "'").c_str());
+  return -1;
 }
 
 void PairGranInsitu::warn_of_stale_springs() {
-  if (impl_->warned_of_stale_springs || impl_->observer.law() != ContactObserver::TangentialLaw::history) return;
-  if (neighbor->contactDistanceFactor > 1.0 || dynamic_cast<grainscope::EndsSprings *>(impl_->loop.get())) return;
+  if (impl_->warned_of_stale_springs || law().tangential != TangentialLaw::spring) return;
+  if (neighbor->contactDistanceFactor > 1.0 || dynamic_cast<grainscope::ResetsOpenSprings *>(impl_->loop.get())) return;
   int spheres = atom->sphere_flag;
   if (atom->superquadric_flag)
     for (int i = 0; i < atom->nlocal && !spheres; i++)
@@ -256,10 +265,8 @@ void PairGranInsitu::warn_of_sphere_model() {
 }
 
 void PairGranInsitu::watch_time_step() {
-  if (!impl_->observer.elastic() || !atom->rmass) return;
-  using Law = ContactObserver::TangentialLaw;
-  const Law law = impl_->observer.law();
-  impl_->watch.begin_run(stressStrainExponent(), law == Law::history || law == Law::other);
+  if (!law().elastic || !atom->rmass) return;
+  impl_->watch.begin_run(law());
   impl_->observer.add(&impl_->watch);
 }
 

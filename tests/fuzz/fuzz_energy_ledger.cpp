@@ -30,12 +30,8 @@ double turnover(const Pair &pair) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
   fuzz::Input input(data, size);
   Pair pair(input.logarithmic(1e-6, 1e-2));
-  grainscope::LedgerLaw law;
-  law.exponent = 1.5;
-  law.spring = true;
-  law.viscous = input.flag();
-  law.rolling = input.flag();
-  pair.rolling = law.rolling ? input.logarithmic(1e-3, 1.0) : 0.0;
+  const grainscope::ContactLaw law = make_law(1.5, grainscope::TangentialLaw::spring, input.flag());
+  pair.rolling = law.rolls ? input.logarithmic(1e-3, 1.0) : 0.0;
   pair.ledger.set_law(law);
   for (Sphere &s : pair.spheres) {
     s.mass = input.logarithmic(0.1, 10.0);

@@ -125,25 +125,22 @@ TEST(energy_ledger, one_step_of_a_spring_by_hand) {
   // k_t 100 -> 400, spring (0.01, 0, 0) -> tried (0.05, 0, 0), cut at (0.03, 0, 0):
   // D_t = (1 + 12)/2 0.02 = 0.13, G_k = -(400 - 100)/2 0.01 0.03 = -0.045.
   EnergyLedger ledger;
-  ledger.set_law({1.5, true, false, false});
+  ledger.set_law(make_law(1.5, grainscope::TangentialLaw::spring));
   const double rest[3] = {0.0, 0.0, 0.0};
   const LedgerFrame frame;
   ledger.begin_evaluation(2);
   Contact c = make_contact();
-  ContactPast past;
-  c.past = &past;
-  c.tangential_stiffness = 100.0;
-  c.spring = c.spring_before = Vector3d(0.0, 0.01, 0.0);
-  c.cut.setZero();
+  const Vector3d before(0.0, 0.01, 0.0), after(0.0, 0.03, 0.0), cut(0.0, 0.02, 0.0);
+  c.motion->tangential_stiffness = 100.0;
+  c.spring = ContactSpring{before, before, Vector3d::Zero()};
   ledger.add(c, 0.1, false);
   ledger.begin_start_of_step(frame);
   for (int g = 0; g < 2; g++) ledger.start_of_step({g, 1.0, rest, rest, rest, rest}, rest, rest, 0.1);
   ledger.book_start(0.1);
   ledger.begin_evaluation(2);
-  past = {true, 0.01, 6.0, 100.0, 0.0, 0.0};
-  c.tangential_stiffness = 400.0;
-  c.spring = Vector3d(0.0, 0.03, 0.0);
-  c.cut = Vector3d(0.0, 0.02, 0.0);
+  c.past = ContactPast{0.01, 6.0, 100.0, 0.0, 0.0};
+  c.motion->tangential_stiffness = 400.0;
+  c.spring = ContactSpring{before, after, cut};
   c.sliding = true;
   ledger.add(c, 0.1, true);
   ledger.begin_end_of_step();
@@ -171,7 +168,7 @@ TEST(energy_ledger, closes_wherever_it_is_in_memory) {
 
 TEST(energy_ledger, rolling_loses_what_the_ledger_says) {
   Pair pair;
-  pair.ledger.set_law({1.5, true, false, true});
+  pair.ledger.set_law(make_law(1.5, grainscope::TangentialLaw::spring, true));
   pair.rolling = 0.5;
   pair.evaluate(false);
   for (int n = 0; n < 400; n++) pair.step();
