@@ -4,10 +4,9 @@
 #include "contact_ids.h"
 #include "contact_observer.h"
 #include "ellipsoid_surface.h"
-#include "fix_run_guard.h"
-#include "fix_setup_memory.h"
 #include "gran_insitu_models.h"
 #include "kept_history.h"
+#include "run_fixes.h"
 #include "sphere_geometry.h"
 #include "stop_signal.h"
 #include "surface_required.h"
@@ -44,7 +43,7 @@ struct PairGranInsitu::Impl {
   std::string models;              // the words of the command, for messages
   bool ledger = false;
   bool neutral = false;
-  FixSetupMemory *memory = nullptr;
+  std::weak_ptr<grainscope::EvaluationMemory> memory;
   bool warned_of_stale_springs = false;
   std::string sphere_model;        // that is given grains which may be no spheres, or ""
   bool warned_of_sphere_model = false;
@@ -60,8 +59,8 @@ PairGranInsitu::PairGranInsitu(LAMMPS *lmp) : PairGranProxy(lmp), impl_(new Impl
 
 PairGranInsitu::~PairGranInsitu() {
   TangentialBound::get().set(TangentialBound::Mode::off);
-  FixRunGuard::forget(lmp);
-  FixSetupMemory::forget(lmp);
+  grainscope::run_fixes::remove(lmp);
+  grainscope::stop_signal::release();
 }
 
 const std::string &PairGranInsitu::models() const { return impl_->models; }
@@ -187,11 +186,8 @@ void PairGranInsitu::init_style() {
   const std::string ledger = impl_->ledger ? " ledger on" : "", setup = impl_->neutral ? " setup neutral" : "";
   grainscope::require_surface_models(lmp, this, impl_->models + ledger + setup);
   PairGranProxy::init_style();
-  FixRunGuard::make(lmp, impl_->models + (impl_->ledger ? " ledger on" : ""));
-  if (impl_->neutral) {
-    impl_->memory = FixSetupMemory::make(lmp);
-    impl_->memory->kept_at(&impl_->memory);
-  }
+  grainscope::run_fixes::make_guard(lmp, impl_->models + (impl_->ledger ? " ledger on" : ""));
+  if (impl_->neutral) impl_->memory = grainscope::run_fixes::make_setup_memory(lmp);
   warn_of_stale_springs();
   watch_time_step();
 }
@@ -280,20 +276,20 @@ void PairGranInsitu::require_box_large_enough() {
 void PairGranInsitu::compute(int eflag, int vflag) {
   if (neighbor->ago == 0 && history) require_box_large_enough();
   if (neighbor->ago == 0) warn_of_sphere_model();
-  FixSetupMemory *memory = impl_->memory;
-  const bool again = memory && update->setupflag && memory->again();
-  if (again) {
-    memory->swap_evaluation();
+  const std::shared_ptr<grainscope::EvaluationMemory> memory = impl_->memory.lock();
+  const bool repeats = memory && update->setupflag && memory->repeats();
+  if (repeats) {
+    memory->swap();
     impl_->observer.resume(memory->stamp());
   }
   {
-    const grainscope::KeptHistory kept(again ? listgranhistory : nullptr, list, dnum());
-    if (impl_->observer.begin(!update->setupflag, again)) update_image_shifts();
+    const grainscope::KeptHistory kept(repeats ? listgranhistory : nullptr, list, dnum());
+    if (impl_->observer.begin(!update->setupflag, repeats)) update_image_shifts();
     set_tangential_bound();
     PairGran::compute(eflag, vflag);
     impl_->observer.end();
   }
-  if (again) memory->swap_evaluation();
+  if (repeats) memory->swap();
   impl_->grains = atom->natoms;
   if (memory) memory->set_stamp(impl_->observer.stamp());
   impl_->watch.judge();
