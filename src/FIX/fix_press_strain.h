@@ -43,10 +43,6 @@ class FixPressStrain : public FixDeform, public grainscope::ContactSink {
   struct HostArguments;
   FixPressStrain(class LAMMPS *lmp, int narg, char **arg, const HostArguments &host);
 
-  void require_controllable_box() const;
-  void require_no_wall_on_axis(Fix *fix) const;
-  void require_momentum_group() const;
-  void evaluate_rate();
   void evaluate_variables();
   double progress_of_a_step() const;
   double time_between_inputs() const;

@@ -65,10 +65,6 @@ class PairGranInsitu : public PairGranProxy, public grainscope::EllipsoidOwner {
   bool take_setting(std::vector<char *> &words, const char *keyword, const char *no, const char *yes);
   void add_past_columns();
   int column_of(const std::string &name) const;
-  void require_same_columns_in_restart();
-  void require_box_large_enough();
-  void warn_of_stale_springs();
-  void warn_of_sphere_model();
   void set_tangential_bound();
   void watch_time_step();
   void update_image_shifts();
