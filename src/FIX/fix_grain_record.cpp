@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_grain_record.h"
+#include "checksum.h"
 #include "restart_numbers.h"
 #include "atom.h"
 #include "comm.h"
@@ -9,7 +10,6 @@
 #include "modify.h"
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 
@@ -22,13 +22,6 @@ const int most_numbers = 800;
 
 // A line of an input script would replace the memory of a compute behind its back.
 bool making = false;
-
-/** FNV-1a, 32 bits: every such number is a double. */
-double hash(const std::string &text) {
-  std::uint32_t h = 2166136261u;
-  for (unsigned char c : text) h = (h ^ c) * 16777619u;
-  return h;
-}
 
 }
 
@@ -84,7 +77,7 @@ FixGrainRecord *FixGrainRecord::make(LAMMPS *lmp, const char *id, int igroup, in
   if (lmp->modify->find_fix(record.c_str()) >= 0)
     lmp->error->all(FLERR, ("compute " + std::string(id) + " needs the fix ID '" + record + "' for its memory, but it is taken").c_str());
   const std::string words[6] = {record, lmp->group->names[igroup], "grain/record", std::to_string(width), std::to_string(shared),
-                                std::to_string(hash(meaning))};
+                                std::to_string(grainscope::checksum_as_double(meaning))};
   char *arg[6];
   for (int k = 0; k < 6; k++) arg[k] = const_cast<char *>(words[k].c_str());
   making = true;
