@@ -2,11 +2,11 @@
 #include "compute_contact_grain.h"
 #include "arguments.h"
 #include "contact_measures.h"
+#include "grain_shape.h"
 #include "nematic.h"
 #include "rows.h"
 #include "atom.h"
 #include "update.h"
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <vector>
 
@@ -61,8 +61,7 @@ double ComputeContactGrain::angle_to_flow(int i) const {
   if (!atom->superquadric_flag) return 0.0;
   const grainscope::SymmetryAxis axis = grainscope::symmetry_axis(atom->shape[i]);
   if (axis.shape == grainscope::Shape::sphere) return 0.0;
-  const double *q = atom->quaternion[i];
-  return grainscope::major_axis_angle(Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * Eigen::Vector3d::Unit(axis.index), axis.shape);
+  return grainscope::major_axis_angle(grainscope::orientation(*atom, i) * Eigen::Vector3d::Unit(axis.index), axis.shape);
 }
 
 /** Collective. Errors when grains were sorted, added or removed since their contacts were seen. */

@@ -4,6 +4,7 @@
 #include "contact_measures.h"
 #include "contact_observer.h"
 #include "ellipsoid_bands.h"
+#include "grain_shape.h"
 #include "rows.h"
 #include "symmetry_axis.h"
 #include "atom.h"
@@ -11,7 +12,6 @@
 #include "group.h"
 #include "neighbor.h"
 #include "update.h"
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -174,9 +174,9 @@ void ComputeContactSurface::add_contact(const Contact &c) {
   if (!both_in_group(c.i, c.j)) return;
   impl_->sums[impl_->bins * SUMS] += c.weight * c.force[1] * c.branch[1];
   const auto add_to = [&](int grain, const Vector3d &arm) {
-    const double *shape = atom->shape[grain], *q = atom->quaternion[grain];
+    const double *shape = atom->shape[grain];
     const int axis = axis_of(shape);
-    const Vector3d point = along(axis, Eigen::Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * arm);
+    const Vector3d point = along(axis, grainscope::orientation(*atom, grain).conjugate() * arm);
     const double psi = grainscope::surface_angle(point, along(axis, Map<const Vector3d>(shape)), impl_->angle);
     const int band = grainscope::band_of(psi, impl_->bins);
     if (band < 0) impl_->sums.back() += c.weight;

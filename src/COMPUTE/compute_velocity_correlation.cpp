@@ -232,7 +232,7 @@ ComputeVelocityCorrelation::Impl::Totals ComputeVelocityCorrelation::Impl::measu
   double smallest = std::numeric_limits<double>::infinity();
   Totals now;
   for (const Fluctuations::Grain &g : motion.local()) {
-    const double value = component.of(g);
+    const double value = component.of(motion, g);
     points.add(box.fraction(Eigen::Map<const Eigen::Vector3d>(lmp->atom->x[g.index])), value);
     smallest = std::min(smallest, 2.0 * grainscope::semi_axes(*lmp->atom, g.index).minCoeff());
     now.squares += value * value;

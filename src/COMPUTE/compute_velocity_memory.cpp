@@ -112,7 +112,7 @@ void ComputeVelocityMemory::sample(double strain) {
   for (const Fluctuations::Grain &g : motion.local()) {
     double *past = impl_->record->of(g.index), &first = past[lags];
     if (first == 0.0) first = count + 1;
-    const double now = impl_->component.of(g);
+    const double now = impl_->component.of(motion, g);
     sums[0] += now * now;
     sums[1] += 1.0;
     for (int lag = 1; lag <= known && count - lag >= first - 1.0; lag++) {

@@ -2,8 +2,8 @@
 #include "fix_press_strain.h"
 #include "arguments.h"
 #include "contact_observer.h"
+#include "fluctuations.h"
 #include "pair_gran_insitu.h"
-#include "peculiar_motion.h"
 #include "press_strain_settings.h"
 #include "range_warning.h"
 #include "atom.h"
@@ -21,7 +21,7 @@
 
 using namespace LAMMPS_NS;
 using grainscope::NetworkResponse;
-using grainscope::PeculiarMotion;
+using grainscope::Fluctuations;
 using grainscope::press_strain_error;
 using grainscope::Quantity;
 using grainscope::Tilt;
@@ -242,7 +242,7 @@ double FixPressStrain::kinetic_pressure() const {
   if (!impl_->settings.kinetic) return 0.0;
   const grainscope::BoxState &box = impl_->observer->box();
   const int axis = impl_->settings.axis;
-  return PeculiarMotion(lmp, groupbit, box).momentum_flux()(axis, axis) * force->mvv2e * force->nktv2p / box.volume;
+  return Fluctuations(lmp, groupbit, box).momentum_flux()(axis, axis) * force->mvv2e * force->nktv2p / box.volume;
 }
 
 void FixPressStrain::end_of_step() {
@@ -272,7 +272,7 @@ void FixPressStrain::take_input() {
   my.window_steps = 0.0;
 
   if (my.settings.remove_momentum) {
-    const Eigen::Vector3d drift = PeculiarMotion(lmp, my.momentum_groupbit, my.observer->box()).drift();
+    const Eigen::Vector3d drift = Fluctuations(lmp, my.momentum_groupbit, my.observer->box()).drift();
     for (int i = 0; i < atom->nlocal; i++)
       if (atom->mask[i] & my.momentum_groupbit)
         for (int k = 0; k < 3; k++) atom->v[i][k] -= drift[k];
