@@ -70,7 +70,7 @@ void ComputeContactGrain::require_same_grains() const {
   int changed = static_cast<int>(tags.size()) != atom->nlocal || !std::equal(tags.begin(), tags.end(), atom->tag);
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, world);
   if (changed)
-    grainscope::Arguments(lmp, name_ + " " + id, 0, 0, nullptr)
+    grainscope::Arguments(lmp, name_ + " " + id)
         .fail("grains were sorted, added or removed since the last step of the run: ask within a run");
 }
 

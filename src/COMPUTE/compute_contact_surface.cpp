@@ -33,8 +33,8 @@ enum { CONTACTS, NORMAL, TANGENTIAL, MOBILISATION, SLIDING, NORMAL_POWER, FRICTI
 /** v seen along body axis `axis`: that component last, the others before it. */
 Vector3d along(int axis, const Vector3d &v) { return {v[(axis + 1) % 3], v[(axis + 2) % 3], v[axis]}; }
 
-void require_axes(const Atom *atom, const grainscope::Arguments &complaints) {
-  if (!atom->superquadric_flag) complaints.fail("needs atom_style superquadric: grains of other styles have no axes to measure angles from");
+void require_axes(const Atom *atom, const grainscope::Arguments &errors) {
+  if (!atom->superquadric_flag) errors.fail("needs atom_style superquadric: grains of other styles have no axes to measure angles from");
 }
 
 }
@@ -92,7 +92,7 @@ ComputeContactSurface::ComputeContactSurface(LAMMPS *lmp, int &iarg, int narg, c
 ComputeContactSurface::~ComputeContactSurface() { delete[] vector; }
 
 void ComputeContactSurface::init() {
-  require_axes(atom, grainscope::Arguments(lmp, name_, 0, 0, nullptr));
+  require_axes(atom, grainscope::Arguments(lmp, name_));
   ContactCompute::init();
   require_known_losses();
   require_one_shape();
@@ -108,7 +108,7 @@ int ComputeContactSurface::axis_of(const double *shape) const {
 
 /** Ellipsoids of one shape, of any size. Collective. */
 void ComputeContactSurface::require_one_shape() {
-  const grainscope::Arguments arguments(lmp, name_, 0, 0, nullptr);
+  const grainscope::Arguments errors(lmp, name_);
   const int none = std::numeric_limits<int>::max();
   int boxy = none, triaxial = none;
   double extremes[4] = {0.0, 0.0, -HUGE_VAL, -HUGE_VAL};  // largest and (negative) smallest ratios of semi-axes across to along
@@ -126,8 +126,8 @@ void ComputeContactSurface::require_one_shape() {
   int bad[2] = {boxy, triaxial};
   MPI_Allreduce(MPI_IN_PLACE, bad, 2, MPI_INT, MPI_MIN, world);
   MPI_Allreduce(MPI_IN_PLACE, extremes, 4, MPI_DOUBLE, MPI_MAX, world);
-  if (bad[0] != none) arguments.fail("needs ellipsoids, blockiness 2 2, but grain " + std::to_string(bad[0]) + " has another");
-  if (bad[1] != none) arguments.fail("'axis' must be x, y or z for triaxial grains, got 'auto' and grain " + std::to_string(bad[1]));
+  if (bad[0] != none) errors.fail("needs ellipsoids, blockiness 2 2, but grain " + std::to_string(bad[0]) + " has another");
+  if (bad[1] != none) errors.fail("'axis' must be x, y or z for triaxial grains, got 'auto' and grain " + std::to_string(bad[1]));
   if (extremes[0] == 0.0) {  // nobody in the group
     impl_->proportions = Vector3d::Zero();
     impl_->unit_areas.assign(impl_->bins, 0.0);
@@ -136,7 +136,7 @@ void ComputeContactSurface::require_one_shape() {
   }
   for (int k = 0; k < 2; k++)
     if (extremes[k] + extremes[2 + k] > 1e-9 * extremes[k])
-      arguments.fail("needs grains of one shape in group '" + std::string(group->names[igroup]) + "', got semi-axes across over along the axis from " +
+      errors.fail("needs grains of one shape in group '" + std::string(group->names[igroup]) + "', got semi-axes across over along the axis from " +
                      std::to_string(-extremes[2 + k]) + " to " + std::to_string(extremes[k]));
   const Vector3d proportions(extremes[0], extremes[1], 1.0);
   if (proportions != impl_->proportions) {

@@ -6,7 +6,7 @@
 #include "fix_ledger_record.h"
 #include "ledger_account.h"
 #include "grain_power.h"
-#include "surroundings.h"
+#include "requirements.h"
 #include "atom.h"
 #include "domain.h"
 #include "update.h"

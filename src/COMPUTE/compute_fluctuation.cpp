@@ -4,8 +4,8 @@
 #include "fluctuations.h"
 #include "grain_shape.h"
 #include "range_warning.h"
+#include "requirements.h"
 #include "rows.h"
-#include "surroundings.h"
 #include "atom.h"
 #include "update.h"
 #include <algorithm>
@@ -71,7 +71,7 @@ ComputeFluctuation::~ComputeFluctuation() {
   delete[] vector;
 }
 
-void ComputeFluctuation::init() { grainscope::require_grains(lmp, grainscope::Arguments(lmp, "compute fluctuation", 0, 0, nullptr)); }
+void ComputeFluctuation::init() { grainscope::require_grains(lmp, grainscope::Arguments(lmp, "compute fluctuation")); }
 
 void ComputeFluctuation::compute_array() {
   invoked_array = update->ntimestep;

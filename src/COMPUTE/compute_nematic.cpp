@@ -3,7 +3,7 @@
 #include "arguments.h"
 #include "grain_shape.h"
 #include "nematic.h"
-#include "surroundings.h"
+#include "requirements.h"
 #include "symmetric_tensor.h"
 #include "atom.h"
 #include "update.h"
@@ -24,7 +24,7 @@ ComputeNematic::ComputeNematic(LAMMPS *lmp, int &iarg, int narg, char **arg) : C
 
 ComputeNematic::~ComputeNematic() { delete[] vector; }
 
-void ComputeNematic::init() { grainscope::require_grains(lmp, grainscope::Arguments(lmp, "compute nematic", 0, 0, nullptr)); }
+void ComputeNematic::init() { grainscope::require_grains(lmp, grainscope::Arguments(lmp, "compute nematic")); }
 
 void ComputeNematic::compute_vector() {
   invoked_vector = update->ntimestep;

@@ -5,9 +5,9 @@
 #include "decay_fit.h"
 #include "fix_grain_record.h"
 #include "fluctuations.h"
+#include "requirements.h"
 #include "rows.h"
 #include "strain_source.h"
-#include "surroundings.h"
 #include "velocity_component.h"
 #include "atom.h"
 #include "group.h"
@@ -103,7 +103,7 @@ void ComputeVelocityMemory::sample(double strain) {
   const int lags = impl_->lags;
   const long count = grainscope::whole_count(impl_->shared()[SAMPLES], 1e15);
   if (count < 0)
-    grainscope::Arguments(lmp, name, 0, 0, nullptr)
+    grainscope::Arguments(lmp, name)
         .fail("the number of samples in its memory is damaged, got " +
               grainscope::Arguments::text(impl_->shared()[SAMPLES]));
   const int known = std::min<long>(count, lags);  // lags that reach back to a sample

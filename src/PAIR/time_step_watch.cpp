@@ -18,14 +18,14 @@ const int steps_between_looks = 1000;
 void TimeStepWatch::begin_run(double exponent, bool sticks) {
   exponent_ = exponent;
   sticks_ = sticks;
-  closer_ = false;
+  grains_next_ = false;
 }
 
 bool TimeStepWatch::wants_contacts() {
   look_ = Look::none;
-  if (++steps_ < steps_between_looks && !closer_) return false;
-  look_ = closer_ ? Look::grains : Look::contacts;
-  closer_ = false;
+  if (++steps_ < steps_between_looks && !grains_next_) return false;
+  look_ = grains_next_ ? Look::grains : Look::contacts;
+  grains_next_ = false;
   steps_ = 0;
   return true;
 }
@@ -55,7 +55,7 @@ void TimeStepWatch::judge() {
 
 void TimeStepWatch::judge_contacts() {
   MPI_Allreduce(MPI_IN_PLACE, &largest_, 1, MPI_DOUBLE, MPI_MAX, world);
-  closer_ = largest_ >= time_step::harmless;
+  grains_next_ = largest_ >= time_step::harmless;
 }
 
 void TimeStepWatch::judge_grains() {

@@ -30,7 +30,7 @@ class TimeStepWatch : public ContactSink, private LAMMPS_NS::Pointers {
   bool sticks_ = true;
   double told_ = 0.0;                         // the value that was warned of
   int steps_ = 0;                             // since the last look
-  bool closer_ = false;                       // the next look is at grains
+  bool grains_next_ = false;                       // the next step looks at grains
   double largest_ = 0.0;                      // of this rank's contacts
   int damped_ = 0;                            // one of them has tangential damping
   std::vector<time_step::GrainModes> grains_;
