@@ -5,6 +5,7 @@
 #include "contact_observer.h"
 #include "contact_sums.h"
 #include "ellipsoid_bands.h"
+#include "grain_shape.h"
 #include "rows.h"
 #include "symmetry_axis.h"
 #include "atom.h"
@@ -12,7 +13,6 @@
 #include "group.h"
 #include "neighbor.h"
 #include "update.h"
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -34,8 +34,8 @@ enum { CONTACTS, NORMAL, TANGENTIAL, MOBILISATION, SLIDING, NORMAL_POWER, FRICTI
 /** v seen along body axis `axis`: that component last, the others before it. */
 Vector3d along(int axis, const Vector3d &v) { return {v[(axis + 1) % 3], v[(axis + 2) % 3], v[axis]}; }
 
-void require_axes(const Atom *atom, const grainscope::Arguments &complaints) {
-  if (!atom->superquadric_flag) complaints.fail("needs atom_style superquadric: grains of other styles have no axes to measure angles from");
+void require_axes(const Atom *atom, const grainscope::Arguments &errors) {
+  if (!atom->superquadric_flag) errors.fail("needs atom_style superquadric: grains of other styles have no axes to measure angles from");
 }
 
 /** Sums of each bin, over the contacts of this rank; a grain's angle is measured from `axis`. */
@@ -66,9 +66,9 @@ struct SurfaceSums {
     if (!c.ghost()) add_to(c.j(), arm + c.branch, c);  // a ghost's owner counts it
   }
   void add_to(int grain, const Vector3d &arm, const Contact &c) {
-    const double *shape = atom->shape[grain], *q = atom->quaternion[grain];
+    const double *shape = atom->shape[grain];
     const int from = axis_of(shape);
-    const Vector3d point = along(from, Eigen::Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * arm);
+    const Vector3d point = along(from, grainscope::orientation(*atom, grain).conjugate() * arm);
     const double psi = grainscope::surface_angle(point, along(from, Map<const Vector3d>(shape)), angle);
     const int band = grainscope::band_of(psi, bins);
     if (band < 0) sums.back() += c.weight;
@@ -126,7 +126,7 @@ ComputeContactSurface::ComputeContactSurface(LAMMPS *lmp, int &iarg, int narg, c
 ComputeContactSurface::~ComputeContactSurface() { delete[] vector; }
 
 void ComputeContactSurface::init() {
-  require_axes(atom, grainscope::Arguments(lmp, name_, 0, 0, nullptr));
+  require_axes(atom, grainscope::Arguments(lmp, name_));
   ContactCompute::init();
   require_known_losses();
   require_one_shape();
@@ -135,7 +135,7 @@ void ComputeContactSurface::init() {
 
 /** Ellipsoids of one shape, of any size. Collective. */
 void ComputeContactSurface::require_one_shape() {
-  const grainscope::Arguments arguments(lmp, name_, 0, 0, nullptr);
+  const grainscope::Arguments errors(lmp, name_);
   const int none = std::numeric_limits<int>::max();
   int boxy = none, triaxial = none;
   double extremes[4] = {0.0, 0.0, -HUGE_VAL, -HUGE_VAL};  // largest and (negative) smallest ratios of semi-axes across to along
@@ -153,8 +153,8 @@ void ComputeContactSurface::require_one_shape() {
   int bad[2] = {boxy, triaxial};
   MPI_Allreduce(MPI_IN_PLACE, bad, 2, MPI_INT, MPI_MIN, world);
   MPI_Allreduce(MPI_IN_PLACE, extremes, 4, MPI_DOUBLE, MPI_MAX, world);
-  if (bad[0] != none) arguments.fail("needs ellipsoids, blockiness 2 2, but grain " + std::to_string(bad[0]) + " has another");
-  if (bad[1] != none) arguments.fail("'axis' must be x, y or z for triaxial grains, got 'auto' and grain " + std::to_string(bad[1]));
+  if (bad[0] != none) errors.fail("needs ellipsoids, blockiness 2 2, but grain " + std::to_string(bad[0]) + " has another");
+  if (bad[1] != none) errors.fail("'axis' must be x, y or z for triaxial grains, got 'auto' and grain " + std::to_string(bad[1]));
   if (extremes[0] == 0.0) {  // nobody in the group
     impl_->proportions = Vector3d::Zero();
     impl_->unit_areas.assign(impl_->sums().bins, 0.0);
@@ -163,7 +163,7 @@ void ComputeContactSurface::require_one_shape() {
   }
   for (int k = 0; k < 2; k++)
     if (extremes[k] + extremes[2 + k] > 1e-9 * extremes[k])
-      arguments.fail("needs grains of one shape in group '" + std::string(group->names[igroup]) + "', got semi-axes across over along the axis from " +
+      errors.fail("needs grains of one shape in group '" + std::string(group->names[igroup]) + "', got semi-axes across over along the axis from " +
                      std::to_string(-extremes[2 + k]) + " to " + std::to_string(extremes[k]));
   const Vector3d proportions(extremes[0], extremes[1], 1.0);
   if (proportions != impl_->proportions) {

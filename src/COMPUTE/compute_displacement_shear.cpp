@@ -4,7 +4,7 @@
 #include "box_state.h"
 #include "fix_grain_record.h"
 #include "strain_source.h"
-#include "surroundings.h"
+#include "requirements.h"
 #include "atom.h"
 #include "domain.h"
 #include "fix_deform.h"
@@ -106,16 +106,16 @@ void ComputeDisplacementShear::require_flow_of_all() {
     const FixDeform *deform = dynamic_cast<FixDeform *>(modify->fix[k]);
     if (!deform) continue;
     const std::string which = std::string("fix ") + deform->id + " (" + deform->style + ")";
-    const grainscope::Arguments complaints(lmp, name, 0, 0, nullptr);
+    const grainscope::Arguments errors(lmp, name);
     if (deform->remapflag == no_remap)
-      complaints.fail(which + " must move grains along with the box, 'remap v' or 'remap x', got 'remap none': "
+      errors.fail(which + " must move grains along with the box, 'remap v' or 'remap x', got 'remap none': "
                       "displacements against its flow would be wrong");
     int others = 0;
     for (int i = 0; i < atom->nlocal && !others; i++)
       others = atom->mask[i] & groupbit && !(atom->mask[i] & deform->groupbit);
     MPI_Allreduce(MPI_IN_PLACE, &others, 1, MPI_INT, MPI_MAX, world);
     if (others)
-      complaints.fail(which + " must move all grains of group '" + group->names[igroup] + "', got group '" +
+      errors.fail(which + " must move all grains of group '" + group->names[igroup] + "', got group '" +
                       group->names[deform->igroup] + "'");
   }
 }

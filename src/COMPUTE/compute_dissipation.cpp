@@ -7,7 +7,7 @@
 #include "ledger_account.h"
 #include "grain_power.h"
 #include "loss_sums.h"
-#include "surroundings.h"
+#include "requirements.h"
 #include "atom.h"
 #include "domain.h"
 #include "update.h"

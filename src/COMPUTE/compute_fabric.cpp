@@ -5,6 +5,7 @@
 #include "fabric.h"
 #include "plane.h"
 #include "principal_axes.h"
+#include "symmetric_tensor.h"
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -26,11 +27,6 @@ const Weighted weighted_tensors[] = {{"branch", &WeightedFabricSums::branch},
                                      {"force/tangential", &WeightedFabricSums::tangential_force}};
 
 const double rounding = 1e-10;  // of sums whose trace is 1
-
-double *put_symmetric(double *at, const Matrix3d &m) {
-  for (double value : {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)}) *at++ = value;
-  return at;
-}
 
 /** The weights depend on the fabric of all contacts: weighted tensors need a second pass. */
 struct Moments : grainscope::ContactCompute::Accumulator {
@@ -81,7 +77,7 @@ void ComputeFabric::answer() {
   const grainscope::PrincipalAxes principal(fabric);
   const int a = impl_->plane.flow, b = impl_->plane.gradient;
   scalar = std::sqrt(1.5) * (fabric - fabric.trace() / 3.0 * Matrix3d::Identity()).norm();
-  double *out = put_symmetric(vector, fabric);
+  double *out = grainscope::write_components(fabric, vector);
   out = std::copy(principal.values.data(), principal.values.data() + 3, out);
   out = std::copy(principal.vectors.data(), principal.vectors.data() + 9, out);
   *out++ = scalar;
@@ -95,7 +91,7 @@ void ComputeFabric::answer() {
   WeightedFabricSums weighted;
   for (const grainscope::ContactMoment &moment : impl_->moments.of_contacts) weighted.add(moment, fabric);
   sum_over_ranks(weighted.sums.data(), weighted.sums.size());
-  for (const Weighted *one : impl_->chosen) out = put_symmetric(out, (weighted.*one->tensor)());
+  for (const Weighted *one : impl_->chosen) out = grainscope::write_components((weighted.*one->tensor)(), out);
 }
 
 double ComputeFabric::memory_usage() { return impl_->moments.of_contacts.capacity() * sizeof(grainscope::ContactMoment); }

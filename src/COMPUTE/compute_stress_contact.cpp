@@ -4,8 +4,9 @@
 #include "contact_law.h"
 #include "contact_observer.h"
 #include "contact_sums.h"
-#include "peculiar_motion.h"
+#include "fluctuations.h"
 #include "stress.h"
+#include "symmetric_tensor.h"
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
@@ -89,7 +90,7 @@ void ComputeStressContact::answer() {
   MPI_Allreduce(MPI_IN_PLACE, &largest_overlap, 1, MPI_DOUBLE, MPI_MAX, world);
 
   const grainscope::BoxState &box = observer_->box();
-  const grainscope::PeculiarMotion motion(lmp, groupbit, box);
+  const grainscope::Fluctuations motion(lmp, groupbit, box);
   // Forces over areas are in pressure units only where force->nktv2p is 1; cgs and si both are.
   const double unit = force->nktv2p / box.volume;
   const Eigen::Matrix3d total = all.total(1.0) * unit;
@@ -97,15 +98,9 @@ void ComputeStressContact::answer() {
   const Eigen::Matrix3d kinetic = -motion.momentum_flux() * force->mvv2e * unit;
   const Eigen::Matrix3d normal = total - tangential;
 
-  double *out = vector;
-  const auto six = [&out](const Eigen::Matrix3d &s) {
-    for (double value : {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(0, 2), s(1, 2)}) *out++ = value;
-  };
-  six(total);
+  double *out = grainscope::write_components(total, vector);
   *out++ = total(1, 0);
-  six(normal);
-  six(tangential);
-  six(kinetic);
+  for (const Eigen::Matrix3d *part : {&normal, &tangential, &kinetic}) out = grainscope::write_components(*part, out);
   const double pressure = -total(1, 1);
   const double per_pressure = pressure > 0.0 ? 1.0 / pressure : 0.0;
   const double contacts = all.contacts();

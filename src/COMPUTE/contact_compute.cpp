@@ -4,6 +4,7 @@
 #include "contact_law.h"
 #include "contact_observer.h"
 #include "pair_gran_insitu.h"
+#include "require_finite.h"
 #include "atom.h"
 #include "error.h"
 #include "update.h"
@@ -86,7 +87,7 @@ const ContactLaw &ContactCompute::law() const { return PairGranInsitu::required_
 
 void ContactCompute::require_known_losses() const {
   const std::string why = law().why_no_losses();
-  if (!why.empty()) Arguments(lmp, name_, 0, 0, nullptr).fail(why);
+  if (!why.empty()) Arguments(lmp, name_).fail(why);
 }
 
 void ContactCompute::require_tally() const {
@@ -97,10 +98,8 @@ void ContactCompute::require_tally() const {
 }
 
 void ContactCompute::require_finite(double contacts) const {
-  if (contacts == 0.0) return;
-  const Arguments arguments(lmp, name_ + " " + id, 0, 0, nullptr);
-  arguments.fail("step " + std::to_string(update->ntimestep) + ": the place or direction of " +
-                 Arguments::text(contacts) + " contacts is not finite: look at what moves or pushes these grains");
+  grainscope::require_finite(lmp, name_ + " " + id, contacts, "the place or direction",
+                             "contacts is not finite: look at what moves or pushes these grains");
 }
 
 void ContactCompute::sum_over_ranks(double *values, int n) const {

@@ -41,7 +41,7 @@ void StrainSource::find_press_strain(const Arguments &errors) {
 }
 
 void StrainSource::init() {
-  find(Arguments(lmp, style_, 0, 0, nullptr));
+  find(Arguments(lmp, style_));
   ready_ = true;
 }
 
@@ -62,7 +62,7 @@ void StrainSource::find(const Arguments &errors) {
 }
 
 double StrainSource::now() {
-  const Arguments errors(lmp, style_, 0, 0, nullptr);
+  const Arguments errors(lmp, style_);
   if (!ready_) errors.fail("was not set up: do not use 'pre no' in the first run with it");
   find(errors);  // again: `run every` may have changed what there is
   const double strain = fix_ ? fix_->compute_vector(element_) : input->variable->compute_equal(variable_);

@@ -33,8 +33,8 @@ double of_overlap(double overlap, double exponent) {
 /** As it would be had the velocities of the edges not been changed: those that keep a shear rate grow with the box, lengths move on. */
 LedgerFrame carried(const LedgerFrame &before, const LedgerFrame &after) {
   LedgerFrame frame = after;
-  frame.gradient = before.gradient;
-  frame.gradient.diagonal() = before.edge_rates.cwiseQuotient(after.edge_lengths);
+  frame.velocity_gradient = before.velocity_gradient;
+  frame.velocity_gradient.diagonal() = before.edge_rates.cwiseQuotient(after.edge_lengths);
   return frame;
 }
 
@@ -171,8 +171,8 @@ void EnergyLedger::book_step(double dt) {
   for (int k = 0; k < parts; k++) {
     work[k] = starts_.work[k] + half_work(contacts_, k, dt);
     for (const Contacts *end : {&before_, &contacts_}) {
-      step[W_box] -= 0.5 * dt * on_diagonal(frame_.gradient, end->sums[k]);
-      step[W_shear] -= 0.5 * dt * off_diagonal(frame_.gradient, end->sums[k]);
+      step[W_box] -= 0.5 * dt * on_diagonal(frame_.velocity_gradient, end->sums[k]);
+      step[W_shear] -= 0.5 * dt * off_diagonal(frame_.velocity_gradient, end->sums[k]);
     }
   }
   step[W_other] = 0.5 * dt * (sum_of_three(starts_.other) + sum_of_three(ends_.other));
@@ -233,14 +233,14 @@ void EnergyLedger::start_of_step(const Grain &g, const double omega_after[3], co
 
   // The coming drift in the frame: told before it, because a grain that is wrapped afterwards takes on another velocity.
   const Vector3d after = p + flow, drift = dt * next_.gradient_times(after), middle = g.mass * (p - 0.5 * drift);
-  const double all = drift.dot(middle), box = dt * next_.gradient.diagonal().cwiseProduct(after).dot(middle);
+  const double all = drift.dot(middle), box = dt * next_.velocity_gradient.diagonal().cwiseProduct(after).dot(middle);
   starts_.box -= box;
   starts_.shear -= all - box;
 }
 
 void EnergyLedger::book_start(double dt) {
   for (int k = 0; k < parts; k++) {
-    const double flow = on_diagonal(next_.gradient, contacts_.sums[k]) + off_diagonal(next_.gradient, contacts_.sums[k]);
+    const double flow = on_diagonal(next_.velocity_gradient, contacts_.sums[k]) + off_diagonal(next_.velocity_gradient, contacts_.sums[k]);
     starts_.work[k] = -0.5 * dt * (sum_of_three(starts_.rate[k]) + flow);
   }
   cleared_ = true;
@@ -263,45 +263,6 @@ void EnergyLedger::book_start(double dt) {
   }
   before_ = contacts_;
   frame_ = next_;
-}
-
-EnergyLedger::Entries EnergyLedger::totals() const {
-  Entries sums = totals_;
-  for (int k = 0; k < entries; k++) sums[k] += between_[k];
-  return sums;
-}
-
-double EnergyLedger::residual(const Entries &totals, double stored_change) {
-  double supplied = 0.0, gone = 0.0;
-  for (int k = W_shear; k <= W_other; k++) supplied += totals[k];
-  for (int k = D_n; k < entries; k++) gone += totals[k];
-  return supplied - gone - stored_change;
-}
-
-EnergyLedger::State EnergyLedger::state() const {
-  State state;
-  const Entries booked = totals();
-  auto at = state.begin();
-  at = std::copy(booked.begin(), booked.end(), at);
-  at = std::copy(last_.begin(), last_.end(), at);
-  at = std::copy(ended_.begin(), ended_.end(), at);
-  at = std::copy(stored_before_.begin(), stored_before_.end(), at);
-  *at = start_energy_;
-  return state;
-}
-
-void EnergyLedger::restore(const State &state, const LedgerFrame &frame) {
-  auto at = state.begin();
-  const auto take = [&at](auto &numbers) { for (double &one : numbers) one = *at++; };
-  between_.fill(0.0);
-  take(totals_);
-  take(last_);
-  take(ended_);
-  take(stored_before_);
-  start_energy_ = *at;
-  stored_ = ended_;
-  frame_ = frame;
-  started_ = stepped_ = true;
 }
 
 }

@@ -2,6 +2,7 @@
 #ifndef GRAINSCOPE_ENERGY_LEDGER_H
 #define GRAINSCOPE_ENERGY_LEDGER_H
 
+#include "affine_flow.h"
 #include "contact_law.h"
 #include <Eigen/Geometry>
 #include <array>
@@ -9,20 +10,10 @@
 
 namespace grainscope {
 
-/** The affine flow that velocities are told against, L (x - centre), and how fast the edges of the box change in length. */
-struct LedgerFrame {
-  Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();       // L, upper triangular
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+/** The flow that velocities are measured against, and how fast the edges of the box change in length. */
+struct LedgerFrame : AffineFlow {
   Eigen::Vector3d edge_lengths = Eigen::Vector3d::Ones();   // diagonal of H
   Eigen::Vector3d edge_rates = Eigen::Vector3d::Zero();     // diagonal of dH/dt
-
-  Eigen::Vector3d gradient_times(const Eigen::Vector3d &r) const {
-    const Eigen::Matrix3d &l = gradient;
-    return {l(0, 0) * r[0] + l(0, 1) * r[1] + l(0, 2) * r[2], l(1, 1) * r[1] + l(1, 2) * r[2], l(2, 2) * r[2]};
-  }
-  Eigen::Vector3d flow(const Eigen::Vector3d &x) const { return gradient_times(x - centre); }
-  /** The same flow everywhere? */
-  bool operator==(const LedgerFrame &o) const { return gradient == o.gradient && gradient * centre == gradient * o.centre; }
 };
 
 /** Where the energy of a group of grains goes, exactly as velocity Verlet moves it: what enters, what is stored, what is lost. Every entry

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_grain_record.h"
+#include "checksum.h"
 #include "restart_numbers.h"
 #include "restart_state.h"
 #include "atom.h"
@@ -9,7 +10,6 @@
 #include "modify.h"
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 
@@ -27,13 +27,6 @@ struct SavedRecord {
   static constexpr std::uint32_t version = 1;
   double meaning, flips[3], shared_numbers;
 };
-
-/** FNV-1a, 32 bits: every such number is a double. */
-double hash(const std::string &text) {
-  std::uint32_t h = 2166136261u;
-  for (unsigned char c : text) h = (h ^ c) * 16777619u;
-  return h;
-}
 
 }
 
@@ -83,7 +76,7 @@ void FixGrainRecord::note_changed_box() {
 
 FixGrainRecord *FixGrainRecord::make(LAMMPS *lmp, const char *id, int igroup, int width, int shared, const std::string &meaning, int step_at) {
   FixGrainRecord *made = static_cast<FixGrainRecord *>(
-      record.make(lmp, id, igroup, {std::to_string(width), std::to_string(shared), std::to_string(hash(meaning))}));
+      record.make(lmp, id, igroup, {std::to_string(width), std::to_string(shared), std::to_string(grainscope::checksum_as_double(meaning))}));
   made->step_at_ = step_at;
   made->require_room();
   return made;

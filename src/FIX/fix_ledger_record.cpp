@@ -39,7 +39,7 @@ struct SavedLedger {
   double gradient[9], centre[3], edge_lengths[3], edge_rates[3];   // of the frame
 
   void set_frame(const grainscope::LedgerFrame &frame) {
-    Map<Matrix3d>(gradient + 0) = frame.gradient;
+    Map<Matrix3d>(gradient + 0) = frame.velocity_gradient;
     Map<Vector3d>(centre + 0) = frame.centre;
     Map<Vector3d>(edge_lengths + 0) = frame.edge_lengths;
     Map<Vector3d>(edge_rates + 0) = frame.edge_rates;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_press_strain.h"
 #include "contact_observer.h"
+#include "fluctuations.h"
 #include "pair_gran_insitu.h"
-#include "peculiar_motion.h"
 #include "press_strain_requirements.h"
 #include "press_strain_settings.h"
 #include "range_warning.h"
@@ -17,7 +17,7 @@
 
 using namespace LAMMPS_NS;
 using grainscope::NetworkResponse;
-using grainscope::PeculiarMotion;
+using grainscope::Fluctuations;
 using grainscope::press_strain_error;
 using grainscope::Tilt;
 using Every = grainscope::PressStrainSettings::Every;
@@ -173,7 +173,7 @@ double FixPressStrain::kinetic_pressure() const {
   if (!impl_->settings.kinetic) return 0.0;
   const grainscope::BoxState &box = impl_->observer->box();
   const int axis = impl_->settings.axis;
-  return PeculiarMotion(lmp, groupbit, box).momentum_flux()(axis, axis) * force->mvv2e * force->nktv2p / box.volume;
+  return Fluctuations(lmp, groupbit, box).momentum_flux()(axis, axis) * force->mvv2e * force->nktv2p / box.volume;
 }
 
 void FixPressStrain::end_of_step() {
@@ -203,7 +203,7 @@ void FixPressStrain::take_input() {
   my.window_steps = 0.0;
 
   if (my.settings.remove_momentum) {
-    const Eigen::Vector3d drift = PeculiarMotion(lmp, my.momentum_groupbit, my.observer->box()).drift();
+    const Eigen::Vector3d drift = Fluctuations(lmp, my.momentum_groupbit, my.observer->box()).drift();
     for (int i = 0; i < atom->nlocal; i++)
       if (atom->mask[i] & my.momentum_groupbit)
         for (int k = 0; k < 3; k++) atom->v[i][k] -= drift[k];

@@ -56,7 +56,7 @@ void read_gain(Arguments &arguments, PressureControl &control) {
 }
 
 void press_strain_error(LAMMPS_NS::LAMMPS *lmp, const std::string &message) {
-  Arguments(lmp, "fix press/strain", 0, 0, nullptr).fail(message);
+  Arguments(lmp, "fix press/strain").fail(message);
 }
 
 PressStrainSettings::PressStrainSettings(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) {

@@ -65,9 +65,9 @@ TEST(energy_ledger, a_kick_between_steps_comes_from_outside) {
 
 TEST(energy_ledger, energies_of_another_frame_close_too) {
   Pair pair;
-  pair.frame.gradient << 0.1, 0.7, -0.2, 0.0, -0.3, 0.4, 0.0, 0.0, 0.2;
+  pair.frame.velocity_gradient << 0.1, 0.7, -0.2, 0.0, -0.3, 0.4, 0.0, 0.0, 0.2;
   pair.frame.edge_lengths << 8.0, 9.0, 10.0;
-  pair.frame.edge_rates = pair.frame.gradient.diagonal().cwiseProduct(pair.frame.edge_lengths);
+  pair.frame.edge_rates = pair.frame.velocity_gradient.diagonal().cwiseProduct(pair.frame.edge_lengths);
   pair.frame.centre << 0.3, -0.1, 0.2;
   pair.evaluate(false);
   for (int n = 0; n < 200; n++) pair.step();
@@ -80,20 +80,20 @@ TEST(energy_ledger, energies_of_another_frame_close_too) {
 TEST(energy_ledger, a_changed_frame_is_told_apart_from_a_box_that_moves_on) {
   Pair pair;
   pair.frame.edge_lengths << 10.0, 10.0, 10.0;
-  pair.frame.gradient(1, 1) = 0.1;
+  pair.frame.velocity_gradient(1, 1) = 0.1;
   pair.frame.edge_rates[1] = 1.0;
   pair.evaluate(false);
   pair.step();
   pair.frame.edge_lengths[1] += pair.dt;  // the same velocity of the edge, a longer box: a smaller gradient
-  pair.frame.gradient(1, 1) = 1.0 / pair.frame.edge_lengths[1];
+  pair.frame.velocity_gradient(1, 1) = 1.0 / pair.frame.edge_lengths[1];
   pair.step();
   EXPECT_EQ(pair.ledger.totals()[E::W_frame], 0.0);
   double expected = 0.0;
   for (const Sphere &s : pair.spheres) {
-    const double y = s.x[1], p = s.v[1] - pair.frame.gradient(1, 1) * y, q = s.v[1] - 0.2 * y;
+    const double y = s.x[1], p = s.v[1] - pair.frame.velocity_gradient(1, 1) * y, q = s.v[1] - 0.2 * y;
     expected += 0.5 * s.mass * (q * q - p * p);
   }
-  pair.frame.gradient(1, 1) = 0.2;
+  pair.frame.velocity_gradient(1, 1) = 0.2;
   pair.step();
   EXPECT_NEAR(pair.ledger.totals()[E::W_frame], expected, rounding);
   EXPECT_NEAR(pair.residual(), 0.0, rounding);

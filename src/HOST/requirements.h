@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#ifndef GRAINSCOPE_SURROUNDINGS_H
-#define GRAINSCOPE_SURROUNDINGS_H
+#ifndef GRAINSCOPE_REQUIREMENTS_H
+#define GRAINSCOPE_REQUIREMENTS_H
 
 #include "arguments.h"
 #include "atom.h"
