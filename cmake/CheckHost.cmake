@@ -2,12 +2,13 @@
 # and refuses other forks in one sentence that says what they lack. Two seconds; kept until a header changes.
 
 set(probe "${CMAKE_BINARY_DIR}/probe")
-file(GLOB overriding src/PAIR/pair_*.h src/FIX/fix_*.h src/RUN/*.h src/COMPUTE/compute_*.h src/COMMAND/*.h src/ATOM/*.h)
 set(text "")
 set(probe_key "${CMAKE_CXX_COMPILER} ${CMAKE_CXX_FLAGS}")
-foreach(header IN LISTS overriding)
+foreach(header IN LISTS our_headers)
   get_filename_component(name "${header}" NAME)
-  string(APPEND text "#include \"${name}\"\n")
+  if(markers_of_${name} MATCHES "_CLASS")  # a style's
+    string(APPEND text "#include \"${name}\"\n")
+  endif()
 endforeach()
 write_if_changed("${probe}/our_headers.h" "${text}")
 file(GLOB probed "${HOST_STAGE}/*.h" src/*/*.h cmake/host_probe.cpp)
@@ -19,10 +20,7 @@ string(SHA1 probe_key "${probe_key}")
 
 function(compile_host_probe result output)
   set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
-  set(folders "${probe}" "${HOST_STAGE}")
-  foreach(folder CORE HOST PAIR FIX RUN COMPUTE COMMAND ATOM)
-    list(APPEND folders "${CMAKE_SOURCE_DIR}/src/${folder}")
-  endforeach()
+  set(folders "${probe}" "${HOST_STAGE}" ${SOURCE_FOLDERS})
   try_compile(compiled "${probe}" SOURCES "${CMAKE_SOURCE_DIR}/cmake/host_probe.cpp"
     CMAKE_FLAGS "-DINCLUDE_DIRECTORIES=${folders}"
     COMPILE_DEFINITIONS -w -DSUPERQUADRIC_ACTIVE_FLAG -DNONSPHERICAL_ACTIVE_FLAG

@@ -67,8 +67,8 @@ endfunction()
 
 # style_<list>.h: every header named <prefix>*.h, the host's or ours, that carries <marker>. Of two styles of one name
 # the host takes the last, but of two atom styles the first: either way ours.
-file(GLOB our_headers "${CMAKE_SOURCE_DIR}/src/PAIR/*.h" "${CMAKE_SOURCE_DIR}/src/FIX/*.h" "${CMAKE_SOURCE_DIR}/src/RUN/*.h"
-     "${CMAKE_SOURCE_DIR}/src/COMPUTE/*.h" "${CMAKE_SOURCE_DIR}/src/COMMAND/*.h" "${CMAKE_SOURCE_DIR}/src/ATOM/*.h")
+list(TRANSFORM STYLE_FOLDERS APPEND "/*.h" OUTPUT_VARIABLE header_files)
+file(GLOB our_headers ${header_files})
 set(marked "")
 foreach(name IN LISTS staged)
   if(name MATCHES "\\.h$")

@@ -437,6 +437,11 @@ add_cases(study-runs cases/study_runs.py LABEL case STYLES study RANKS 1 LONG_RA
 add_cases(build-bare-debian cases/bare_debian.py LABEL long STYLES build CASES
   demos-are-equal tests-on-bookworm tests-on-trixie clang-of-trixie)
 
+# Includes between the folders of src/
+add_cases(suite-floors cases/floors.py LABEL case STYLES suite CASES
+  includes-go-down small-tree-passes up-refused up-by-angle-brackets-refused beside-refused host-in-core-refused
+  mpi-in-core-refused two-of-one-name-refused unknown-folder-refused)
+
 # Outputs have names
 set(with_outputs stress/contact fabric contact/direction contact/surface contact/grain contact/local contact/solver
   displacement/shear dissipation energy/ledger fluctuation layering nematic velocity/correlation velocity/memory

@@ -148,6 +148,15 @@ add_cases(layering+velocity/correlation-not-finite errors/not_finite.py LABEL er
   fluctuation-profile fluctuation-layers memory-layers correlation contact-direction contact-surface
   contact-surface-ellipsoid)
 
+# Restart files of other versions
+set(states run/guard setup/memory grain/record ledger/record press/strain)
+foreach(style IN LISTS states)
+  add_cases(read_restart errors/restart_versions.py LABEL error STYLES read_restart ${style} CASES
+    ${style}-version ${style}-size ${style}-without-a-version)
+endforeach()
+add_cases(read_restart errors/restart_versions.py LABEL error STYLES read_restart ${states} RANKS 1 2 CASES
+  same-file-is-read former-seal not-by-an-input-script)
+
 # Outputs have names
 add_cases(outputs-refused errors/outputs.py LABEL error STYLES outputs CASES
   no-words other-keyword surplus-word two-prefixes no-prefix prefix-with-a-slash prefix-with-a-dash

@@ -50,7 +50,7 @@ void add_sources(Owner **owners, int n, const char *kind, std::vector<Source> &a
 }
 
 /** The compute or fix of that name; an error that says what there is. */
-Source source_of(const Modify &modify, const std::string &id, const Arguments &complaints) {
+Source source_of(const Modify &modify, const std::string &id, const Arguments &errors) {
   std::vector<Source> all, found;
   add_sources(modify.compute, modify.ncompute, "compute", all);
   add_sources(modify.fix, modify.nfix, "fix", all);
@@ -64,10 +64,10 @@ Source source_of(const Modify &modify, const std::string &id, const Arguments &c
   }
   const std::string requirement = "'ID' must be that of a compute or fix with named outputs, got '" + id + "'";
   if (found.size() > 1)
-    complaints.fail(requirement + ", which is both " + found[0].description + " and " + found[1].description +
+    errors.fail(requirement + ", which is both " + found[0].description + " and " + found[1].description +
                     ": rename one");
-  if (found.empty() && !other.empty()) complaints.fail(requirement + ", " + other + ", whose outputs have no names");
-  if (found.empty()) complaints.fail(requirement + grainscope::nearest_name(id, named));
+  if (found.empty() && !other.empty()) errors.fail(requirement + ", " + other + ", whose outputs have no names");
+  if (found.empty()) errors.fail(requirement + grainscope::nearest_name(id, named));
   return found[0];
 }
 
@@ -155,12 +155,12 @@ std::string other_meaning(Variable &variable, const std::string &name, const std
 }
 
 /** Nothing is defined where one of the names is taken. */
-void define(LAMMPS *lmp, const std::vector<Line> &lines, const Arguments &complaints) {
+void define(LAMMPS *lmp, const std::vector<Line> &lines, const Arguments &errors) {
   Variable &variable = *lmp->input->variable;
   for (const Line &one : lines) {
     const std::string other = other_meaning(variable, one.variable, one.formula);
     if (!other.empty())
-      complaints.fail("'" + one.formula + "' would be variable '" + one.variable + "', which exists and is " + other +
+      errors.fail("'" + one.formula + "' would be variable '" + one.variable + "', which exists and is " + other +
                       ": delete that variable first, or give another 'prefix'");
   }
   for (const Line &one : lines) {

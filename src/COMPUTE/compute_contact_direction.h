@@ -24,13 +24,11 @@ class ComputeContactDirection : public grainscope::ContactCompute, public grains
  public:
   ComputeContactDirection(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeContactDirection();
-  void compute_array() override;
-
-  void begin_contacts() override;
-  void add_contact(const grainscope::Contact &contact) override;
-  bool needs_details() const override { return false; }
+  bool needs_motion() const override { return false; }
 
  private:
+  void answer() override;
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

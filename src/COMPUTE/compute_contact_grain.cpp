@@ -2,11 +2,11 @@
 #include "compute_contact_grain.h"
 #include "arguments.h"
 #include "contact_measures.h"
+#include "grain_shape.h"
 #include "nematic.h"
 #include "rows.h"
 #include "atom.h"
 #include "update.h"
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <vector>
 
@@ -59,13 +59,15 @@ void ComputeContactGrain::begin_contacts() {
   impl_->tags.assign(atom->tag, atom->tag + atom->nlocal);
 }
 
-void ComputeContactGrain::add_contact(const Contact &c) {
-  if (!both_in_group(c.i, c.j)) return;
-  const double contribution[ANGLE] = {1.0, c.sliding ? 1.0 : 0.0, 0.5 * grainscope::damping_loss(c), 0.5 * grainscope::friction_loss(c),
-                                      grainscope::mobilisation(c)};
-  for (int k = 0; k < ANGLE; k++) {
-    array_atom[c.i][k] += contribution[k];
-    if (!c.ghost) array_atom[c.j][k] += contribution[k];  // a ghost's owner counts it
+void ComputeContactGrain::add_contacts(grainscope::ContactSpan contacts) {
+  for (const Contact &c : contacts) {
+    if (!counts(c)) continue;
+    const double contribution[ANGLE] = {1.0, c.sliding ? 1.0 : 0.0, 0.5 * grainscope::damping_loss(c),
+                                        0.5 * grainscope::friction_loss(c), grainscope::mobilisation(c)};
+    for (int k = 0; k < ANGLE; k++) {
+      array_atom[c.i][k] += contribution[k];
+      if (!c.ghost()) array_atom[c.j()][k] += contribution[k];  // a ghost's owner counts it
+    }
   }
 }
 
@@ -74,8 +76,7 @@ double ComputeContactGrain::angle_to_flow(int i) const {
   if (!atom->superquadric_flag) return 0.0;
   const grainscope::SymmetryAxis axis = grainscope::symmetry_axis(atom->shape[i]);
   if (axis.shape == grainscope::Shape::sphere) return 0.0;
-  const double *q = atom->quaternion[i];
-  return grainscope::major_axis_angle(Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * Eigen::Vector3d::Unit(axis.index), axis.shape);
+  return grainscope::major_axis_angle(grainscope::orientation(*atom, i) * Eigen::Vector3d::Unit(axis.index), axis.shape);
 }
 
 /** Collective. Errors when grains were sorted, added or removed since their contacts were seen. */
@@ -84,7 +85,7 @@ void ComputeContactGrain::require_same_grains() const {
   int changed = static_cast<int>(tags.size()) != atom->nlocal || !std::equal(tags.begin(), tags.end(), atom->tag);
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, world);
   if (changed)
-    grainscope::Arguments(lmp, name_ + " " + id, 0, 0, nullptr)
+    grainscope::Arguments(lmp, name_ + " " + id)
         .fail("grains were sorted, added or removed since the last step of the run: ask within a run");
 }
 

@@ -26,7 +26,7 @@ class ComputeContactGrain : public grainscope::ContactCompute, public grainscope
   double memory_usage() override;
 
   void begin_contacts() override;
-  void add_contact(const grainscope::Contact &contact) override;
+  void add_contacts(grainscope::ContactSpan contacts) override;
 
  private:
   struct Impl;

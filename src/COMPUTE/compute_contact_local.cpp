@@ -44,7 +44,7 @@ const Column columns[] = {
     {"image", xyz, "-", "periodic image of j that i touches, in box edges,",
      [](const Row &r, double *to) { std::copy(r.image, r.image + 3, to); }},
     {"point", xyz, "distance", "contact point,",
-     [](const Row &r, double *to) { put(to, r.contact.point); }},
+     [](const Row &r, double *to) { put(to, r.contact.motion->point); }},
     {"normal", xyz, "-", "unit normal from j to i,",
      [](const Row &r, double *to) { put(to, r.contact.normal); }},
     {"branch", xyz, "distance", "x_i - x_j with that image,",
@@ -56,13 +56,13 @@ const Column columns[] = {
     {"fn", one, "force", "normal component of the force, > 0 pushes apart",
      [](const Row &r, double *to) { *to = r.contact.normal_force; }},
     {"fn_damping", one, "force", "damping part of fn",
-     [](const Row &r, double *to) { *to = r.contact.normal_damping; }},
+     [](const Row &r, double *to) { *to = r.contact.motion->normal_damping; }},
     {"ft", xyz, "force", "tangential force on i,",
      [](const Row &r, double *to) { put(to, r.contact.tangential_force); }},
     {"un", one, "velocity", "normal velocity of i relative to j, < 0 approaching",
-     [](const Row &r, double *to) { *to = r.contact.normal_velocity; }},
+     [](const Row &r, double *to) { *to = r.contact.motion->normal_velocity; }},
     {"ut", xyz, "velocity", "tangential velocity of i relative to j at the contact point,",
-     [](const Row &r, double *to) { put(to, r.contact.tangential_velocity); }},
+     [](const Row &r, double *to) { put(to, r.contact.motion->tangential_velocity); }},
     {"sliding", one, "-", "1 if the spring was cut at the friction limit, else 0",
      [](const Row &r, double *to) { *to = r.contact.sliding; }},
     {"slip", one, "distance", "length cut from the tangential spring",
@@ -112,18 +112,23 @@ ComputeContactLocal::~ComputeContactLocal() {}
 /** Of a contact that two owners see (or one owner twice, through an image of itself), the lower ID writes the row; between two images of one
  *  grain, the one whose partner lies toward the positive side. */
 bool ComputeContactLocal::is_mine(const Contact &c) const {
-  if (!c.ghost) return true;
-  if (atom->tag[c.i] != atom->tag[c.j]) return atom->tag[c.i] < atom->tag[c.j];
-  const double *shift = observer_->image_shift(c.j);
+  const int j = c.j();
+  if (!c.ghost()) return true;
+  if (atom->tag[c.i] != atom->tag[j]) return atom->tag[c.i] < atom->tag[j];
+  const double *shift = observer_->image_shift(j);
   const double origin[3] = {0.0, 0.0, 0.0};
   return std::lexicographical_compare(origin, origin + 3, shift, shift + 3);
 }
 
 void ComputeContactLocal::begin_contacts() { impl_->values.clear(); }
 
-void ComputeContactLocal::add_contact(const Contact &c) {
-  if (!both_in_group(c.i, c.j) || !is_mine(c)) return;
-  const Row row = {c, observer_->image_shift(c.j), atom->tag[c.i], atom->tag[c.j]};
+void ComputeContactLocal::add_contacts(grainscope::ContactSpan contacts) {
+  for (const Contact &c : contacts)
+    if (counts(c) && is_mine(c)) add_row(c);
+}
+
+void ComputeContactLocal::add_row(const Contact &c) {
+  const Row row = {c, observer_->image_shift(c.j()), atom->tag[c.i], atom->tag[c.j()]};
   impl_->values.resize(impl_->values.size() + impl_->width);
   double *to = impl_->values.data() + impl_->values.size() - impl_->width;
   for (const Impl::Chosen &one : impl_->chosen) {

@@ -25,7 +25,7 @@ class ComputeContactLocal : public grainscope::ContactCompute, public grainscope
   double memory_usage() override;
 
   void begin_contacts() override;
-  void add_contact(const grainscope::Contact &contact) override;
+  void add_contacts(grainscope::ContactSpan contacts) override;
   bool needs_images() const override { return true; }
 
  private:
@@ -33,6 +33,7 @@ class ComputeContactLocal : public grainscope::ContactCompute, public grainscope
   std::unique_ptr<Impl> impl_;
 
   bool is_mine(const grainscope::Contact &contact) const;
+  void add_row(const grainscope::Contact &contact);
 };
 
 }

@@ -3,14 +3,15 @@
 #include "arguments.h"
 #include "contact_measures.h"
 #include "contact_observer.h"
+#include "contact_sums.h"
 #include "ellipsoid_bands.h"
+#include "grain_shape.h"
 #include "symmetry_axis.h"
 #include "atom.h"
 #include "force.h"
 #include "group.h"
 #include "neighbor.h"
 #include "update.h"
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -58,28 +59,47 @@ grainscope::Outputs declared(int bins) {
 /** v seen along body axis `axis`: that component last, the others before it. */
 Vector3d along(int axis, const Vector3d &v) { return {v[(axis + 1) % 3], v[(axis + 2) % 3], v[axis]}; }
 
-void require_axes(const Atom *atom, const grainscope::Arguments &complaints) {
-  if (!atom->superquadric_flag) complaints.fail("needs atom_style superquadric: grains of other styles have no axes to measure angles from");
+void require_axes(const Atom *atom, const grainscope::Arguments &errors) {
+  if (!atom->superquadric_flag) errors.fail("needs atom_style superquadric: grains of other styles have no axes to measure angles from");
 }
 
-}
-
-struct ComputeContactSurface::Impl {
+/** Sums of each bin, over the contacts of this rank; a grain's angle is measured from `axis`. */
+struct SurfaceSums {
+  const Atom *atom = nullptr;
   int bins = 10;
   SurfaceAngle angle = SurfaceAngle::polar;
-  int axis = -1;                      // body axis; -1: the symmetry axis
-  Vector3d proportions = Vector3d::Zero();  // semi-axes of a grain of the group's shape, 1 along the axis; zero for an empty group
-  std::vector<double> unit_areas;     // of its bands
-  double unit_area = 0.0;             // their sum
-  double grains = 0.0, mean_square = 0.0;  // of the group: number, mean of (semi-axis along the axis)^2
-  bigint build = -1;                  // the neighbour list that the four above are of
-  std::vector<double> sums;           // bins x SUMS, sum of F_y r_y over contacts, contacts whose place is not finite
-  bool reduced = false;
+  int axis = -1;              // body axis; -1: the symmetry axis
+  double unit_area = 0.0;     // of a grain whose semi-axis along the axis is 1
+  std::vector<double> sums;   // bins x SUMS, sum of F_y r_y over contacts, contacts whose place is not finite
 
-  double *bin(int k) { return &sums[k * SUMS]; }
+  void reset() { sums.assign(bins * SUMS + 2, 0.0); }
+  std::vector<double> &numbers() { return sums; }
+  const double *bin(int k) const { return &sums[k * SUMS]; }
+  double moment() const { return sums[bins * SUMS]; }
+  double not_finite() const { return sums.back(); }
 
-  void add(const Contact &c, int k, double area) {
-    double *s = bin(k);
+  /** The body axis that angles are measured from: z for spheres. */
+  int axis_of(const double *shape) const {
+    if (axis >= 0) return axis;
+    const int symmetry = grainscope::symmetry_axis(shape).index;
+    return symmetry < 0 ? 2 : symmetry;
+  }
+  void add(const Contact &c) {
+    sums[bins * SUMS] += c.weight * c.force[1] * c.branch[1];
+    const Vector3d arm = c.motion->point - Map<const Vector3d>(atom->x[c.i]);
+    add_to(c.i, arm, c);
+    if (!c.ghost()) add_to(c.j(), arm + c.branch, c);  // a ghost's owner counts it
+  }
+  void add_to(int grain, const Vector3d &arm, const Contact &c) {
+    const double *shape = atom->shape[grain];
+    const int from = axis_of(shape);
+    const Vector3d point = along(from, grainscope::orientation(*atom, grain).conjugate() * arm);
+    const double psi = grainscope::surface_angle(point, along(from, Map<const Vector3d>(shape)), angle);
+    const int band = grainscope::band_of(psi, bins);
+    if (band < 0) sums.back() += c.weight;
+    else add_to_bin(&sums[band * SUMS], c, unit_area * shape[from] * shape[from]);
+  }
+  static void add_to_bin(double *s, const Contact &c, double area) {
     s[CONTACTS] += 1.0;
     s[NORMAL] += c.normal_force / area;
     s[TANGENTIAL] += c.tangential_force.norm() / area;
@@ -90,42 +110,49 @@ struct ComputeContactSurface::Impl {
   }
 };
 
+}
+
+struct ComputeContactSurface::Impl {
+  grainscope::ContactSums<SurfaceSums> contacts;
+  Vector3d proportions = Vector3d::Zero();  // semi-axes of a grain of the group's shape, 1 along the axis; zero for an empty group
+  std::vector<double> unit_areas;     // of its bands
+  double grains = 0.0, mean_square = 0.0;  // of the group: number, mean of (semi-axis along the axis)^2
+  bigint build = -1;                  // the neighbour list that the four above are of
+
+  SurfaceSums &sums() { return contacts.mine(); }
+};
+
 ComputeContactSurface::ComputeContactSurface(LAMMPS *lmp, int &iarg, int narg, char **arg)
     : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   while (!arguments.done()) {
     const std::string keyword = arguments.keyword({"bins", "angle", "axis"});
-    if (keyword == "bins") impl_->bins = arguments.whole_number(keyword, 1, 1000);
-    if (keyword == "angle") impl_->angle = arguments.choice(keyword, {"polar", "parametric"}) == "polar" ? SurfaceAngle::polar : SurfaceAngle::parametric;
+    if (keyword == "bins") impl_->sums().bins = arguments.whole_number(keyword, 1, 1000);
+    if (keyword == "angle") impl_->sums().angle = arguments.choice(keyword, {"polar", "parametric"}) == "polar" ? SurfaceAngle::polar : SurfaceAngle::parametric;
     if (keyword == "axis") {
       const std::string axis = arguments.choice(keyword, {"auto", "x", "y", "z"});
-      impl_->axis = axis == "auto" ? -1 : axis[0] - 'x';
+      impl_->sums().axis = axis == "auto" ? -1 : axis[0] - 'x';
     }
   }
   require_axes(atom, arguments);
-  declare(this, declared(impl_->bins));
+  impl_->sums().atom = atom;
+  sums_over(impl_->contacts);
+  declare(this, declared(impl_->sums().bins));
 }
 
 ComputeContactSurface::~ComputeContactSurface() {}
 
 void ComputeContactSurface::init() {
-  require_axes(atom, grainscope::Arguments(lmp, name_, 0, 0, nullptr));
+  require_axes(atom, grainscope::Arguments(lmp, name_));
   ContactCompute::init();
   require_known_losses();
   require_one_shape();
   impl_->build = -1;
 }
 
-/** The body axis that angles are measured from: z for spheres. */
-int ComputeContactSurface::axis_of(const double *shape) const {
-  if (impl_->axis >= 0) return impl_->axis;
-  const int symmetry = grainscope::symmetry_axis(shape).index;
-  return symmetry < 0 ? 2 : symmetry;
-}
-
 /** Ellipsoids of one shape, of any size. Collective. */
 void ComputeContactSurface::require_one_shape() {
-  const grainscope::Arguments arguments(lmp, name_, 0, 0, nullptr);
+  const grainscope::Arguments errors(lmp, name_);
   const int none = std::numeric_limits<int>::max();
   int boxy = none, triaxial = none;
   double extremes[4] = {0.0, 0.0, -HUGE_VAL, -HUGE_VAL};  // largest and (negative) smallest ratios of semi-axes across to along
@@ -133,8 +160,8 @@ void ComputeContactSurface::require_one_shape() {
     if (!in_group(i)) continue;
     const double *shape = atom->shape[i], *blockiness = atom->blockiness[i];
     if (blockiness[0] != 2.0 || blockiness[1] != 2.0) boxy = std::min(boxy, atom->tag[i]);
-    if (impl_->axis < 0 && grainscope::symmetry_axis(shape).shape == Shape::triaxial) triaxial = std::min(triaxial, atom->tag[i]);
-    const Vector3d s = along(axis_of(shape), Map<const Vector3d>(shape));
+    if (impl_->sums().axis < 0 && grainscope::symmetry_axis(shape).shape == Shape::triaxial) triaxial = std::min(triaxial, atom->tag[i]);
+    const Vector3d s = along(impl_->sums().axis_of(shape), Map<const Vector3d>(shape));
     for (int k = 0; k < 2; k++) {
       extremes[k] = std::max(extremes[k], s[k] / s[2]);
       extremes[2 + k] = std::max(extremes[2 + k], -s[k] / s[2]);
@@ -143,25 +170,25 @@ void ComputeContactSurface::require_one_shape() {
   int bad[2] = {boxy, triaxial};
   MPI_Allreduce(MPI_IN_PLACE, bad, 2, MPI_INT, MPI_MIN, world);
   MPI_Allreduce(MPI_IN_PLACE, extremes, 4, MPI_DOUBLE, MPI_MAX, world);
-  if (bad[0] != none) arguments.fail("needs ellipsoids, blockiness 2 2, but grain " + std::to_string(bad[0]) + " has another");
-  if (bad[1] != none) arguments.fail("'axis' must be x, y or z for triaxial grains, got 'auto' and grain " + std::to_string(bad[1]));
+  if (bad[0] != none) errors.fail("needs ellipsoids, blockiness 2 2, but grain " + std::to_string(bad[0]) + " has another");
+  if (bad[1] != none) errors.fail("'axis' must be x, y or z for triaxial grains, got 'auto' and grain " + std::to_string(bad[1]));
   if (extremes[0] == 0.0) {  // nobody in the group
     impl_->proportions = Vector3d::Zero();
-    impl_->unit_areas.assign(impl_->bins, 0.0);
-    impl_->unit_area = 0.0;
+    impl_->unit_areas.assign(impl_->sums().bins, 0.0);
+    impl_->sums().unit_area = 0.0;
     return;
   }
   for (int k = 0; k < 2; k++)
     if (extremes[k] + extremes[2 + k] > 1e-9 * extremes[k])
-      arguments.fail("needs grains of one shape in group '" + std::string(group->names[igroup]) + "', got semi-axes across over along the axis from " +
+      errors.fail("needs grains of one shape in group '" + std::string(group->names[igroup]) + "', got semi-axes across over along the axis from " +
                      std::to_string(-extremes[2 + k]) + " to " + std::to_string(extremes[k]));
   const Vector3d proportions(extremes[0], extremes[1], 1.0);
   if (proportions != impl_->proportions) {
     impl_->proportions = proportions;
-    impl_->unit_areas = grainscope::band_areas(proportions, impl_->bins, impl_->angle);
+    impl_->unit_areas = grainscope::band_areas(proportions, impl_->sums().bins, impl_->sums().angle);
   }
-  impl_->unit_area = 0.0;
-  for (double area : impl_->unit_areas) impl_->unit_area += area;
+  impl_->sums().unit_area = 0.0;
+  for (double area : impl_->unit_areas) impl_->sums().unit_area += area;
 }
 
 /** What depends on who is there; grains come and go with neighbour lists only. Collective. */
@@ -172,7 +199,7 @@ void ComputeContactSurface::measure_grains() {
   double sums[2] = {0.0, 0.0};
   for (int i = 0; i < atom->nlocal; i++) {
     if (!in_group(i)) continue;
-    const double size = atom->shape[i][axis_of(atom->shape[i])];
+    const double size = atom->shape[i][impl_->sums().axis_of(atom->shape[i])];
     sums[0] += 1.0;
     sums[1] += size * size;
   }
@@ -183,61 +210,30 @@ void ComputeContactSurface::measure_grains() {
 
 void ComputeContactSurface::begin_contacts() {
   measure_grains();
-  impl_->sums.assign(impl_->bins * SUMS + 2, 0.0);
-  impl_->reduced = false;
+  ContactCompute::begin_contacts();
 }
 
-void ComputeContactSurface::add_contact(const Contact &c) {
-  if (!both_in_group(c.i, c.j)) return;
-  impl_->sums[impl_->bins * SUMS] += c.weight * c.force[1] * c.branch[1];
-  const auto add_to = [&](int grain, const Vector3d &arm) {
-    const double *shape = atom->shape[grain], *q = atom->quaternion[grain];
-    const int axis = axis_of(shape);
-    const Vector3d point = along(axis, Eigen::Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * arm);
-    const double psi = grainscope::surface_angle(point, along(axis, Map<const Vector3d>(shape)), impl_->angle);
-    const int band = grainscope::band_of(psi, impl_->bins);
-    if (band < 0) impl_->sums.back() += c.weight;
-    else impl_->add(c, band, impl_->unit_area * shape[axis] * shape[axis]);
-  };
-  const Vector3d arm = c.point - Map<const Vector3d>(atom->x[c.i]);
-  add_to(c.i, arm);
-  if (!c.ghost) add_to(c.j, arm + c.branch);  // a ghost's owner counts it
-}
-
-void ComputeContactSurface::reduce() {
-  require_tally();
-  if (impl_->reduced) return;
-  impl_->reduced = true;
-  sum_over_ranks(impl_->sums.data(), impl_->sums.size());
-  require_finite(impl_->sums[impl_->bins * SUMS + 1]);
-  const double pressure = impl_->sums[impl_->bins * SUMS] / observer_->box().volume;
+void ComputeContactSurface::answer() {
+  const SurfaceSums &all = impl_->contacts.total(*this);
+  require_finite(all.not_finite());
+  const double pressure = all.moment() / observer_->box().volume;
   const double per_pressure = pressure > 0.0 ? 1.0 / pressure : 0.0;
   double contacts = 0.0, power = 0.0;
-  for (int k = 0; k < impl_->bins; k++) {
-    contacts += impl_->bin(k)[CONTACTS];
-    power += impl_->bin(k)[NORMAL_POWER] + impl_->bin(k)[FRICTION_POWER];
+  for (int k = 0; k < all.bins; k++) {
+    contacts += all.bin(k)[CONTACTS];
+    power += all.bin(k)[NORMAL_POWER] + all.bin(k)[FRICTION_POWER];
   }
-  for (int k = 0; k < impl_->bins; k++) {
-    const double *s = impl_->bin(k);
+  for (int k = 0; k < all.bins; k++) {
+    const double *s = all.bin(k);
     const double area = impl_->unit_areas[k] * impl_->mean_square;
-    const double whole_over_part = impl_->unit_area > 0.0 ? impl_->unit_area / impl_->unit_areas[k] : 0.0;
+    const double whole_over_part = all.unit_area > 0.0 ? all.unit_area / impl_->unit_areas[k] : 0.0;
     const double share = contacts > 0.0 ? s[CONTACTS] / contacts : 0.0, per_contact = s[CONTACTS] > 0.0 ? 1.0 / s[CONTACTS] : 0.0;
     const double inhomogeneity = power != 0.0 ? (s[NORMAL_POWER] + s[FRICTION_POWER]) / power * whole_over_part : 0.0;
-    put_row(k, {(k + 0.5) * M_PI_2 / impl_->bins, area, s[CONTACTS], area > 0.0 ? share / area : 0.0,
+    put_row(k, {(k + 0.5) * M_PI_2 / all.bins, area, s[CONTACTS], area > 0.0 ? share / area : 0.0,
                 share * whole_over_part, s[NORMAL] * per_contact * per_pressure,
                 s[TANGENTIAL] * per_contact * per_pressure, s[MOBILISATION] * per_contact, s[SLIDING] * per_contact,
                 s[NORMAL_POWER], s[FRICTION_POWER], inhomogeneity, inhomogeneity * whole_over_part,
                 s[NORMAL] * per_pressure, s[TANGENTIAL] * per_pressure, s[MOBILISATION], s[SLIDING]});
   }
-  put_vector({pressure * force->nktv2p, impl_->unit_area * impl_->mean_square, impl_->grains});
-}
-
-void ComputeContactSurface::compute_array() {
-  invoked_array = update->ntimestep;
-  reduce();
-}
-
-void ComputeContactSurface::compute_vector() {
-  invoked_vector = update->ntimestep;
-  reduce();
+  put_vector({pressure * force->nktv2p, all.unit_area * impl_->mean_square, impl_->grains});
 }

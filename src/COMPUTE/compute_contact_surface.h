@@ -24,20 +24,15 @@ class ComputeContactSurface : public grainscope::ContactCompute, public grainsco
   ComputeContactSurface(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeContactSurface();
   void init() override;
-  void compute_array() override;
-  void compute_vector() override;
-
   void begin_contacts() override;
-  void add_contact(const grainscope::Contact &contact) override;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 
-  int axis_of(const double *shape) const;
   void require_one_shape();
   void measure_grains();
-  void reduce();
+  void answer() override;
 };
 
 }

@@ -4,7 +4,7 @@
 #include "box_state.h"
 #include "fix_grain_record.h"
 #include "strain_source.h"
-#include "surroundings.h"
+#include "requirements.h"
 #include "atom.h"
 #include "domain.h"
 #include "fix_deform.h"
@@ -113,16 +113,16 @@ void ComputeDisplacementShear::require_flow_of_all() {
     const FixDeform *deform = dynamic_cast<FixDeform *>(modify->fix[k]);
     if (!deform) continue;
     const std::string which = std::string("fix ") + deform->id + " (" + deform->style + ")";
-    const grainscope::Arguments complaints(lmp, name, 0, 0, nullptr);
+    const grainscope::Arguments errors(lmp, name);
     if (deform->remapflag == no_remap)
-      complaints.fail(which + " must move grains along with the box, 'remap v' or 'remap x', got 'remap none': "
+      errors.fail(which + " must move grains along with the box, 'remap v' or 'remap x', got 'remap none': "
                       "displacements against its flow would be wrong");
     int others = 0;
     for (int i = 0; i < atom->nlocal && !others; i++)
       others = atom->mask[i] & groupbit && !(atom->mask[i] & deform->groupbit);
     MPI_Allreduce(MPI_IN_PLACE, &others, 1, MPI_INT, MPI_MAX, world);
     if (others)
-      complaints.fail(which + " must move all grains of group '" + group->names[igroup] + "', got group '" +
+      errors.fail(which + " must move all grains of group '" + group->names[igroup] + "', got group '" +
                       group->names[deform->igroup] + "'");
   }
 }
@@ -142,7 +142,7 @@ void ComputeDisplacementShear::begin(double strain) {
   double *shared = impl_->shared();
   std::fill(shared, shared + SHARED, 0.0);
   double forgotten[3];
-  impl_->record->take_turns(forgotten);
+  impl_->record->take_box_flips(forgotten);
   shared[STARTED] = 1.0;
   shared[STRAIN_0] = shared[STRAIN_1] = strain;
   shared[GRAINS] = grains;
@@ -155,10 +155,10 @@ void ComputeDisplacementShear::advance() {
   double *shared = impl_->shared();
   Matrix3d before = Map<Matrix3d>(shared + EDGES);
   Matrix3d after = box.edges;
-  double turns[3];
-  impl_->record->take_turns(turns);
-  after.col(2) -= turns[0] * after.col(1) + turns[1] * after.col(0);  // edges as if the box had not flipped
-  after.col(1) -= turns[2] * after.col(0);
+  double flips[3];
+  impl_->record->take_box_flips(flips);
+  after.col(2) -= flips[0] * after.col(1) + flips[1] * after.col(0);  // edges as if the box had not flipped
+  after.col(1) -= flips[2] * after.col(0);
   for (int k = 0; k < 3; k++)
     if (box.follows_grains[k]) before.col(k) = after.col(k);
 
@@ -202,7 +202,7 @@ void ComputeDisplacementShear::before_change_box() {
 /** With `remap` grains moved affinely, without they stayed: in neither case do they come any farther. */
 void ComputeDisplacementShear::after_change_box() {
   impl_->record = FixGrainRecord::find(lmp, id);
-  impl_->record->take_box();
+  impl_->record->note_changed_box();
   const Box box(*domain, *impl_->record);
   for (int i = 0; i < atom->nlocal; i++) {
     double *record = impl_->record->of(i);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_dissipation.h"
 #include "arguments.h"
-#include "contact_measures.h"
 #include "contact_observer.h"
+#include "contact_sums.h"
 #include "fix_ledger_record.h"
 #include "ledger_account.h"
 #include "grain_power.h"
-#include "surroundings.h"
+#include "loss_sums.h"
+#include "requirements.h"
 #include "atom.h"
 #include "domain.h"
 #include "update.h"
@@ -15,8 +16,11 @@ using namespace LAMMPS_NS;
 using Eigen::Map;
 using Eigen::Vector3d;
 using grainscope::Contact;
+using grainscope::LossSums;
 
 namespace {
+
+enum class Mode { instantaneous, step, ledger };
 
 constexpr auto extensive = grainscope::Extent::extensive;
 
@@ -32,12 +36,38 @@ grainscope::Outputs declared() {
   return outputs;
 }
 
+/** The damping forces on each grain, to be paired with its velocities at the end of the step. */
+struct DampingForces : grainscope::ContactCompute::Accumulator {
+  const Atom *atom = nullptr;
+  const Domain *domain = nullptr;
+  const grainscope::ContactObserver *observer = nullptr;
+  grainscope::GrainPower normal, tangential;
+
+  void reset() override {
+    normal.reset(atom->nlocal);
+    tangential.reset(atom->nlocal);
+  }
+  void add(grainscope::ContactSpan contacts, const grainscope::ContactCompute &of) override {
+    for (const Contact &c : contacts)
+      if (of.counts(c)) add(c);
+  }
+  void add(const Contact &c) {
+    const grainscope::ContactMotion &m = *c.motion;
+    const Vector3d lever_i = m.point - Map<const Vector3d>(atom->x[c.i]), lever_j = lever_i + c.branch;
+    Vector3d image_velocity = Vector3d::Zero();
+    if (c.ghost() && domain->deform_vremap && (atom->mask[c.j()] & domain->deform_groupbit))
+      image_velocity = observer->image_velocity(c.j());
+    normal.add(c, m.normal_damping * c.normal, lever_i, lever_j, image_velocity);
+    if (c.damped) tangential.add(c, -m.tangential_damping * m.tangential_velocity, lever_i, lever_j, image_velocity);
+  }
+};
+
 }
 
 struct ComputeDissipation::Impl {
-  enum class Mode { instantaneous, step, ledger } mode = Mode::step;
-  double normal = 0.0, friction = 0.0, tangential_damping = 0.0, contacts = 0.0, sliding = 0.0;
-  grainscope::GrainPower normal_damping_forces, tangential_damping_forces;
+  Mode mode = Mode::step;
+  grainscope::ContactSums<LossSums> sums;
+  DampingForces damping;
 };
 
 ComputeDissipation::ComputeDissipation(LAMMPS *lmp, int &iarg, int narg, char **arg)
@@ -46,88 +76,56 @@ ComputeDissipation::ComputeDissipation(LAMMPS *lmp, int &iarg, int narg, char **
   while (!arguments.done()) {
     const std::string keyword = arguments.keyword({"mode"});
     const std::string mode = arguments.choice(keyword, {"instantaneous", "step", "ledger"});
-    impl_->mode = mode == "step" ? Impl::Mode::step : mode == "ledger" ? Impl::Mode::ledger : Impl::Mode::instantaneous;
+    impl_->mode = mode == "step" ? Mode::step : mode == "ledger" ? Mode::ledger : Mode::instantaneous;
   }
-  if (impl_->mode == Impl::Mode::ledger) grainscope::require_box(lmp, arguments);
+  if (impl_->mode == Mode::ledger) grainscope::require_box(lmp, arguments);
+  using Of = LossSums::Of;
+  impl_->sums.mine().of = impl_->mode == Mode::instantaneous ? Of::powers : impl_->mode == Mode::step ? Of::slip : Of::contacts;
+  sums_over(impl_->sums);
+  if (impl_->mode == Mode::step) sums_over(impl_->damping);
   declare(this, declared());
-  if (impl_->mode == Impl::Mode::ledger) FixLedgerRecord::make(lmp, id, igroup, "dissipation mode ledger");
+  if (impl_->mode == Mode::ledger) FixLedgerRecord::make(lmp, id, igroup, "dissipation mode ledger");
 }
 
 ComputeDissipation::~ComputeDissipation() {
-  if (impl_->mode == Impl::Mode::ledger) FixLedgerRecord::forget(lmp, id);
+  if (impl_->mode == Mode::ledger) FixLedgerRecord::forget(lmp, id);
 }
 
 void ComputeDissipation::init() {
   ContactCompute::init();
   require_known_losses();
-  if (impl_->mode == Impl::Mode::ledger) FixLedgerRecord::find(lmp, id);
+  impl_->damping.atom = atom;
+  impl_->damping.domain = domain;
+  impl_->damping.observer = observer_;
+  if (impl_->mode == Mode::ledger) FixLedgerRecord::find(lmp, id);
 }
 
 /** A ledger that does not close, as grains came, is no matter of a run that does not ask for it. */
-bool ComputeDissipation::answers_after_run() const { return impl_->mode != Impl::Mode::ledger; }
+bool ComputeDissipation::answers_after_run() const { return impl_->mode != Mode::ledger; }
 
-bool ComputeDissipation::needs_images() const { return impl_->mode == Impl::Mode::step; }
+bool ComputeDissipation::needs_images() const { return impl_->mode == Mode::step; }
 
-void ComputeDissipation::begin_contacts() {
-  impl_->normal = impl_->friction = impl_->tangential_damping = impl_->contacts = impl_->sliding = 0.0;
-  if (impl_->mode != Impl::Mode::step) return;
-  impl_->normal_damping_forces.reset(atom->nlocal);
-  impl_->tangential_damping_forces.reset(atom->nlocal);
-}
-
-void ComputeDissipation::add_contact(const Contact &c) {
-  if (!both_in_group(c.i, c.j)) return;
-  Impl &sums = *impl_;
-  sums.contacts += c.weight;
-  if (c.sliding) sums.sliding += c.weight;
-  if (sums.mode == Impl::Mode::ledger) return;
-  if (sums.mode == Impl::Mode::instantaneous) {
-    sums.normal += c.weight * grainscope::damping_loss(c);
-    sums.friction += c.weight * grainscope::friction_loss(c);
-    if (c.damped) sums.tangential_damping += c.weight * c.tangential_damping * c.tangential_velocity.squaredNorm();
-    return;
+void ComputeDissipation::answer() {
+  if (impl_->mode == Mode::ledger) return answer_by_ledger();
+  std::array<double, 5> values = impl_->sums.mine().sums;
+  if (impl_->mode == Mode::step) {
+    values[LossSums::normal_damping] = -impl_->damping.normal.power(atom->v, atom->omega);
+    values[LossSums::friction] /= observer_->time_step();
+    values[LossSums::tangential_damping] = -impl_->damping.tangential.power(atom->v, atom->omega);
   }
-  if (c.sliding) sums.friction += c.weight * c.friction_force.norm() * c.slip;  // over dt, later
-  const Vector3d lever_i = c.point - Map<const Vector3d>(atom->x[c.i]);
-  const Vector3d lever_j = lever_i + c.branch;
-  Vector3d image_velocity = Vector3d::Zero();
-  if (c.ghost && domain->deform_vremap && (atom->mask[c.j] & domain->deform_groupbit))
-    image_velocity = observer_->image_velocity(c.j);
-  sums.normal_damping_forces.add(c, c.normal_damping * c.normal, lever_i, lever_j, image_velocity);
-  if (c.damped)
-    sums.tangential_damping_forces.add(c, -c.tangential_damping * c.tangential_velocity, lever_i, lever_j, image_velocity);
-}
-
-void ComputeDissipation::compute_vector() {
-  require_tally();
-  if (kept_since_run(invoked_vector)) return;
-  invoked_vector = update->ntimestep;
-  const Impl &sums = *impl_;
-  double normal = sums.normal, friction = sums.friction, tangential_damping = sums.tangential_damping;
-  if (sums.mode == Impl::Mode::step) {
-    normal = -sums.normal_damping_forces.power(atom->v, atom->omega);
-    friction /= observer_->time_step();
-    tangential_damping = -sums.tangential_damping_forces.power(atom->v, atom->omega);
-  }
-  if (sums.mode == Impl::Mode::ledger) return tell_ledger();
-  put_vector({normal, friction, tangential_damping, sums.contacts, sums.sliding});
-  sum_over_ranks(vector, size_vector);
-  for (int k = 0; k < size_vector; k++) vector[k] += 0.0;  // no negative zeros
+  sum_over_ranks(values.data(), values.size());
+  double *out = vector;
+  for (double value : values) *out++ = value + 0.0;  // no negative zeros
+  require_all_elements(out);
   scalar = vector[0] + vector[1] + vector[2];
 }
 
-void ComputeDissipation::tell_ledger() {
+void ComputeDissipation::answer_by_ledger() {
   using E = grainscope::EnergyLedger;
   const auto last = FixLedgerRecord::find(lmp, id)->account().last;
-  double contacts[] = {impl_->contacts, impl_->sliding};
-  sum_over_ranks(contacts, 2);
+  const auto &sums = impl_->sums.total(*this).sums;
   const double dt = update->dt;
-  put_vector({last[E::D_n] / dt, last[E::D_t] / dt, last[E::D_damp] / dt, contacts[0], contacts[1]});
+  put_vector({last[E::D_n] / dt, last[E::D_t] / dt, last[E::D_damp] / dt, sums[LossSums::contacts],
+              sums[LossSums::sliding]});
   scalar = vector[0] + vector[1] + vector[2];
-}
-
-double ComputeDissipation::compute_scalar() {
-  invoked_scalar = update->ntimestep;
-  if (invoked_vector != update->ntimestep) compute_vector();
-  return scalar;
 }

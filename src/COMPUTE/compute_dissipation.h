@@ -27,19 +27,15 @@ class ComputeDissipation : public grainscope::ContactCompute, public grainscope:
   ComputeDissipation(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeDissipation();
   void init() override;
-  double compute_scalar() override;
-  void compute_vector() override;
-
-  void begin_contacts() override;
-  void add_contact(const grainscope::Contact &contact) override;
   bool needs_images() const override;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 
+  void answer() override;
   bool answers_after_run() const override;
-  void tell_ledger();
+  void answer_by_ledger();
 };
 
 }

@@ -3,7 +3,7 @@
 #include "arguments.h"
 #include "fix_ledger_record.h"
 #include "ledger_account.h"
-#include "surroundings.h"
+#include "requirements.h"
 #include "update.h"
 #include <cmath>
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_fabric.h"
 #include "arguments.h"
+#include "contact_sums.h"
 #include "fabric.h"
 #include "plane.h"
 #include "principal_axes.h"
-#include "update.h"
+#include "symmetric_tensor.h"
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -48,19 +49,24 @@ grainscope::Outputs declared(const std::vector<const Weighted *> &chosen) {
   return outputs;
 }
 
-double *put_symmetric(double *at, const Matrix3d &m) {
-  for (double value : {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)}) *at++ = value;
-  return at;
-}
+/** The weights depend on the fabric of all contacts: weighted tensors need a second pass. */
+struct Moments : grainscope::ContactCompute::Accumulator {
+  std::vector<grainscope::ContactMoment> of_contacts;
+
+  void reset() override { of_contacts.clear(); }
+  void add(grainscope::ContactSpan contacts, const grainscope::ContactCompute &of) override {
+    for (const Contact &c : contacts)
+      if (of.counts(c)) of_contacts.push_back({c.normal, c.weight, c.branch.norm(), c.normal_force, c.tangential_force.norm()});
+  }
+};
 
 }
 
 struct ComputeFabric::Impl {
   grainscope::Plane plane;
   std::vector<const Weighted *> chosen;
-  grainscope::FabricSums sums;
-  // The weights depend on the fabric of all contacts: the weighted tensors, when asked for, need a second pass.
-  std::vector<grainscope::ContactMoment> moments;
+  grainscope::ContactSums<grainscope::FabricSums> sums;
+  Moments moments;
 };
 
 ComputeFabric::ComputeFabric(LAMMPS *lmp, int &iarg, int narg, char **arg) : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
@@ -71,28 +77,15 @@ ComputeFabric::ComputeFabric(LAMMPS *lmp, int &iarg, int narg, char **arg) : Con
     for (const Weighted &one : weighted_tensors)
       if (keyword == one.name) impl_->chosen.push_back(&one);
   }
+  sums_over(impl_->sums);
+  if (!impl_->chosen.empty()) sums_over(impl_->moments);
   declare(this, declared(impl_->chosen));
 }
 
 ComputeFabric::~ComputeFabric() {}
 
-void ComputeFabric::begin_contacts() {
-  impl_->sums = grainscope::FabricSums();
-  impl_->moments.clear();
-}
-
-void ComputeFabric::add_contact(const Contact &c) {
-  if (!both_in_group(c.i, c.j)) return;
-  impl_->sums.add(c);
-  if (!impl_->chosen.empty())
-    impl_->moments.push_back({c.normal, c.weight, c.branch.norm(), c.normal_force, c.tangential_force.norm()});
-}
-
-void ComputeFabric::compute_vector() {
-  require_tally();
-  invoked_vector = update->ntimestep;
-  grainscope::FabricSums all = impl_->sums;
-  sum_over_ranks(all.sums.data(), all.sums.size());
+void ComputeFabric::answer() {
+  const grainscope::FabricSums &all = impl_->sums.total(*this);
   const Matrix3d fabric = all.tensor();
   std::fill(vector, vector + size_vector, 0.0);
   scalar = 0.0;
@@ -101,7 +94,7 @@ void ComputeFabric::compute_vector() {
   const grainscope::PrincipalAxes principal(fabric);
   const int a = impl_->plane.flow, b = impl_->plane.gradient;
   scalar = std::sqrt(1.5) * (fabric - fabric.trace() / 3.0 * Matrix3d::Identity()).norm();
-  double *out = put_symmetric(vector, fabric);
+  double *out = grainscope::write_components(fabric, vector);
   out = std::copy(principal.values.data(), principal.values.data() + 3, out);
   out = std::copy(principal.vectors.data(), principal.vectors.data() + 9, out);
   *out++ = scalar;
@@ -113,17 +106,11 @@ void ComputeFabric::compute_vector() {
 
   if (!impl_->chosen.empty()) {
     WeightedFabricSums weighted;
-    for (const grainscope::ContactMoment &moment : impl_->moments) weighted.add(moment, fabric);
+    for (const grainscope::ContactMoment &moment : impl_->moments.of_contacts) weighted.add(moment, fabric);
     sum_over_ranks(weighted.sums.data(), weighted.sums.size());
-    for (const Weighted *one : impl_->chosen) out = put_symmetric(out, (weighted.*one->tensor)());
+    for (const Weighted *one : impl_->chosen) out = grainscope::write_components((weighted.*one->tensor)(), out);
   }
   require_all_elements(out);
 }
 
-double ComputeFabric::compute_scalar() {
-  invoked_scalar = update->ntimestep;
-  if (invoked_vector != update->ntimestep) compute_vector();
-  return scalar;
-}
-
-double ComputeFabric::memory_usage() { return impl_->moments.capacity() * sizeof(grainscope::ContactMoment); }
+double ComputeFabric::memory_usage() { return impl_->moments.of_contacts.capacity() * sizeof(grainscope::ContactMoment); }

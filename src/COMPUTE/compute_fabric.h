@@ -23,15 +23,12 @@ class ComputeFabric : public grainscope::ContactCompute, public grainscope::Decl
  public:
   ComputeFabric(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeFabric();
-  double compute_scalar() override;
-  void compute_vector() override;
   double memory_usage() override;
-
-  void begin_contacts() override;
-  void add_contact(const grainscope::Contact &contact) override;
-  bool needs_details() const override { return false; }
+  bool needs_motion() const override { return false; }
 
  private:
+  void answer() override;
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -4,7 +4,7 @@
 #include "fluctuations.h"
 #include "grain_shape.h"
 #include "range_warning.h"
-#include "surroundings.h"
+#include "requirements.h"
 #include "atom.h"
 #include "update.h"
 #include <algorithm>
@@ -81,7 +81,7 @@ ComputeFluctuation::ComputeFluctuation(LAMMPS *lmp, int &iarg, int narg, char **
 
 ComputeFluctuation::~ComputeFluctuation() {}
 
-void ComputeFluctuation::init() { grainscope::require_grains(lmp, grainscope::Arguments(lmp, "compute fluctuation", 0, 0, nullptr)); }
+void ComputeFluctuation::init() { grainscope::require_grains(lmp, grainscope::Arguments(lmp, "compute fluctuation")); }
 
 void ComputeFluctuation::compute_array() {
   invoked_array = update->ntimestep;
@@ -99,7 +99,7 @@ void ComputeFluctuation::compute_array() {
     double *at = &sums[sums_of_layer * layer];
     at[0] += g.mass;
     at[1] += 1.0;
-    Map<Vector3d>(at + 2) += g.mass * g.velocity;
+    Map<Vector3d>(at + 2) += g.mass * motion.velocity(g);
   }
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM, world);
   grainscope::require_layers(lmp, "compute fluctuation", sums.back());
@@ -118,10 +118,11 @@ void ComputeFluctuation::compute_vector() {
   const Fluctuations motion(lmp, groupbit, box, impl_->flow);
   double sums[9] = {};  // dv dv, dw dw, twice E_tr, E_rot, diameters
   for (const Fluctuations::Grain &g : motion.local()) {
-    Map<Vector3d>(sums + 0) += g.velocity.cwiseAbs2();
-    Map<Vector3d>(sums + 3) += g.spin.cwiseAbs2();
-    sums[6] += g.mass * g.velocity.squaredNorm();
-    sums[7] += grainscope::rotational_energy(*atom, g.index, g.spin);
+    const Vector3d dv = motion.velocity(g), dw = motion.spin(g);
+    Map<Vector3d>(sums + 0) += dv.cwiseAbs2();
+    Map<Vector3d>(sums + 3) += dw.cwiseAbs2();
+    sums[6] += g.mass * dv.squaredNorm();
+    sums[7] += grainscope::rotational_energy(*atom, g.index, dw);
     sums[8] += grainscope::equivalent_diameter(*atom, g.index);
   }
   MPI_Allreduce(MPI_IN_PLACE, sums, 9, MPI_DOUBLE, MPI_SUM, world);

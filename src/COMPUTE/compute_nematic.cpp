@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_nematic.h"
 #include "arguments.h"
-#include "atom.h"
+#include "grain_shape.h"
 #include "nematic.h"
-#include "surroundings.h"
+#include "requirements.h"
+#include "symmetric_tensor.h"
+#include "atom.h"
 #include "update.h"
-#include <Eigen/Geometry>
 
 using namespace LAMMPS_NS;
 using Eigen::Vector3d;
@@ -38,7 +39,7 @@ ComputeNematic::ComputeNematic(LAMMPS *lmp, int &iarg, int narg, char **arg) : C
   declare(this, declared());
 }
 
-void ComputeNematic::init() { grainscope::require_grains(lmp, grainscope::Arguments(lmp, "compute nematic", 0, 0, nullptr)); }
+void ComputeNematic::init() { grainscope::require_grains(lmp, grainscope::Arguments(lmp, "compute nematic")); }
 
 void ComputeNematic::compute_vector() {
   invoked_vector = update->ntimestep;
@@ -49,17 +50,17 @@ void ComputeNematic::compute_vector() {
     if (!atom->superquadric_flag) continue;
     const grainscope::SymmetryAxis axis = grainscope::symmetry_axis(atom->shape[i]);
     if (axis.shape == grainscope::Shape::sphere) continue;
-    const double *q = atom->quaternion[i];
-    sums.add_axis(Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * Vector3d::Unit(axis.index), axis.shape);
+    sums.add_axis(grainscope::orientation(*atom, i) * Vector3d::Unit(axis.index), axis.shape);
   }
   MPI_Allreduce(MPI_IN_PLACE, sums.sums.data(), sums.sums.size(), MPI_DOUBLE, MPI_SUM, world);
 
   const grainscope::Nematic nematic(sums);
-  const Eigen::Matrix3d &m = nematic.q;
-  const auto &axis = nematic.director, &spin = nematic.spin, &eigenvalue = nematic.eigenvalues;
-  put_vector({m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2), axis[0], axis[1], axis[2], nematic.biaxiality,
-              nematic.theta, nematic.director_theta, spin[0], spin[1], spin[2], nematic.grains_with_axis,
-              nematic.grains_with_theta, eigenvalue[0], eigenvalue[1], eigenvalue[2]});
+  double *out = grainscope::write_components(nematic.q, vector);
+  for (double value : {nematic.director[0], nematic.director[1], nematic.director[2], nematic.biaxiality, nematic.theta,
+                       nematic.director_theta, nematic.spin[0], nematic.spin[1], nematic.spin[2], nematic.grains_with_axis,
+                       nematic.grains_with_theta, nematic.eigenvalues[0], nematic.eigenvalues[1], nematic.eigenvalues[2]})
+    *out++ = value;
+  require_all_elements(out);
   scalar = nematic.order;
 }
 

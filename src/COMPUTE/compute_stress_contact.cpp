@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_stress_contact.h"
 #include "arguments.h"
+#include "contact_law.h"
 #include "contact_observer.h"
-#include "peculiar_motion.h"
+#include "contact_sums.h"
+#include "fluctuations.h"
 #include "stress.h"
+#include "symmetric_tensor.h"
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
@@ -51,10 +54,15 @@ grainscope::Outputs declared() {
 
 }
 
+struct ComputeStressContact::Impl {
+  grainscope::ContactSums<grainscope::StressSums> sums;
+};
+
 ComputeStressContact::ComputeStressContact(LAMMPS *lmp, int &iarg, int narg, char **arg)
-    : ContactCompute(lmp, iarg, narg, arg), sums_(new grainscope::StressSums) {
+    : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   arguments.require_none();
+  sums_over(impl_->sums);
   declare(this, declared());
 }
 
@@ -63,14 +71,8 @@ ComputeStressContact::~ComputeStressContact() {}
 void ComputeStressContact::init() {
   ContactCompute::init();
   stiffness_of_build_ = -1;
-  if (observer_->law() == grainscope::ContactObserver::TangentialLaw::other && comm->me == 0)
+  if (!law().knows_sliding() && comm->me == 0)
     error->warning(FLERR, "compute stress/contact: sliding is known for 'tangential' off, no_history and history only; element 32 stays 0");
-}
-
-void ComputeStressContact::begin_contacts() { *sums_ = grainscope::StressSums(); }
-
-void ComputeStressContact::add_contact(const grainscope::Contact &contact) {
-  if (both_in_group(contact.i, contact.j)) sums_->add(contact);
 }
 
 /** Smallest Young's modulus among the types of the group; 0 when the deck defines none. */
@@ -102,16 +104,13 @@ double ComputeStressContact::flattest_shape() const {
   return flattest;
 }
 
-void ComputeStressContact::compute_vector() {
-  require_tally();
-  if (kept_since_run(invoked_vector)) return;
-  invoked_vector = update->ntimestep;
-  grainscope::StressSums all = *sums_;
-  sum_over_ranks(all.sums.data(), all.sums.size());
-  MPI_Allreduce(MPI_IN_PLACE, &all.largest_overlap, 1, MPI_DOUBLE, MPI_MAX, world);
+void ComputeStressContact::answer() {
+  const grainscope::StressSums &all = impl_->sums.total(*this);
+  double largest_overlap = impl_->sums.mine().largest_overlap;
+  MPI_Allreduce(MPI_IN_PLACE, &largest_overlap, 1, MPI_DOUBLE, MPI_MAX, world);
 
   const grainscope::BoxState &box = observer_->box();
-  const grainscope::PeculiarMotion motion(lmp, groupbit, box);
+  const grainscope::Fluctuations motion(lmp, groupbit, box);
   // Forces over areas are in pressure units only where force->nktv2p is 1; cgs and si both are.
   const double unit = force->nktv2p / box.volume;
   const Eigen::Matrix3d total = all.total(1.0) * unit;
@@ -119,15 +118,9 @@ void ComputeStressContact::compute_vector() {
   const Eigen::Matrix3d kinetic = -motion.momentum_flux() * force->mvv2e * unit;
   const Eigen::Matrix3d normal = total - tangential;
 
-  double *out = vector;
-  const auto six = [&out](const Eigen::Matrix3d &s) {
-    for (double value : {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(0, 2), s(1, 2)}) *out++ = value;
-  };
-  six(total);
+  double *out = grainscope::write_components(total, vector);
   *out++ = total(1, 0);
-  six(normal);
-  six(tangential);
-  six(kinetic);
+  for (const Eigen::Matrix3d *part : {&normal, &tangential, &kinetic}) out = grainscope::write_components(*part, out);
   const double pressure = -total(1, 1);
   const double per_pressure = pressure > 0.0 ? 1.0 / pressure : 0.0;
   const double contacts = all.contacts();
@@ -140,7 +133,7 @@ void ComputeStressContact::compute_vector() {
   *out++ = motion.grains() > 0.0 ? 2.0 * contacts / motion.grains() : 0.0;
   *out++ = all.sliding() * per_contact;
   *out++ = all.overlaps() * per_contact;
-  *out++ = all.largest_overlap;
+  *out++ = largest_overlap;
   if (stiffness_of_build_ != neighbor->lastcall) {  // grains come and go with neighbour lists only
     stiffness_ = flattest_shape() * std::pow(softest_modulus(), 2.0 / 3.0);
     stiffness_of_build_ = neighbor->lastcall;
@@ -156,10 +149,4 @@ void ComputeStressContact::compute_vector() {
     error->all(FLERR, ("compute stress/contact: the stress of step " + std::to_string(update->ntimestep) + " is not finite, though every force is: look "
                        "at overlaps and at the material's constants").c_str());
   scalar = pressure + 0.0;
-}
-
-double ComputeStressContact::compute_scalar() {
-  invoked_scalar = update->ntimestep;
-  if (invoked_vector != update->ntimestep) compute_vector();
-  return scalar;
 }

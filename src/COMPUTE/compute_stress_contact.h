@@ -13,8 +13,6 @@ ComputeStyle(stress/contact,ComputeStressContact)
 #include "range_warning.h"
 #include <memory>
 
-namespace grainscope { struct StressSums; }
-
 namespace LAMMPS_NS {
 
 /** Contact stress sigma_ab = -1/Omega sum_contacts F_a r_b (F on i, r = x_i - x_j, each contact once, Omega the
@@ -27,19 +25,16 @@ class ComputeStressContact : public grainscope::ContactCompute, public grainscop
   ComputeStressContact(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeStressContact();
   void init() override;
-  double compute_scalar() override;
-  void compute_vector() override;
-
-  void begin_contacts() override;
-  void add_contact(const grainscope::Contact &contact) override;
-  bool needs_details() const override { return false; }
+  bool needs_motion() const override { return false; }
 
  private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
   grainscope::RangeWarning soft_;
-  std::unique_ptr<grainscope::StressSums> sums_;
   double stiffness_ = 0.0;             // kappa P^(2/3), as of the neighbour list built at the step below
   bigint stiffness_of_build_ = -1;
 
+  void answer() override;
   double softest_modulus() const;
   double flattest_shape() const;
 };

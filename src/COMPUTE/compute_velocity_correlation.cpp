@@ -4,9 +4,11 @@
 #include "decay_fit.h"
 #include "fix_grain_record.h"
 #include "fluctuations.h"
+#include "gather_points.h"
 #include "grain_shape.h"
 #include "mesh_correlation.h"
-#include "surroundings.h"
+#include "require_finite.h"
+#include "requirements.h"
 #include "velocity_component.h"
 #include "comm.h"
 #include "domain.h"
@@ -15,7 +17,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <sstream>
 #include <stdexcept>
 
@@ -56,23 +57,6 @@ PeriodicCell periodic_cell(const grainscope::BoxState &box, const Domain &domain
 }
 
 double half_smallest_height(const PeriodicCell &cell) { return 0.5 * std::min({cell.height(0), cell.height(1), cell.height(2)}); }
-
-/** The points of all ranks, on each. */
-PointValues gathered(const PointValues &local, MPI_Comm world) {
-  int ranks, n = static_cast<int>(local.size());
-  MPI_Comm_size(world, &ranks);
-  std::vector<int> counts(ranks), starts(ranks, 0);
-  MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
-  std::partial_sum(counts.begin(), counts.end() - 1, starts.begin() + 1);
-  PointValues all;
-  const auto gather = [&](const std::vector<double> &from, std::vector<double> &to) {
-    to.resize(starts.back() + counts.back());
-    MPI_Allgatherv(from.data(), n, MPI_DOUBLE, to.data(), counts.data(), starts.data(), MPI_DOUBLE, world);
-  };
-  for (int k = 0; k < 3; k++) gather(local.s[k], all.s[k]);
-  gather(local.value, all.value);
-  return all;
-}
 
 }
 
@@ -190,19 +174,19 @@ void ComputeVelocityCorrelation::Impl::add_to_record(const Totals &now, bigint s
 }
 
 void ComputeVelocityCorrelation::init() {
-  const Arguments complaints(lmp, name, 0, 0, nullptr);
-  grainscope::require_grains(lmp, complaints);
+  const Arguments errors(lmp, name);
+  grainscope::require_grains(lmp, errors);
   impl_->measured = -1;
   if (impl_->running) impl_->record = FixGrainRecord::find(lmp, id);
   if (impl_->mesh && !(domain->xperiodic && domain->yperiodic && domain->zperiodic))
-    complaints.fail("'method' must be direct in a box that is not periodic in all three directions, got 'mesh'");
+    errors.fail("'method' must be direct in a box that is not periodic in all three directions, got 'mesh'");
 }
 
 /** This rank's share of the sums over pairs. */
 PairSums ComputeVelocityCorrelation::Impl::share_of_pairs(LAMMPS *lmp, const PeriodicCell &cell, const PointValues &points,
                                                           const DistanceBins &distances) {
   if (!mesh) {
-    const PointValues all = gathered(points, lmp->world);
+    const PointValues all = grainscope::gathered(points, lmp->world);
     bytes = 8.0 * sizeof(double) * all.size();  // and their copy in the order of cells
     return grainscope::direct_pair_sums(cell, all, distances, lmp->comm->me, lmp->comm->nprocs);
   }
@@ -210,7 +194,7 @@ PairSums ComputeVelocityCorrelation::Impl::share_of_pairs(LAMMPS *lmp, const Per
   try {
     size = grainscope::mesh_size(cell, distances, mesh_per_bin, most_mesh_cells);
   } catch (const std::length_error &wanted) {
-    Arguments(lmp, name, 0, 0, nullptr)
+    Arguments(lmp, name)
         .fail("'mesh' " + std::to_string(mesh_per_bin) + " must ask for less than 1e9 cells, got " + wanted.what() +
               ": take fewer bins or 'method direct', which is fast when the range is short");
   }
@@ -225,10 +209,7 @@ void ComputeVelocityCorrelation::Impl::require_finite(LAMMPS *lmp, const PointVa
   for (std::size_t i = 0; i < points.size(); i++)
     strays += std::isfinite(points.s[0][i] + points.s[1][i] + points.s[2][i]) ? 0.0 : 1.0;
   MPI_Allreduce(MPI_IN_PLACE, &strays, 1, MPI_DOUBLE, MPI_SUM, lmp->world);
-  if (strays == 0.0) return;
-  Arguments(lmp, name, 0, 0, nullptr)
-      .fail("step " + std::to_string(lmp->update->ntimestep) + ": the positions of " + Arguments::text(strays) +
-            " grains are not finite: look at what moves or pushes them");
+  grainscope::require_finite(lmp, name, strays, "the positions", "grains are not finite: look at what moves or pushes them");
 }
 
 ComputeVelocityCorrelation::Impl::Totals ComputeVelocityCorrelation::Impl::measure(LAMMPS *lmp, int groupbit) {
@@ -240,7 +221,7 @@ ComputeVelocityCorrelation::Impl::Totals ComputeVelocityCorrelation::Impl::measu
   double smallest = std::numeric_limits<double>::infinity();
   Totals now;
   for (const Fluctuations::Grain &g : motion.local()) {
-    const double value = component.of(g);
+    const double value = component.of(motion, g);
     points.add(box.fraction(Eigen::Map<const Eigen::Vector3d>(lmp->atom->x[g.index])), value);
     smallest = std::min(smallest, 2.0 * grainscope::semi_axes(*lmp->atom, g.index).minCoeff());
     now.squares += value * value;
@@ -249,7 +230,7 @@ ComputeVelocityCorrelation::Impl::Totals ComputeVelocityCorrelation::Impl::measu
   try {
     now.sums = share_of_pairs(lmp, cell, points, distances);
   } catch (const std::length_error &reason) {
-    Arguments(lmp, name, 0, 0, nullptr).fail(reason.what());
+    Arguments(lmp, name).fail(reason.what());
   }
   MPI_Allreduce(MPI_IN_PLACE, &smallest, 1, MPI_DOUBLE, MPI_MIN, lmp->world);
   MPI_Allreduce(MPI_IN_PLACE, &now.squares, 1, MPI_DOUBLE, MPI_SUM, lmp->world);

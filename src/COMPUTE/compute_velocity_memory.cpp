@@ -5,8 +5,8 @@
 #include "decay_fit.h"
 #include "fix_grain_record.h"
 #include "fluctuations.h"
+#include "requirements.h"
 #include "strain_source.h"
-#include "surroundings.h"
 #include "velocity_component.h"
 #include "atom.h"
 #include "group.h"
@@ -108,7 +108,7 @@ void ComputeVelocityMemory::sample(double strain) {
   const int lags = impl_->lags;
   const long count = grainscope::whole_count(impl_->shared()[SAMPLES], 1e15);
   if (count < 0)
-    grainscope::Arguments(lmp, name, 0, 0, nullptr)
+    grainscope::Arguments(lmp, name)
         .fail("the number of samples in its memory is damaged, got " +
               grainscope::Arguments::text(impl_->shared()[SAMPLES]));
   const int known = std::min<long>(count, lags);  // lags that reach back to a sample
@@ -117,7 +117,7 @@ void ComputeVelocityMemory::sample(double strain) {
   for (const Fluctuations::Grain &g : motion.local()) {
     double *past = impl_->record->of(g.index), &first = past[lags];
     if (first == 0.0) first = count + 1;
-    const double now = impl_->component.of(g);
+    const double now = impl_->component.of(motion, g);
     sums[0] += now * now;
     sums[1] += 1.0;
     for (int lag = 1; lag <= known && count - lag >= first - 1.0; lag++) {

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact_compute.h"
 #include "arguments.h"
+#include "contact_law.h"
 #include "contact_observer.h"
 #include "pair_gran_insitu.h"
+#include "require_finite.h"
 #include "atom.h"
 #include "error.h"
 #include "update.h"
 
 namespace grainscope {
+
+using LAMMPS_NS::PairGranInsitu;
 
 ContactCompute::ContactCompute(LAMMPS_NS::LAMMPS *lmp, int &iarg, int narg, char **arg)
     : Compute(lmp, iarg, narg, arg), observer_(nullptr), name_(std::string("compute ") + style), tallied_(-1), unasked_(false) {
@@ -15,7 +19,7 @@ ContactCompute::ContactCompute(LAMMPS_NS::LAMMPS *lmp, int &iarg, int narg, char
 }
 
 void ContactCompute::init() {
-  observer_ = &LAMMPS_NS::PairGranInsitu::required_by(lmp, name_.c_str())->observer();
+  observer_ = &PairGranInsitu::required_by(lmp, name_.c_str())->observer();
   observer_->add(this);
   tallied_ = -1;
 }
@@ -27,6 +31,32 @@ bool ContactCompute::wants_contacts() {
   tallied_ = update->ntimestep;
   run_over_ = false;
   return true;
+}
+
+void ContactCompute::begin_contacts() {
+  for (Accumulator *one : sums_) one->reset();
+}
+
+void ContactCompute::add_contacts(ContactSpan contacts) {
+  for (Accumulator *one : sums_) one->add(contacts, *this);
+}
+
+/** An answer that was kept when the run ended stays: what moves grains since then is not of the contacts. */
+void ContactCompute::answer_once(LAMMPS_NS::bigint &answered) {
+  require_tally();
+  if (kept_since_run(answered)) return;
+  answered = update->ntimestep;
+  answer();
+}
+
+void ContactCompute::compute_vector() { answer_once(invoked_vector); }
+
+void ContactCompute::compute_array() { answer_once(invoked_array); }
+
+double ContactCompute::compute_scalar() {
+  invoked_scalar = update->ntimestep;
+  if (invoked_vector != update->ntimestep) compute_vector();
+  return scalar;
 }
 
 void ContactCompute::end_run() {
@@ -51,14 +81,13 @@ bool ContactCompute::kept_since_run(LAMMPS_NS::bigint answered) const {
 
 bool ContactCompute::in_group(int i) const { return atom->mask[i] & groupbit; }
 
-bool ContactCompute::both_in_group(int i, int j) const { return atom->mask[i] & atom->mask[j] & groupbit; }
+bool ContactCompute::counts(const Contact &c) const { return atom->mask[c.i] & atom->mask[c.j()] & groupbit; }
+
+const ContactLaw &ContactCompute::law() const { return PairGranInsitu::required_by(lmp, name_.c_str())->law(); }
 
 void ContactCompute::require_known_losses() const {
-  const Arguments complaints(lmp, name_, 0, 0, nullptr);
-  if (observer_->law() == ContactObserver::TangentialLaw::other)
-    complaints.fail("knows the friction of 'tangential' off, no_history and history only");
-  if (!observer_->elastic())
-    complaints.fail("knows the damping of the normal models hertz, hooke, hertz/stiffness and hooke/stiffness only");
+  const std::string why = law().why_no_losses();
+  if (!why.empty()) Arguments(lmp, name_).fail(why);
 }
 
 void ContactCompute::require_tally() const {
@@ -69,10 +98,8 @@ void ContactCompute::require_tally() const {
 }
 
 void ContactCompute::require_finite(double contacts) const {
-  if (contacts == 0.0) return;
-  const Arguments complaints(lmp, name_ + " " + id, 0, 0, nullptr);
-  complaints.fail("step " + std::to_string(update->ntimestep) + ": the place or direction of " +
-                  Arguments::text(contacts) + " contacts is not finite: look at what moves or pushes these grains");
+  grainscope::require_finite(lmp, name_ + " " + id, contacts, "the place or direction",
+                             "contacts is not finite: look at what moves or pushes these grains");
 }
 
 void ContactCompute::sum_over_ranks(double *values, int n) const {

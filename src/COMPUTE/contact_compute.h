@@ -5,48 +5,75 @@
 #include "compute.h"
 #include "contact_sink.h"
 #include <string>
+#include <vector>
 
 namespace grainscope {
 
 class ContactObserver;
+struct Contact;
+struct ContactLaw;
 
 /** A compute that sees contacts: it listens to the force evaluations of the steps it is announced for, as LAMMPS announces
  *  computes (thermo, fix ave/time, dumps and variables in them do), and of the last step of every run; it refuses to answer for any other.
- *  What it gives as a whole or as rows is computed when a run ends, so that the input script can ask for it until the next run begins. */
+ *  What it gives as a whole or as rows is computed when a run ends, so that the input script can ask for it until the next run begins.
+ *
+ *  A measure that is made of sums declares them (`sums_over`, see contact_sums.h) and fills its outputs from them in `answer`. One that keeps
+ *  contacts or grains overrides begin_contacts and add_contacts. */
 class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
  public:
+  /** What a measure adds up. */
+  class Accumulator {
+   public:
+    virtual ~Accumulator() {}
+    virtual void reset() = 0;
+    virtual void add(ContactSpan contacts, const ContactCompute &of) = 0;
+  };
+
   ContactCompute(LAMMPS_NS::LAMMPS *lmp, int &iarg, int narg, char **arg);
 
   void init() override;
+  double compute_scalar() override;
+  void compute_vector() override;
+  void compute_array() override;
   bool wants_contacts() override;
+  void begin_contacts() override;
+  void add_contacts(ContactSpan contacts) override;
   void end_run() override;
+
+  /** Whether a contact belongs to the group: both of its grains do. */
+  bool counts(const Contact &contact) const;
+  /** Sums `values` over all ranks, in place. */
+  void sum_over_ranks(double *values, int n) const;
 
  protected:
   ContactObserver *observer_;
   std::string name_;  // "compute <style>", for messages
 
-  bool both_in_group(int i, int j) const;
+  void sums_over(Accumulator &sums) { sums_.push_back(&sums); }
+  /** Fills scalar, vector and array, as far as there are, for the evaluation that was tallied. Collective. */
+  virtual void answer() {}
+
   bool in_group(int i) const;
-  /** Errors unless the damping and friction of the contact model are known: their powers are to be told. In init(). */
+  const ContactLaw &law() const;
+  /** Errors unless the damping and friction of the contact model are known, because their powers are reported. In init(). */
   void require_known_losses() const;
   /** Errors unless the current step was tallied. */
   void require_tally() const;
-  /** Whether the answer of this step, given at `answered` of update->ntimestep, was kept when the run ended: what moves
-   *  grains since then is not of the contacts. */
-  bool kept_since_run(LAMMPS_NS::bigint answered) const;
   /** False where an answer that nobody asked for may end the run. */
   virtual bool answers_after_run() const { return true; }
   /** Nobody has asked yet: no warnings. */
   bool unasked() const { return unasked_; }
   /** Errors unless `contacts`, the number over all ranks of those whose place or direction is not finite, is 0. */
   void require_finite(double contacts) const;
-  /** Sums `values` over all ranks, in place. */
-  void sum_over_ranks(double *values, int n) const;
 
  private:
+  std::vector<Accumulator *> sums_;
   LAMMPS_NS::bigint tallied_;
   bool unasked_;
   bool run_over_ = false;  // since the last tally
+
+  bool kept_since_run(LAMMPS_NS::bigint answered) const;
+  void answer_once(LAMMPS_NS::bigint &answered);
 };
 
 }

@@ -31,42 +31,42 @@ void StrainSource::read(Arguments &arguments) {
   name_ = text_.substr(2, open - 2);
 }
 
-void StrainSource::find_press_strain(const Arguments &complaints) {
+void StrainSource::find_press_strain(const Arguments &errors) {
   for (int k = 0; k < modify->nfix; k++) {
     if (!dynamic_cast<LAMMPS_NS::FixPressStrain *>(modify->fix[k])) continue;
-    if (fix_) complaints.fail("several fixes press/strain are there: name the one that tells the strain, 'strain f_ID[1]'");
+    if (fix_) errors.fail("several fixes press/strain are there: name the one that tells the strain, 'strain f_ID[1]'");
     fix_ = modify->fix[k];
   }
-  if (!fix_) complaints.fail("needs to know the strain: use fix press/strain, or the keyword 'strain' with f_ID[n] or v_name");
+  if (!fix_) errors.fail("needs to know the strain: use fix press/strain, or the keyword 'strain' with f_ID[n] or v_name");
 }
 
 void StrainSource::init() {
-  find(Arguments(lmp, style_, 0, 0, nullptr));
+  find(Arguments(lmp, style_));
   ready_ = true;
 }
 
-void StrainSource::find(const Arguments &complaints) {
+void StrainSource::find(const Arguments &errors) {
   fix_ = nullptr;
   variable_ = -1;
   if (text_.empty()) {
-    find_press_strain(complaints);
+    find_press_strain(errors);
   } else if (text_[0] == 'v') {
     variable_ = input->variable->find(const_cast<char *>(name_.c_str()));
-    if (variable_ < 0 || !input->variable->equalstyle(variable_)) complaints.fail("strain", "an equal-style variable that is defined", text_);
+    if (variable_ < 0 || !input->variable->equalstyle(variable_)) errors.fail("strain", "an equal-style variable that is defined", text_);
   } else {
     const int found = modify->find_fix(name_.c_str());
-    if (found < 0) complaints.fail("strain", "the element of a fix that is defined", text_);
+    if (found < 0) errors.fail("strain", "the element of a fix that is defined", text_);
     fix_ = modify->fix[found];
-    if (!fix_->vector_flag || element_ >= fix_->size_vector) complaints.fail("strain", "an element of the fix's vector", text_);
+    if (!fix_->vector_flag || element_ >= fix_->size_vector) errors.fail("strain", "an element of the fix's vector", text_);
   }
 }
 
 double StrainSource::now() {
-  const Arguments complaints(lmp, style_, 0, 0, nullptr);
-  if (!ready_) complaints.fail("was not set up: do not use 'pre no' in the first run with it");
-  find(complaints);  // again: `run every` may have changed what there is
+  const Arguments errors(lmp, style_);
+  if (!ready_) errors.fail("was not set up: do not use 'pre no' in the first run with it");
+  find(errors);  // again: `run every` may have changed what there is
   const double strain = fix_ ? fix_->compute_vector(element_) : input->variable->compute_equal(variable_);
-  if (!std::isfinite(strain)) complaints.fail("strain", "finite", text_ + " = " + Arguments::text(strain));
+  if (!std::isfinite(strain)) errors.fail("strain", "finite", text_ + " = " + Arguments::text(strain));
   return strain;
 }
 

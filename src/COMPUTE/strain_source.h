@@ -34,8 +34,8 @@ class StrainSource : private LAMMPS_NS::Pointers {
   int variable_ = -1;
   bool ready_ = false;
 
-  void find(const Arguments &complaints);
-  void find_press_strain(const Arguments &complaints);
+  void find(const Arguments &errors);
+  void find_press_strain(const Arguments &errors);
 };
 
 }

@@ -11,12 +11,12 @@
 namespace grainscope {
 namespace contact_solver {
 
-inline double smallest_square(const Spheroid &body) { return std::min(body.equatorial, body.polar); }
+inline double smallest_square(const Spheroid &body) { return std::min(body.equatorial_square, body.polar_square); }
 inline double smallest_square(const Triaxial &body) { return *std::min_element(body.square, body.square + 3); }
 
 /** Unit vector along a shortest semi-axis. */
 inline void shortest_axis(const Spheroid &body, double *n) {
-  if (body.polar <= body.equatorial) {
+  if (body.polar_square <= body.equatorial_square) {
     std::copy(body.u, body.u + 3, n);
     return;
   }
@@ -37,7 +37,7 @@ template <class Body> inline bool concentric(const Body &one, const Body &two, c
   return dot(d, d) < 1e-26 * std::min(smallest_square(one), smallest_square(two));
 }
 
-inline bool is_sphere(const Spheroid &body) { return body.polar == body.equatorial; }
+inline bool is_sphere(const Spheroid &body) { return body.polar_square == body.equatorial_square; }
 
 }
 }

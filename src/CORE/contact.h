@@ -3,13 +3,15 @@
 #define GRAINSCOPE_CONTACT_H
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <variant>
 
 namespace grainscope {
 
-/** What a contact remembers of the force evaluation before, in columns of the contact history (`pair_style gran/insitu ... ledger on`).
- *  Nothing of it changes its sign when i and j are swapped. Works are those of the half step after x_{n-1}, with the velocities before it. */
+/** The same contact in the previous force evaluation, kept in columns of the contact history (`pair_style gran/insitu ... ledger on`).
+ *  None of it changes sign when i and j are swapped. Works are those of the half step after x_{n-1}, with the velocities before it. */
 struct ContactPast {
-  bool touched = false;                  // in the evaluation before; else all below is 0
   double overlap = 0.0;
   double elastic_force = 0.0;            // k_n overlap
   double tangential_stiffness = 0.0;     // k_t
@@ -17,43 +19,88 @@ struct ContactPast {
   double spring_work = 0.0;              // taken up by the tangential spring, k_t s . u_t dt/2
 };
 
-/** One grain-grain contact of one force evaluation, as grain i sees it, in simulation units.
- *  Velocities are those that entered the force (x_n, v_{n-1/2}, omega_{n-1/2}); forces are those that drove the step:
- *  per grain they sum to f. All vectors are in the laboratory frame. The details are filled in only when a sink needs them. */
-struct Contact {
-  int i, j;                              // local indices; j may be a ghost
-  bool ghost;                            // j is a ghost: its owner sees this contact too
-  double weight;                         // 1, or 1/2 when j is a ghost: weighted sums over ranks count each contact once
-  Eigen::Vector3d branch;                // r = x_i - x_j
-  Eigen::Vector3d normal;                // unit, from j to i
-  double overlap;                        // normal overlap, > 0
-  Eigen::Vector3d force;                 // total force on i
-  double normal_force;                   // force . normal, > 0 pushes apart; damping (and cohesion) included
-  Eigen::Vector3d tangential_force;      // force on i less its normal part
-  double friction;                       // mu_p of this pair of types
-  double friction_limit;                 // mu_p times the normal force of the law: cohesion may be no part of it
-  Eigen::Vector3d friction_force;        // tangential_force less the drag of a liquid bridge, which no friction limits
-  bool sliding;                          // the tangential spring was cut (friction limit reached) in this evaluation;
-                                         // in the first of a run also: damping takes the force to the limit or beyond
-  double slip;                           // length cut from the spring, >= 0
+/** The other grain of a contact. */
+struct PartnerGrain {
+  int index = -1;                        // local index; may be a ghost
+  bool ghost = false;                    // its owner sees this contact too
+};
 
-  // Details
-  Eigen::Vector3d point;                 // contact point
-  double normal_velocity;                // (v_i - v_j at the contact point) . normal, < 0 approaching
-  Eigen::Vector3d tangential_velocity;   // of i relative to j at the contact point
-  double normal_damping;                 // the damping part of normal_force
-  double normal_stiffness;               // secant k_n: elastic force / overlap
-  double tangential_stiffness;           // k_t
-  double damping_coefficient;            // gamma_n: damping force / normal velocity
-  double tangential_damping;             // gamma_t, acting while `damped`
-  bool damped;                           // tangential damping acts: the spring was not cut
-  Eigen::Vector3d arm;                   // from the centre of i to the contact point; from that of j it is arm + branch
-  Eigen::Vector3d spring;                // tangential spring s after the update (0 without one): its force on i is -k_t s
-  Eigen::Vector3d spring_before;         // the same before it
-  Eigen::Vector3d cut;                   // what the friction limit cut from it
-  Eigen::Vector3d spin;                  // angular velocity of i less that of j
-  Eigen::Vector3d rolling_torque;        // on i, its opposite on j: what the torque has beside the force's
-  const ContactPast *past;               // null unless the history has it
+/** A wall that a grain touches. */
+struct PartnerWall {
+  int wall = -1;                         // number of the wall's fix, from 0
+  int triangle = -1;                     // ID of the mesh's triangle; -1 for a primitive wall
+};
+
+/** How the two surfaces move against each other at the contact point, and what the contact law makes of it. */
+struct ContactMotion {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();   // contact point
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();     // from the centre of i to the contact point; from that of j it is arm + branch
+  double normal_velocity = 0.0;                      // (v_i - v_j at the contact point) . normal, < 0 approaching
+  Eigen::Vector3d tangential_velocity = Eigen::Vector3d::Zero();  // of i relative to j at the contact point
+  double normal_damping = 0.0;                       // the damping part of normal_force
+  double normal_stiffness = 0.0;                     // secant k_n: elastic force / overlap
+  double tangential_stiffness = 0.0;                 // k_t
+  double damping_coefficient = 0.0;                  // gamma_n: damping force / normal velocity
+  double tangential_damping = 0.0;                   // gamma_t, acting while `damped`
+};
+
+/** The tangential spring s; its force on i is -k_t s. */
+struct ContactSpring {
+  Eigen::Vector3d before = Eigen::Vector3d::Zero();  // of the evaluation
+  Eigen::Vector3d after = Eigen::Vector3d::Zero();
+  Eigen::Vector3d cut = Eigen::Vector3d::Zero();     // what the friction limit cut from it
+};
+
+struct ContactRolling {
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();    // angular velocity of i less that of j
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  // on i, its opposite on j: the torque beyond that of the force
+};
+
+/** One contact of one force evaluation, as grain i sees it, in simulation units.
+ *  Velocities are those that entered the force (x_n, v_{n-1/2}, omega_{n-1/2}); forces are those that drove the step:
+ *  per grain they sum to f. All vectors are in the laboratory frame. */
+struct Contact {
+  int i = -1;                                        // local index
+  std::variant<PartnerGrain, PartnerWall> partner;
+  double weight = 1.0;                               // 1, or 1/2 when j is a ghost: weighted sums over ranks count each contact once
+  Eigen::Vector3d branch = Eigen::Vector3d::Zero();  // r = x_i - x_j
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // unit, from j to i
+  double overlap = 0.0;                              // normal overlap, > 0
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   // total force on i
+  double normal_force = 0.0;                         // force . normal, > 0 pushes apart; damping (and cohesion) included
+  Eigen::Vector3d tangential_force = Eigen::Vector3d::Zero();  // force on i less its normal part
+  double friction = 0.0;                             // mu_p of this pair of types
+  double friction_limit = 0.0;                       // mu_p times the normal force of the law: cohesion may be no part of it
+  Eigen::Vector3d friction_force = Eigen::Vector3d::Zero();    // tangential_force less the drag of a liquid bridge, which no friction limits
+  bool sliding = false;                              // the tangential spring was cut (friction limit reached) in this evaluation;
+                                                     // in the first of a run also: damping takes the force to the limit or beyond
+  bool damped = false;                               // tangential damping acts: the spring was not cut
+  double slip = 0.0;                                 // length cut from the spring, >= 0
+
+  std::optional<ContactMotion> motion;               // when a sink needs it (ContactSink::needs_motion)
+  // With `ledger on` only
+  std::optional<ContactPast> past;                   // of contacts that touched in the previous evaluation
+  std::optional<ContactSpring> spring;               // of a law that has one
+  std::optional<ContactRolling> rolling;             // of a law with a rolling model
+
+  bool with_wall() const { return std::holds_alternative<PartnerWall>(partner); }
+  /** Local index of the other grain; a contact with a wall has none. */
+  int j() const { return std::get<PartnerGrain>(partner).index; }
+  /** The other grain is a ghost: its owner sees this contact too. */
+  bool ghost() const { return std::get<PartnerGrain>(partner).ghost; }
+};
+
+/** Contacts one after the other in memory. */
+class ContactSpan {
+ public:
+  ContactSpan(const Contact *first, std::size_t count) : first_(first), count_(count) {}
+  const Contact *begin() const { return first_; }
+  const Contact *end() const { return first_ + count_; }
+  std::size_t size() const { return count_; }
+
+ private:
+  const Contact *first_;
+  std::size_t count_;
 };
 
 }

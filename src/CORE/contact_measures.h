@@ -15,11 +15,11 @@ inline double mobilisation(const Contact &c) {
 }
 
 /** Power lost to normal damping at this instant, -F_damping u_n. Bilotto et al. 2025, Eq. (4). */
-inline double damping_loss(const Contact &c) { return -c.normal_damping * c.normal_velocity; }
+inline double damping_loss(const Contact &c) { return -c.motion->normal_damping * c.motion->normal_velocity; }
 
 /** Power lost to friction at this instant, -F_t . u_t of a contact that was cut. Bilotto et al. 2025, Eq. (4). */
 inline double friction_loss(const Contact &c) {
-  return c.sliding && !c.damped ? -c.friction_force.dot(c.tangential_velocity) : 0.0;
+  return c.sliding && !c.damped ? -c.friction_force.dot(c.motion->tangential_velocity) : 0.0;
 }
 
 }

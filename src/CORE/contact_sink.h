@@ -4,10 +4,10 @@
 
 namespace grainscope {
 
-struct Contact;
+class ContactSpan;
 
-/** Whoever wants to see contacts. A source (pair_style gran/insitu) asks each sink before a force evaluation whether it wants it,
- *  then hands it every contact once per owner. Sink and source may be destroyed in either order. */
+/** Receives contacts. A source (pair_style gran/insitu) asks each sink before a force evaluation whether it wants it,
+ *  then hands it every contact once per owner, many at a time. Sink and source may be destroyed in either order. */
 class ContactSink {
  public:
   class Source {
@@ -26,12 +26,12 @@ class ContactSink {
   virtual bool wants_contacts() = 0;
   /** The evaluation begins: forget the last one. */
   virtual void begin_contacts() = 0;
-  virtual void add_contact(const Contact &contact) = 0;
-  /** False if the details of a Contact are of no use. */
-  virtual bool needs_details() const { return true; }
+  virtual void add_contacts(ContactSpan contacts) = 0;
+  /** False if Contact::motion is not used. */
+  virtual bool needs_motion() const { return true; }
   /** True if image shifts of ghosts must be known during the evaluation. */
   virtual bool needs_images() const { return false; }
-  /** A run has ended: what is made of the last evaluation is to be made now, while grains are as they were then. Called on every rank alike. */
+  /** A run has ended: results of the last evaluation are to be computed now, while grains are as they were then. Called on every rank alike. */
   virtual void end_run() {}
 
   void set_source(Source *source) { source_ = source; }

@@ -147,16 +147,16 @@ EllipsoidContact regular_contact(const Body &one, const Body &two, const Pose &p
 }
 
 inline SpheroidOf<double> pose_of(const Spheroid &body) {
-  return {{body.u[0], body.u[1], body.u[2]}, body.equatorial, body.polar, body.inverse_equatorial, body.inverse_polar,
-          body.inverse_product};
+  return {{body.u[0], body.u[1], body.u[2]}, body.equatorial_square, body.polar_square, body.inverse_equatorial_square,
+          body.inverse_polar_square, body.inverse_product};
 }
 
 inline void set_shape(const Spheroid &body, int lane, SpheroidOf<Lanes> &lanes) {
   for (int c = 0; c < 3; c++) lanes.u[c][lane] = body.u[c];
-  lanes.equatorial[lane] = body.equatorial;
-  lanes.polar[lane] = body.polar;
-  lanes.inverse_equatorial[lane] = body.inverse_equatorial;
-  lanes.inverse_polar[lane] = body.inverse_polar;
+  lanes.equatorial_square[lane] = body.equatorial_square;
+  lanes.polar_square[lane] = body.polar_square;
+  lanes.inverse_equatorial_square[lane] = body.inverse_equatorial_square;
+  lanes.inverse_polar_square[lane] = body.inverse_polar_square;
   lanes.inverse_product[lane] = body.inverse_product;
 }
 
@@ -176,11 +176,11 @@ Spheroid make_spheroid(const double semi_axes[3], const double quaternion[4]) {
   const bool sphere = axis < 0;
   Spheroid body;
   rotated_axis(quaternion, k, body.u);
-  body.equatorial = semi_axes[(k + 1) % 3] * semi_axes[(k + 2) % 3];
-  body.polar = sphere ? body.equatorial : semi_axes[k] * semi_axes[k];
-  body.inverse_equatorial = 1.0 / body.equatorial;
-  body.inverse_polar = 1.0 / body.polar;
-  body.inverse_product = body.inverse_equatorial * root(body.inverse_polar);
+  body.equatorial_square = semi_axes[(k + 1) % 3] * semi_axes[(k + 2) % 3];
+  body.polar_square = sphere ? body.equatorial_square : semi_axes[k] * semi_axes[k];
+  body.inverse_equatorial_square = 1.0 / body.equatorial_square;
+  body.inverse_polar_square = 1.0 / body.polar_square;
+  body.inverse_product = body.inverse_equatorial_square * root(body.inverse_polar_square);
   return body;
 }
 
@@ -196,7 +196,7 @@ Triaxial make_triaxial(const double semi_axes[3], const double quaternion[4]) {
 template <>
 EllipsoidContact ellipsoid_contact(const Spheroid &one, const Spheroid &two, const double d[3], double start, double tolerance) {
   if (is_sphere(one) && is_sphere(two) && !concentric(one, two, d)) {
-    EllipsoidContact c = sphere_contact(root(one.equatorial), root(two.equatorial), d, dot(d, d));
+    EllipsoidContact c = sphere_contact(root(one.equatorial_square), root(two.equatorial_square), d, dot(d, d));
     c.fallback = !is_sound(c);
     return c;
   }
@@ -240,7 +240,7 @@ void ellipsoid_contacts(int n, const EllipsoidPair *pairs, EllipsoidContact *con
 /** With g = B^-1 y, half the gradient of y.B^-1 y: K = 1/(det B (g.g)^2), H = (tr(B^-1) g.g - g.B^-1 g)/(2 |g|^3). */
 template <>
 double gaussian_curvature(const Spheroid &body, const double y[3]) {
-  const double t = dot(body.u, y), e = body.equatorial, a = body.polar;
+  const double t = dot(body.u, y), e = body.equatorial_square, a = body.polar_square;
   const double g2 = across(y, body.u, t) / (e * e) + t * t / (a * a);
   return 1.0 / (e * e * a * g2 * g2);
 }
@@ -258,7 +258,7 @@ double gaussian_curvature(const Triaxial &body, const double y[3]) {
 
 template <>
 double mean_curvature(const Spheroid &body, const double y[3]) {
-  const double t = dot(body.u, y), e = body.equatorial, a = body.polar;
+  const double t = dot(body.u, y), e = body.equatorial_square, a = body.polar_square;
   const double g2_across = across(y, body.u, t) / (e * e), g2_along = t * t / (a * a), g2 = g2_across + g2_along;
   return (g2_across * (1.0 / e + 1.0 / a) + g2_along * 2.0 / e) / (2.0 * g2 * root(g2));
 }

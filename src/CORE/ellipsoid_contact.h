@@ -4,11 +4,12 @@
 
 namespace grainscope {
 
-/** A spheroid or sphere as the contact solver wants it, with B = equatorial I + (polar - equatorial) u u^T. Lengths in any one unit. */
+/** A spheroid or sphere as the contact solver wants it: semi-axes a along u and b across it, in any one unit of length;
+ *  B = b^2 I + (a^2 - b^2) u u^T. */
 struct Spheroid {
   double u[3];        // unit vector of the symmetry axis
-  double equatorial, polar;  // squares of the semi-axes
-  double inverse_equatorial, inverse_polar;
+  double equatorial_square, polar_square;  // b^2, a^2
+  double inverse_equatorial_square, inverse_polar_square;
   double inverse_product;  // of the three semi-axes
 };
 

@@ -33,18 +33,19 @@ double of_overlap(double overlap, double exponent) {
 /** As it would be had the velocities of the edges not been changed: those that keep a shear rate grow with the box, lengths move on. */
 LedgerFrame carried(const LedgerFrame &before, const LedgerFrame &after) {
   LedgerFrame frame = after;
-  frame.gradient = before.gradient;
-  frame.gradient.diagonal() = before.edge_rates.cwiseQuotient(after.edge_lengths);
+  frame.velocity_gradient = before.velocity_gradient;
+  frame.velocity_gradient.diagonal() = before.edge_rates.cwiseQuotient(after.edge_lengths);
   return frame;
 }
 
 }
 
-void EnergyLedger::set_law(const LedgerLaw &law) {
-  law_ = law;
+void EnergyLedger::set_law(const ContactLaw &law) {
+  const bool spring = law.tangential == TangentialLaw::spring;
+  law_ = {law.exponent, spring, spring || law.tangential == TangentialLaw::viscous, law.rolls};
   energy_factor_ = 1.0 / (1.0 + law.exponent);
   slots_ = 0;
-  const bool used[parts] = {true, true, law.spring || law.viscous, law.viscous, law.rolling};
+  const bool used[parts] = {true, true, law_.spring || law_.viscous, law_.viscous, law_.rolling};
   for (int k = 0; k < parts; k++) slot_[k] = used[k] ? slots_++ : -1;
 }
 
@@ -61,7 +62,7 @@ struct EnergyLedger::Unit {
   Four force, torque_i, torque_j, diagonal, beside;
 
   GRAINSCOPE_INLINE Unit(const Contact &c, const Vector3d &f, const Vector3d &arm_j, double power)
-      : force(four_of(f)), torque_i(torque_of(c.arm, f)), torque_j(torque_of(arm_j, f)) {
+      : force(four_of(f)), torque_i(torque_of(c.motion->arm, f)), torque_j(torque_of(arm_j, f)) {
     const Vector3d &r = c.branch;
     const Four weight = four_times(c.weight);
     diagonal = weight * Four{f[0] * r[0], f[1] * r[1], f[2] * r[2], power};
@@ -88,23 +89,24 @@ GRAINSCOPE_INLINE void EnergyLedger::add_past(const Contact &c, const ContactPas
   const double base0 = of_overlap(past.overlap, law_.exponent), base1 = of_overlap(c.overlap, law_.exponent);
   if (past.overlap > 0.0 && c.overlap > 0.0) {
     // energy = factor d^2 base k, with k = k_n/base: what is left of the stiffness once the overlap is told
-    const double change = c.normal_stiffness / base1 - past.elastic_force / (past.overlap * base0);
+    const double change = c.motion->normal_stiffness / base1 - past.elastic_force / (past.overlap * base0);
     path += 0.5 * energy_factor_ * (past.overlap * past.overlap * base0 + c.overlap * c.overlap * base1) * change;
   }
   contacts_.elastic_path += w * path;
 }
 
-GRAINSCOPE_INLINE void EnergyLedger::add_spring(const Contact &c, const ContactPast &past) {
-  const double w = c.weight, k0 = past.tangential_stiffness, k1 = c.tangential_stiffness;
-  const Vector3d mean = 0.5 * w * (k0 * c.spring_before + k1 * c.spring);
-  const double cut = c.sliding ? mean.dot(c.cut) : 0.0;
+GRAINSCOPE_INLINE void EnergyLedger::add_spring(const Contact &c) {
+  const ContactSpring &s = *c.spring;
+  const double w = c.weight, k0 = c.past ? c.past->tangential_stiffness : 0.0, k1 = c.motion->tangential_stiffness;
+  const Vector3d mean = 0.5 * w * (k0 * s.before + k1 * s.after);
+  const double cut = c.sliding ? mean.dot(s.cut) : 0.0;
   contacts_.friction += cut;
-  contacts_.travel += mean.dot(c.spring - c.spring_before) + cut;
-  const double stiffening = -0.5 * w * (k1 - k0) * c.spring_before.dot(c.spring);
-  if (past.touched) {
+  contacts_.travel += mean.dot(s.after - s.before) + cut;
+  const double stiffening = -0.5 * w * (k1 - k0) * s.before.dot(s.after);
+  if (c.past) {
     contacts_.stiffening += stiffening;
-    contacts_.kept_spring += w * past.spring_work;
-    contacts_.kept_energy += 0.5 * w * k0 * c.spring_before.squaredNorm();
+    contacts_.kept_spring += w * c.past->spring_work;
+    contacts_.kept_energy += 0.5 * w * k0 * s.before.squaredNorm();
   } else {
     contacts_.revived += stiffening;
   }
@@ -113,35 +115,34 @@ GRAINSCOPE_INLINE void EnergyLedger::add_spring(const Contact &c, const ContactP
 GRAINSCOPE_CLONES
 void EnergyLedger::add(const Contact &c, double dt, bool springs_move) {
   cleared_ = false;
-  const double elastic_force = c.normal_stiffness * c.overlap;
-  const Vector3d arm_j = c.arm + c.branch;
-  double *const of_i = wrenches_of(c.i), *const of_j = c.ghost ? nullptr : wrenches_of(c.j);
-  const Unit normal(c, c.normal, arm_j, c.normal_velocity);
+  const ContactMotion &m = *c.motion;
+  const double elastic_force = m.normal_stiffness * c.overlap;
+  const Vector3d arm_j = m.arm + c.branch;
+  double *const of_i = wrenches_of(c.i), *const of_j = c.ghost() ? nullptr : wrenches_of(c.j());
+  const Unit normal(c, c.normal, arm_j, m.normal_velocity);
   add_part(elastic, elastic_force, normal, of_i, of_j);
-  add_part(damping, c.normal_damping, normal, of_i, of_j);
+  add_part(damping, m.normal_damping, normal, of_i, of_j);
   if (slot_[spring] >= 0) {
     // In the first evaluation of a run the host does not turn springs into the contact plane: they may push along the normal too.
-    Vector3d force = c.force - (elastic_force + c.normal_damping) * c.normal;
+    Vector3d force = c.force - (elastic_force + m.normal_damping) * c.normal;
     if (law_.viscous && c.damped) {
-      const Vector3d viscous_force = -c.tangential_damping * c.tangential_velocity;
+      const Vector3d viscous_force = -m.tangential_damping * m.tangential_velocity;
       force -= viscous_force;
-      add_part(viscous, 1.0, Unit(c, viscous_force, arm_j, viscous_force.dot(c.tangential_velocity)), of_i, of_j);
+      add_part(viscous, 1.0, Unit(c, viscous_force, arm_j, viscous_force.dot(m.tangential_velocity)), of_i, of_j);
     }
-    add_part(spring, 1.0, Unit(c, force, arm_j, force.dot(c.tangential_velocity)), of_i, of_j);
+    add_part(spring, 1.0, Unit(c, force, arm_j, force.dot(m.tangential_velocity)), of_i, of_j);
   }
   if (law_.rolling) {
-    Unit unit(c, Vector3d::Zero(), arm_j, c.rolling_torque.dot(c.spin));
-    unit.torque_i = unit.torque_j = four_of(c.rolling_torque);
+    Unit unit(c, Vector3d::Zero(), arm_j, c.rolling->torque.dot(c.rolling->spin));
+    unit.torque_i = unit.torque_j = four_of(c.rolling->torque);
     add_part(rolling, 1.0, unit, of_i, of_j);
   }
   contacts_.normal_energy += c.weight * elastic_force * c.overlap * energy_factor_;
-  if (law_.spring) contacts_.spring_energy += 0.5 * c.weight * c.tangential_stiffness * c.spring.squaredNorm();
+  if (law_.spring) contacts_.spring_energy += 0.5 * c.weight * m.tangential_stiffness * c.spring->after.squaredNorm();
   if (!springs_move) return;
-  static const ContactPast none;
-  const ContactPast &past = c.past ? *c.past : none;
-  if (past.touched) add_past(c, past, elastic_force);
-  else contacts_.new_elastic -= 0.5 * dt * c.weight * elastic_force * c.normal_velocity;
-  if (law_.spring) add_spring(c, past);
+  if (c.past) add_past(c, *c.past, elastic_force);
+  else contacts_.new_elastic -= 0.5 * dt * c.weight * elastic_force * m.normal_velocity;
+  if (law_.spring) add_spring(c);
 }
 
 GRAINSCOPE_CLONES
@@ -170,8 +171,8 @@ void EnergyLedger::book_step(double dt) {
   for (int k = 0; k < parts; k++) {
     work[k] = starts_.work[k] + half_work(contacts_, k, dt);
     for (const Contacts *end : {&before_, &contacts_}) {
-      step[W_box] -= 0.5 * dt * on_diagonal(frame_.gradient, end->sums[k]);
-      step[W_shear] -= 0.5 * dt * off_diagonal(frame_.gradient, end->sums[k]);
+      step[W_box] -= 0.5 * dt * on_diagonal(frame_.velocity_gradient, end->sums[k]);
+      step[W_shear] -= 0.5 * dt * off_diagonal(frame_.velocity_gradient, end->sums[k]);
     }
   }
   step[W_other] = 0.5 * dt * (sum_of_three(starts_.other) + sum_of_three(ends_.other));
@@ -232,14 +233,14 @@ void EnergyLedger::start_of_step(const Grain &g, const double omega_after[3], co
 
   // The coming drift in the frame: told before it, because a grain that is wrapped afterwards takes on another velocity.
   const Vector3d after = p + flow, drift = dt * next_.gradient_times(after), middle = g.mass * (p - 0.5 * drift);
-  const double all = drift.dot(middle), box = dt * next_.gradient.diagonal().cwiseProduct(after).dot(middle);
+  const double all = drift.dot(middle), box = dt * next_.velocity_gradient.diagonal().cwiseProduct(after).dot(middle);
   starts_.box -= box;
   starts_.shear -= all - box;
 }
 
 void EnergyLedger::book_start(double dt) {
   for (int k = 0; k < parts; k++) {
-    const double flow = on_diagonal(next_.gradient, contacts_.sums[k]) + off_diagonal(next_.gradient, contacts_.sums[k]);
+    const double flow = on_diagonal(next_.velocity_gradient, contacts_.sums[k]) + off_diagonal(next_.velocity_gradient, contacts_.sums[k]);
     starts_.work[k] = -0.5 * dt * (sum_of_three(starts_.rate[k]) + flow);
   }
   cleared_ = true;
@@ -262,45 +263,6 @@ void EnergyLedger::book_start(double dt) {
   }
   before_ = contacts_;
   frame_ = next_;
-}
-
-EnergyLedger::Entries EnergyLedger::totals() const {
-  Entries sums = totals_;
-  for (int k = 0; k < entries; k++) sums[k] += between_[k];
-  return sums;
-}
-
-double EnergyLedger::residual(const Entries &totals, double stored_change) {
-  double supplied = 0.0, gone = 0.0;
-  for (int k = W_shear; k <= W_other; k++) supplied += totals[k];
-  for (int k = D_n; k < entries; k++) gone += totals[k];
-  return supplied - gone - stored_change;
-}
-
-EnergyLedger::State EnergyLedger::state() const {
-  State state;
-  const Entries booked = totals();
-  auto at = state.begin();
-  at = std::copy(booked.begin(), booked.end(), at);
-  at = std::copy(last_.begin(), last_.end(), at);
-  at = std::copy(ended_.begin(), ended_.end(), at);
-  at = std::copy(stored_before_.begin(), stored_before_.end(), at);
-  *at = start_energy_;
-  return state;
-}
-
-void EnergyLedger::restore(const State &state, const LedgerFrame &frame) {
-  auto at = state.begin();
-  const auto take = [&at](auto &numbers) { for (double &one : numbers) one = *at++; };
-  between_.fill(0.0);
-  take(totals_);
-  take(last_);
-  take(ended_);
-  take(stored_before_);
-  start_energy_ = *at;
-  stored_ = ended_;
-  frame_ = frame;
-  started_ = stepped_ = true;
 }
 
 }

@@ -2,36 +2,18 @@
 #ifndef GRAINSCOPE_ENERGY_LEDGER_H
 #define GRAINSCOPE_ENERGY_LEDGER_H
 
-#include "contact.h"
+#include "affine_flow.h"
+#include "contact_law.h"
 #include <Eigen/Geometry>
 #include <array>
 #include <vector>
 
 namespace grainscope {
 
-/** What the contact law must be known for: elastic normal force ~ overlap^exponent at a given curvature (3/2 Hertz, 1 Hooke), and which
- *  parts it has beside the normal spring and dashpot. */
-struct LedgerLaw {
-  double exponent = 1.5;
-  bool spring = false;    // a tangential one
-  bool viscous = false;   // tangential damping, or friction without a spring
-  bool rolling = false;
-};
-
-/** The affine flow that velocities are told against, L (x - centre), and how fast the edges of the box change in length. */
-struct LedgerFrame {
-  Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();       // L, upper triangular
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+/** The flow that velocities are measured against, and how fast the edges of the box change in length. */
+struct LedgerFrame : AffineFlow {
   Eigen::Vector3d edge_lengths = Eigen::Vector3d::Ones();   // diagonal of H
   Eigen::Vector3d edge_rates = Eigen::Vector3d::Zero();     // diagonal of dH/dt
-
-  Eigen::Vector3d gradient_times(const Eigen::Vector3d &r) const {
-    const Eigen::Matrix3d &l = gradient;
-    return {l(0, 0) * r[0] + l(0, 1) * r[1] + l(0, 2) * r[2], l(1, 1) * r[1] + l(1, 2) * r[2], l(2, 2) * r[2]};
-  }
-  Eigen::Vector3d flow(const Eigen::Vector3d &x) const { return gradient_times(x - centre); }
-  /** The same flow everywhere? */
-  bool operator==(const LedgerFrame &o) const { return gradient == o.gradient && gradient * centre == gradient * o.centre; }
 };
 
 /** Where the energy of a group of grains goes, exactly as velocity Verlet moves it: what enters, what is stored, what is lost. Every entry
@@ -66,7 +48,7 @@ class EnergyLedger {
     const double *x, *v, *force, *torque;
   };
 
-  void set_law(const LedgerLaw &law);
+  void set_law(const ContactLaw &law);
 
   /** A force evaluation begins: forget the contacts of the last. `again`: it repeats the last, where a run goes on as if it had not ended. */
   void begin_evaluation(int n_local, bool again = false);
@@ -124,7 +106,14 @@ class EnergyLedger {
     double k_old = 0.0, k_carried = 0.0, k_new = 0.0, k_rot = 0.0;  // in the frame of the last step, in that carried on, in the next
   };
 
-  LedgerLaw law_;
+  /** What of the contact law there is to be booked. */
+  struct Law {
+    double exponent = 1.5;
+    bool spring = false;    // a tangential one
+    bool viscous = false;   // tangential damping, or friction without a spring
+    bool rolling = false;
+  };
+  Law law_;
   double energy_factor_ = 0.4;         // U_n = energy_factor k_n overlap^2
   int slot_[parts];                    // of a part in a grain's wrenches, or -1
   int slots_ = 0;
@@ -147,7 +136,7 @@ class EnergyLedger {
   struct Unit;
   void add_part(int part, double size, const Unit &unit, double *of_i, double *of_j);
   void add_past(const Contact &c, const ContactPast &past, double elastic_force);
-  void add_spring(const Contact &c, const ContactPast &past);
+  void add_spring(const Contact &c);
 };
 
 }

@@ -3,6 +3,7 @@
 #define GRAINSCOPE_FABRIC_H
 
 #include "contact.h"
+#include "symmetric_tensor.h"
 #include <array>
 
 namespace grainscope {
@@ -12,11 +13,11 @@ struct FabricSums {
   std::array<double, 7> sums{};  // xx yy zz xy xz yz, contacts
 
   void add(const Contact &c) {
-    const Eigen::Vector3d &n = c.normal;
-    const double products[6] = {n[0] * n[0], n[1] * n[1], n[2] * n[2], n[0] * n[1], n[0] * n[2], n[1] * n[2]};
-    for (int k = 0; k < 6; k++) sums[k] += c.weight * products[k];
+    add_components(sums.data(), c.weight, dyad(c.normal, c.normal));
     sums[6] += c.weight;
   }
+  void reset() { sums.fill(0.0); }
+  std::array<double, 7> &numbers() { return sums; }
   double contacts() const { return sums[6]; }
   /** <n n>, trace 1; zero without contacts. */
   Eigen::Matrix3d tensor() const;

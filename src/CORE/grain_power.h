@@ -24,8 +24,8 @@ class GrainPower {
            const Eigen::Vector3d &image_velocity) {
     used_ = true;
     add_wrench(c.i, force, lever_i);
-    if (c.ghost) image_power_ += c.weight * force.dot(image_velocity);
-    else add_wrench(c.j, -force, lever_j);
+    if (c.ghost()) image_power_ += c.weight * force.dot(image_velocity);
+    else add_wrench(c.j(), -force, lever_j);
   }
 
   /** Power of the collected forces with these velocities, over this rank's grains; the sum over ranks is sum F . (v_i - v_j). */

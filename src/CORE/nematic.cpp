@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "nematic.h"
 #include "principal_axes.h"
+#include "symmetric_tensor.h"
 #include <cmath>
 
 namespace grainscope {
 
 void NematicSums::add_axis(const Eigen::Vector3d &p, Shape shape) {
-  const double products[6] = {p[0] * p[0], p[1] * p[1], p[2] * p[2], p[0] * p[1], p[0] * p[2], p[1] * p[2]};
-  for (int k = 0; k < 6; k++) sums[k] += products[k];
+  add_components(sums.data(), dyad(p, p));
   sums[6] += 1.0;
   if (shape == Shape::oblate) sums[10] += 1.0;
   const double in_plane = p[0] * p[0] + p[1] * p[1];
@@ -42,8 +42,7 @@ Nematic::Nematic(const NematicSums &all)
   const auto &s = all.sums;
   if (s[14] > 0.0) spin = Eigen::Vector3d(s[11], s[12], s[13]) / s[14];
   if (grains_with_axis == 0.0) return;
-  q << s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2];
-  q /= grains_with_axis;
+  q = symmetric_tensor(s.data()) / grains_with_axis;
   q.diagonal().array() -= 1.0 / 3.0;
 
   const PrincipalAxes principal(q);

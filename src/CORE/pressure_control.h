@@ -2,7 +2,7 @@
 #ifndef GRAINSCOPE_PRESSURE_CONTROL_H
 #define GRAINSCOPE_PRESSURE_CONTROL_H
 
-#include "contact.h"
+#include "contact_law.h"
 #include <algorithm>
 #include <cmath>
 
@@ -17,12 +17,12 @@ struct NetworkResponse {
   double stiffness = 0.0;
   double damping = 0.0;
 
-  /** `exponent`: of the elastic normal force in the overlap, 3/2 Hertz, 1 Hooke. `sticks`: the contact law has tangential springs. */
-  void add(const Contact &c, int axis, double exponent, bool sticks) {
+  void add(const Contact &c, int axis, const ContactLaw &law) {
     const double n2 = c.normal[axis] * c.normal[axis], r = c.branch[axis], wr2 = c.weight * r * r;
+    const ContactMotion &m = *c.motion;
     pressure += c.weight * c.force[axis] * r;
-    stiffness += wr2 * (exponent * c.normal_stiffness * n2 + (sticks ? c.tangential_stiffness * (1.0 - n2) : 0.0));
-    damping += wr2 * (c.damping_coefficient * n2 + (c.damped ? c.tangential_damping * (1.0 - n2) : 0.0));
+    stiffness += wr2 * (law.tangent_stiffness(m) * n2 + (law.sticks() ? m.tangential_stiffness * (1.0 - n2) : 0.0));
+    damping += wr2 * (m.damping_coefficient * n2 + (c.damped ? m.tangential_damping * (1.0 - n2) : 0.0));
   }
   void add(const NetworkResponse &other, double factor) {
     pressure += factor * other.pressure;

@@ -11,8 +11,9 @@ namespace grainscope {
  *  full disk, or that was damaged later, has none or one that does not fit. */
 namespace restart_seal {
 
-/** Written into the seal; raised when what grainscope keeps in restart files changes. */
-constexpr std::uint32_t format = 1;
+/** Written into the seal; raised when all that grainscope keeps in restart files changes. What one fix keeps has a version of its own
+ *  (state_block.h). */
+constexpr std::uint32_t format = 2;
 /** The style of the fix that seals (FixRunGuard), as its name stands in every file that should have a seal. */
 constexpr const char *sealer = "run/guard";
 

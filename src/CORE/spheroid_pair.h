@@ -20,12 +20,12 @@ template <class Real> GRAINSCOPE_INLINE Real across(const Real *v, const Real *u
 
 /** A spheroid, or several side by side. */
 template <class Real> struct SpheroidOf {
-  Real u[3], equatorial, polar, inverse_equatorial, inverse_polar, inverse_product;
+  Real u[3], equatorial_square, polar_square, inverse_equatorial_square, inverse_polar_square, inverse_product;
 };
 
 template <class Real> GRAINSCOPE_INLINE Real support(const SpheroidOf<Real> &body, const Real *n) {
   const Real along = dot(body.u, n);
-  return body.equatorial * across(n, body.u, along) + body.polar * along * along;
+  return body.equatorial_square * across(n, body.u, along) + body.polar_square * along * along;
 }
 
 /** p = C^-1 d of two spheroids, in closed form: only the components of p along the two axes are unknown. */
@@ -43,17 +43,19 @@ template <class Real_> class SpheroidPair {
   };
 
   GRAINSCOPE_INLINE SpheroidPair(const Body &one, const Body &two, const Real *d)
-      : one_(one), two_(two), excess1_(one.polar - one.equatorial), excess2_(two.polar - two.equatorial), d1_(dot(one.u, d)),
+      : one_(one), two_(two), excess1_(one.polar_square - one.equatorial_square),
+        excess2_(two.polar_square - two.equatorial_square), d1_(dot(one.u, d)),
         d2_(dot(two.u, d)), c_(dot(one.u, two.u)), s2_(across(one.u, two.u, c_)) {
     for (int k = 0; k < 3; k++) d_[k] = d[k];
   }
 
   GRAINSCOPE_INLINE void evaluate(Real lambda, State &s) {
     const Real m = 1.0 - lambda;
-    e_ = m * one_.equatorial + lambda * two_.equatorial;
+    e_ = m * one_.equatorial_square + lambda * two_.equatorial_square;
     alpha1_ = m * excess1_;
     alpha2_ = lambda * excess2_;
-    const Real det = e_ * (m * one_.polar + lambda * two_.polar) + alpha1_ * alpha2_ * s2_, both = 1.0 / (e_ * det);
+    const Real det = e_ * (m * one_.polar_square + lambda * two_.polar_square) + alpha1_ * alpha2_ * s2_;
+    const Real both = 1.0 / (e_ * det);
     inverse_e_ = det * both;
     inverse_det_ = e_ * both;
     along_axes(d1_, d2_, s.t1, s.t2);
@@ -69,19 +71,19 @@ template <class Real_> class SpheroidPair {
     pw_ = (s.support1 - s.support2 - alpha1_ * y1_ * s.t1 - alpha2_ * y2_ * s.t2) * inverse_e_;
     f1_ = f1 * inverse_e_;
     f2_ = f2 * inverse_e_;
-    product1 = one_.equatorial * pw_ + excess1_ * s.t1 * y1_;
-    product2 = two_.equatorial * pw_ + excess2_ * s.t2 * y2_;
+    product1 = one_.equatorial_square * pw_ + excess1_ * s.t1 * y1_;
+    product2 = two_.equatorial_square * pw_ + excess2_ * s.t2 * y2_;
   }
 
   /** Half the second derivatives of the supports: w.B1 w + 2 p.B1 v with v = C^-1 (B1 - B2) w, likewise B2. After differentiate(). */
   GRAINSCOPE_INLINE void differentiate_again(const State &s, Real &product1, Real &product2) {
     difference(y1_, y2_, z1_, z2_);
-    f0_ = (one_.equatorial - two_.equatorial) * inverse_e_;
+    f0_ = (one_.equatorial_square - two_.equatorial_square) * inverse_e_;
     g1_ = (excess1_ * y1_ - alpha1_ * z1_) * inverse_e_;
     g2_ = (excess2_ * y2_ + alpha2_ * z2_) * inverse_e_;
     const Real ww = f0_ * pw_ + f1_ * y1_ - f2_ * y2_, pv = f0_ * pw_ + g1_ * s.t1 - g2_ * s.t2, both = ww + 2.0 * pv;
-    product1 = one_.equatorial * both + excess1_ * (y1_ * y1_ + 2.0 * s.t1 * z1_);
-    product2 = two_.equatorial * both + excess2_ * (y2_ * y2_ + 2.0 * s.t2 * z2_);
+    product1 = one_.equatorial_square * both + excess1_ * (y1_ * y1_ + 2.0 * s.t1 * z1_);
+    product2 = two_.equatorial_square * both + excess2_ * (y2_ * y2_ + 2.0 * s.t2 * z2_);
   }
 
   /** The state with p moved by step w + step^2 v; after differentiate_again(). */
@@ -97,7 +99,7 @@ template <class Real_> class SpheroidPair {
 
   /** Contact point from the centre of 1. */
   GRAINSCOPE_INLINE void point(const State &s, Real m, Real *x) const {
-    const Real f = m * one_.equatorial, g = m * excess1_ * s.t1;
+    const Real f = m * one_.equatorial_square, g = m * excess1_ * s.t1;
     for (int k = 0; k < 3; k++) x[k] = f * s.p[k] + g * one_.u[k];
   }
 
@@ -107,10 +109,11 @@ template <class Real_> class SpheroidPair {
                                  Real &curvature) const {
     const Body &body = which ? two_ : one_;
     const Real t = which ? s.along2 : s.along1, t2 = t * t, a = which ? s.across2 : s.across1, shared = share * length;
-    const Real inverse = (a * body.inverse_equatorial + t2 * body.inverse_polar) * inverse_length * inverse_length;
+    const Real inverse =
+        (a * body.inverse_equatorial_square + t2 * body.inverse_polar_square) * inverse_length * inverse_length;
     depth = inside / (shared + root(shared * shared + inside * inverse));
     const Real scaled = depth * inverse_length;
-    const Real ge = share + scaled * body.inverse_equatorial, ga = share + scaled * body.inverse_polar;
+    const Real ge = share + scaled * body.inverse_equatorial_square, ga = share + scaled * body.inverse_polar_square;
     curvature = body.inverse_product / (a * ge * ge + t2 * ga * ga);
   }
 
@@ -123,7 +126,8 @@ template <class Real_> class SpheroidPair {
 
   /** The components along the axes of C^-1 (B1 - B2) p, from those of p. */
   GRAINSCOPE_INLINE void difference(Real t1, Real t2, Real &y1, Real &y2) const {
-    along_axes((one_.polar - two_.equatorial) * t1 - excess2_ * c_ * t2, excess1_ * c_ * t1 + (one_.equatorial - two_.polar) * t2, y1, y2);
+    along_axes((one_.polar_square - two_.equatorial_square) * t1 - excess2_ * c_ * t2,
+               excess1_ * c_ * t1 + (one_.equatorial_square - two_.polar_square) * t2, y1, y2);
   }
 
   GRAINSCOPE_INLINE void follow(State &s) const {
@@ -131,8 +135,8 @@ template <class Real_> class SpheroidPair {
     s.along2 = dot(two_.u, s.p);
     s.across1 = across(s.p, one_.u, s.along1);
     s.across2 = across(s.p, two_.u, s.along2);
-    s.support1 = one_.equatorial * s.across1 + one_.polar * s.along1 * s.along1;
-    s.support2 = two_.equatorial * s.across2 + two_.polar * s.along2 * s.along2;
+    s.support1 = one_.equatorial_square * s.across1 + one_.polar_square * s.along1 * s.along1;
+    s.support2 = two_.equatorial_square * s.across2 + two_.polar_square * s.along2 * s.along2;
   }
 
   const Body &one_, &two_;

@@ -24,6 +24,8 @@ struct StressSums {
     sums[20] += c.weight * c.overlap;
     largest_overlap = std::max(largest_overlap, c.overlap);
   }
+  void reset() { *this = StressSums(); }
+  std::array<double, 21> &numbers() { return sums; }
   double contacts() const { return sums[18]; }
   double sliding() const { return sums[19]; }
   double overlaps() const { return sums[20]; }

@@ -2,7 +2,7 @@
 #ifndef GRAINSCOPE_TIME_STEP_BOUND_H
 #define GRAINSCOPE_TIME_STEP_BOUND_H
 
-#include "contact.h"
+#include "contact_law.h"
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -18,9 +18,9 @@ constexpr double limit = 4.0;
 /** Below this share the contact network cannot reach `limit` (smallest over all packings of doc/stability.md: 0.48). */
 constexpr double harmless = 0.4;
 
-/** (dt^2 k + 2 dt gamma_n)/m_eff of one contact [-], k the tangent stiffness; `exponent` as in NetworkResponse. */
-inline double of_contact(const Contact &c, double exponent, double effective_mass, double dt) {
-  return dt * (dt * exponent * c.normal_stiffness + 2.0 * c.damping_coefficient) / effective_mass;
+/** (dt^2 k + 2 dt gamma_n)/m_eff of one contact [-], k the tangent stiffness. */
+inline double of_contact(const ContactMotion &m, const ContactLaw &law, double effective_mass, double dt) {
+  return dt * (dt * law.tangent_stiffness(m) + 2.0 * m.damping_coefficient) / effective_mass;
 }
 
 /** One grain against its contacts, held still beyond them: twice its largest eigenvalue, over all grains, is never below the network's. */
@@ -28,11 +28,13 @@ class GrainModes {
  public:
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-  void add(const Contact &c, const Eigen::Vector3d &arm, double exponent, bool sticks) {
+  /** `arm`: from the grain's centre to the contact point. */
+  void add(const Contact &c, const Eigen::Vector3d &arm, const ContactLaw &law) {
     const Eigen::Matrix3d n = c.normal * c.normal.transpose(), t = Eigen::Matrix3d::Identity() - n;
-    const double k_t = sticks ? c.tangential_stiffness : 0.0, damping_t = c.damped ? c.tangential_damping : 0.0;
-    stiffness_ += seen_from(arm, exponent * c.normal_stiffness * n + k_t * t);
-    damping_ += seen_from(arm, c.damping_coefficient * n + damping_t * t);
+    const ContactMotion &m = *c.motion;
+    const double k_t = law.sticks() ? m.tangential_stiffness : 0.0, damping_t = c.damped ? m.tangential_damping : 0.0;
+    stiffness_ += seen_from(arm, law.tangent_stiffness(m) * n + k_t * t);
+    damping_ += seen_from(arm, m.damping_coefficient * n + damping_t * t);
   }
 
   struct Mode {

@@ -4,6 +4,7 @@
 
 #include "ellipsoid_contact.h"
 #include "spheroid_pair.h"
+#include "symmetric_tensor.h"
 
 namespace grainscope {
 namespace contact_solver {
@@ -95,13 +96,8 @@ class TriaxialPair {
   static void matrix(const Triaxial &body, double *b) {
     for (int k = 0; k < 6; k++) b[k] = 0.0;
     for (int k = 0; k < 3; k++) {
-      const double *a = body.axis[k], s = body.square[k];
-      b[0] += s * a[0] * a[0];
-      b[1] += s * a[1] * a[1];
-      b[2] += s * a[2] * a[2];
-      b[3] += s * a[0] * a[1];
-      b[4] += s * a[0] * a[2];
-      b[5] += s * a[1] * a[2];
+      const double *a = body.axis[k], s = body.square[k], sa[3] = {s * a[0], s * a[1], s * a[2]};
+      add_components(b, dyad(sa, a));
     }
   }
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_grain_record.h"
+#include "checksum.h"
 #include "restart_numbers.h"
+#include "restart_state.h"
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "group.h"
 #include "modify.h"
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 
@@ -20,20 +20,17 @@ namespace {
 // The host's buffers for grains that change ranks have room for 1000 numbers beyond what they are sized for.
 const int most_numbers = 800;
 
-// A line of an input script would replace the memory of a compute behind its back.
-bool making = false;
+const grainscope::ComputeFix record{"grain/record", "_record", "memory", "holds the memory"};
 
-/** FNV-1a, 32 bits: every such number is a double. */
-double hash(const std::string &text) {
-  std::uint32_t h = 2166136261u;
-  for (unsigned char c : text) h = (h ^ c) * 16777619u;
-  return h;
-}
+/** In restart files, with the shared numbers behind it. */
+struct SavedRecord {
+  static constexpr std::uint32_t version = 1;
+  double meaning, flips[3], shared_numbers;
+};
 
 }
 
-FixGrainRecord::FixGrainRecord(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg) {
-  if (!making) error->all(FLERR, "fix grain/record: is made by the computes that need it, not by an input script");
+FixGrainRecord::FixGrainRecord(LAMMPS *lmp, int narg, char **arg) : InternalFix(lmp, narg, arg, "the computes that need it") {
   width_ = atoi(arg[3]);
   shared_.assign(atoi(arg[4]), 0.0);
   meaning_ = atof(arg[5]);
@@ -57,53 +54,37 @@ void FixGrainRecord::reset_timestep(bigint now, bigint before) {
   step = step == before ? now : -1.0;
 }
 
-/** A tilt that changes by more than half an edge between two force evaluations was turned back. */
+/** Where a tilt changes by more than half an edge between two force evaluations, the box was flipped. */
 void FixGrainRecord::note_box() {
   const double *h = domain->h;
   const double yz = std::round((h[3] - edges_[3]) / h[1]);
-  turns_[0] += yz;
-  turns_[1] += std::round((h[4] - edges_[4] - yz * h[5]) / h[0]);
-  turns_[2] += std::round((h[5] - edges_[5]) / h[0]);
+  flips_[0] += yz;
+  flips_[1] += std::round((h[4] - edges_[4] - yz * h[5]) / h[0]);
+  flips_[2] += std::round((h[5] - edges_[5]) / h[0]);
   std::copy(h, h + 6, edges_);
 }
 
-void FixGrainRecord::take_turns(double turns[3]) {
-  std::copy(turns_, turns_ + 3, turns);
-  std::fill(turns_, turns_ + 3, 0.0);
+void FixGrainRecord::take_box_flips(double flips[3]) {
+  std::copy(flips_, flips_ + 3, flips);
+  std::fill(flips_, flips_ + 3, 0.0);
 }
 
-void FixGrainRecord::take_box() {
+void FixGrainRecord::note_changed_box() {
   std::copy(domain->h, domain->h + 6, edges_);
-  std::fill(turns_, turns_ + 3, 0.0);
+  std::fill(flips_, flips_ + 3, 0.0);
 }
-
-std::string FixGrainRecord::id_for(const char *compute) { return std::string(compute) + "_record"; }
 
 FixGrainRecord *FixGrainRecord::make(LAMMPS *lmp, const char *id, int igroup, int width, int shared, const std::string &meaning, int step_at) {
-  const std::string record = id_for(id);
-  if (lmp->modify->find_fix(record.c_str()) >= 0)
-    lmp->error->all(FLERR, ("compute " + std::string(id) + " needs the fix ID '" + record + "' for its memory, but it is taken").c_str());
-  const std::string words[6] = {record, lmp->group->names[igroup], "grain/record", std::to_string(width), std::to_string(shared),
-                                std::to_string(hash(meaning))};
-  char *arg[6];
-  for (int k = 0; k < 6; k++) arg[k] = const_cast<char *>(words[k].c_str());
-  making = true;
-  lmp->modify->add_fix(6, arg);
-  making = false;
-  FixGrainRecord *made = find(lmp, id);
+  FixGrainRecord *made = static_cast<FixGrainRecord *>(
+      record.make(lmp, id, igroup, {std::to_string(width), std::to_string(shared), std::to_string(grainscope::checksum_as_double(meaning))}));
   made->step_at_ = step_at;
   made->require_room();
   return made;
 }
 
-FixGrainRecord *FixGrainRecord::find(LAMMPS *lmp, const char *id) {
-  const std::string record = id_for(id);
-  const int found = lmp->modify->find_fix(record.c_str());
-  FixGrainRecord *fix = found < 0 ? nullptr : dynamic_cast<FixGrainRecord *>(lmp->modify->fix[found]);
-  if (!fix)
-    lmp->error->all(FLERR, ("fix " + record + ", which holds the memory of compute " + id + ", is gone: uncompute it and compute again").c_str());
-  return fix;
-}
+FixGrainRecord *FixGrainRecord::find(LAMMPS *lmp, const char *id) { return static_cast<FixGrainRecord *>(record.find(lmp, id)); }
+
+void FixGrainRecord::forget(LAMMPS *lmp, const char *id) { record.remove(lmp, id); }
 
 void FixGrainRecord::require_room() const {
   int numbers = 0;
@@ -112,12 +93,6 @@ void FixGrainRecord::require_room() const {
   if (numbers > most_numbers)
     error->all(FLERR, ("all computes together must remember at most " + std::to_string(most_numbers) + " numbers per grain, got " +
                        std::to_string(numbers) + ": take fewer 'lags'").c_str());
-}
-
-void FixGrainRecord::forget(LAMMPS *lmp, const char *compute) {
-  const std::string id = id_for(compute);
-  const int found = lmp->modify->nfix ? lmp->modify->find_fix(id.c_str()) : -1;
-  if (found >= 0 && dynamic_cast<FixGrainRecord *>(lmp->modify->fix[found])) lmp->modify->delete_fix(id.c_str());
 }
 
 double FixGrainRecord::memory_usage() { return (values_.capacity() + shared_.capacity()) * sizeof(double); }
@@ -154,22 +129,18 @@ void FixGrainRecord::unpack_restart(int i, int nth) {
 
 void FixGrainRecord::write_restart(FILE *file) {
   if (comm->me != 0) return;
-  std::vector<double> state = {meaning_, turns_[0], turns_[1], turns_[2]};
-  state.insert(state.end(), shared_.begin(), shared_.end());
-  const int size = state.size() * sizeof(double);
-  fwrite(&size, sizeof size, 1, file);
-  fwrite(state.data(), 1, size, file);
+  const SavedRecord saved{meaning_, {flips_[0], flips_[1], flips_[2]}, static_cast<double>(shared_.size())};
+  grainscope::write_state(file, saved, shared_.data(), shared_.size() * sizeof(double));
 }
 
-/** The host does not tell how many numbers there are; the first says whether they are those of the same measurement. */
+/** What does not mean the same may have other numbers, too. */
 void FixGrainRecord::restart(char *buffer) {
-  double head[4];
-  memcpy(head, buffer, sizeof head);
-  if (head[0] != meaning_) {
+  const SavedRecord saved = grainscope::read_state<SavedRecord>(lmp, *this, buffer);
+  if (saved.meaning != meaning_ || saved.shared_numbers != shared_.size()) {
     const std::string message = std::string(id) + ": the restart file holds the memory of another compute: give the compute the style, group and "
                                 "keywords that it had, or another ID";
     error->all(FLERR, message.c_str());
   }
-  std::copy(head + 1, head + 4, turns_);
-  memcpy(shared_.data(), buffer + sizeof head, shared_.size() * sizeof(double));
+  std::copy(saved.flips, saved.flips + 3, flips_);
+  memcpy(shared_.data(), grainscope::state_block::tail(buffer), shared_.size() * sizeof(double));
 }

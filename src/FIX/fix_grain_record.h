@@ -8,7 +8,7 @@ FixStyle(grain/record,FixGrainRecord)
 #ifndef LMP_FIX_GRAIN_RECORD_H
 #define LMP_FIX_GRAIN_RECORD_H
 
-#include "fix.h"
+#include "internal_fix.h"
 #include <string>
 #include <vector>
 
@@ -18,7 +18,7 @@ namespace LAMMPS_NS {
  *  are kept in restart files. New grains have zeros. It also notes the box of each force evaluation, the one that image flags count in (a
  *  fix that deforms the box at the end of the step moves it on before computes are asked), and counts box flips.
  *  Made by computes, not by input scripts: arguments are width, shared size, and a number that stands for what is remembered. */
-class FixGrainRecord : public Fix {
+class FixGrainRecord : public grainscope::InternalFix {
  public:
   FixGrainRecord(class LAMMPS *lmp, int narg, char **arg);
   ~FixGrainRecord();
@@ -41,10 +41,10 @@ class FixGrainRecord : public Fix {
   std::vector<double> &shared() { return shared_; }
   /** Edges (upper triangle: xx yy zz yz xz xy) of the box at the last force evaluation. */
   const double *edges() const { return edges_; }
-  /** How often the tilts yz, xz, xy were turned back by one edge since this was asked last, positive when they grew. */
-  void take_turns(double turns[3]);
-  /** The box was changed between runs: image flags now count edges of this one, and no tilt was turned back. */
-  void take_box();
+  /** How often the box was flipped since this was asked last, by the tilts yz, xz, xy: in edges, positive where the tilt grew. */
+  void take_box_flips(double flips[3]);
+  /** The box was changed between runs, which is no flip: image flags now count the edges of this one. */
+  void note_changed_box();
 
   double memory_usage() override;
   void grow_arrays(int nmax) override;
@@ -65,11 +65,10 @@ class FixGrainRecord : public Fix {
   double meaning_;
   int step_at_ = -1;
   double edges_[6];
-  double turns_[3] = {0.0, 0.0, 0.0};
+  double flips_[3] = {0.0, 0.0, 0.0};
 
   void note_box();
   void require_room() const;
-  static std::string id_for(const char *compute);
 };
 
 }

@@ -5,18 +5,18 @@
 #include "contact_observer.h"
 #include "grain_shape.h"
 #include "ledger_account.h"
+#include "ledger_requirements.h"
 #include "pair_gran_insitu.h"
+#include "restart_state.h"
 #include "spheroid_rotation.h"
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "group.h"
-#include "modify.h"
 #include "update.h"
-#include <cstring>
-#include <initializer_list>
+#include <algorithm>
 #include <memory>
+#include <tuple>
 
 using namespace LAMMPS_NS;
 using Eigen::Map;
@@ -29,14 +29,25 @@ using grainscope::EnergyLedger;
 
 namespace {
 
-// A line of an input script would replace the books of a compute behind its back.
-bool making = false;
+const grainscope::ComputeFix record{"ledger/record", "_ledger", "ledger", "keeps the ledger"};
 
-bool one_of(const char *style, std::initializer_list<const char *> styles) {
-  for (const char *one : styles)
-    if (!strcmp(style, one)) return true;
-  return false;
-}
+/** In restart files; sums over ranks, so that any number of them may continue. */
+struct SavedLedger {
+  static constexpr std::uint32_t version = 1;
+  double started;              // whether there was a step yet
+  double state[std::tuple_size<EnergyLedger::State>::value];
+  double gradient[9], centre[3], edge_lengths[3], edge_rates[3];   // of the frame
+
+  void set_frame(const grainscope::LedgerFrame &frame) {
+    Map<Matrix3d>(gradient + 0) = frame.velocity_gradient;
+    Map<Vector3d>(centre + 0) = frame.centre;
+    Map<Vector3d>(edge_lengths + 0) = frame.edge_lengths;
+    Map<Vector3d>(edge_rates + 0) = frame.edge_rates;
+  }
+  grainscope::LedgerFrame frame() const {
+    return {Map<const Matrix3d>(gradient), Map<const Vector3d>(centre), Map<const Vector3d>(edge_lengths), Map<const Vector3d>(edge_rates)};
+  }
+};
 
 EnergyLedger::Grain grain(const Atom *atom, int i) { return {i, atom->rmass[i], atom->x[i], atom->v[i], atom->f[i], atom->torque[i]}; }
 
@@ -56,20 +67,16 @@ struct FixLedgerRecord::Impl {
   double dt = 0.0;
 
   /** The state of all ranks together: the first one keeps it. */
-  void hold(const EnergyLedger::State &state, const grainscope::LedgerFrame &frame, bool first) {
-    ledger.restore(first ? state : EnergyLedger::State{}, frame);
+  void take(const SavedLedger &saved, bool first) {
+    if (saved.started == 0.0) return;
+    EnergyLedger::State state{};
+    if (first) std::copy(saved.state, saved.state + state.size(), state.begin());
+    ledger.restore(state, saved.frame());
   }
 };
 
-/** What a restart file holds: doubles throughout. */
-struct FixLedgerRecord::Saved {
-  double started;              // whether there was a step yet
-  EnergyLedger::State state;
-  grainscope::LedgerFrame frame;
-};
-
-FixLedgerRecord::FixLedgerRecord(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), impl_(new Impl) {
-  if (!making) error->all(FLERR, "fix ledger/record: is made by the computes that need it, not by an input script");
+FixLedgerRecord::FixLedgerRecord(LAMMPS *lmp, int narg, char **arg)
+    : InternalFix(lmp, narg, arg, "the computes that need it"), impl_(new Impl) {
   impl_->name = arg[3];
   restart_global = 1;
 }
@@ -83,86 +90,26 @@ void FixLedgerRecord::fail(const std::string &message) const {
   std::abort();  // not reached: error->all ends the run
 }
 
-void FixLedgerRecord::require_known_models() const {
-  const std::string got = ", got '" + impl_->pair->models() + "'";
-  const auto matches = [this](const char *kind, std::initializer_list<const char *> models) {
-    for (const char *model : models)
-      if (impl_->pair->contact_match(kind, model)) return true;
-    return false;
-  };
-  if (!impl_->pair->observer().elastic()) fail("knows the energy of the normal models hertz, hooke, hertz/stiffness and hooke/stiffness only" + got);
-  if (impl_->pair->observer().law() == ContactObserver::TangentialLaw::other)
-    fail("knows the energy of 'tangential' off, no_history and history only" + got);
-  if (!matches("cohesion", {"off"})) fail("does not know the energy of cohesion: only 'cohesion off'" + got);
-  if (!matches("rolling_friction", {"off", "cdt", "epsd", "epsd2"})) fail("knows the work of 'rolling_friction' off, cdt, epsd and epsd2 only" + got);
-  if (!matches("surface", {"default", "superquadric", "ellipsoid"})) fail("knows 'surface' default, superquadric and ellipsoid only" + got);
-}
-
-/** Whether some grain belongs to the ledger's group and to another. Collective. */
-bool FixLedgerRecord::shares_grains(int other_groupbit) const {
-  int any = 0;
-  for (int i = 0; i < atom->nlocal; i++)
-    if ((atom->mask[i] & groupbit) && (atom->mask[i] & other_groupbit)) any = 1;
-  MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, world);
-  return any;
-}
-
-/** Kinetic energy is booked as velocity Verlet moves it: every grain of the group by one such fix, or not at all (frozen). */
-void FixLedgerRecord::require_moved_by_verlet() const {
-  int moved = 0;
-  for (int k = 0; k < modify->nfix; k++) {
-    const Fix *fix = modify->fix[k];
-    if (one_of(fix->style, {"nve/sphere", "nve/superquadric", "nve/spheroid", "freeze"})) {
-      moved |= fix->groupbit;
-    } else if (fix->time_integrate || fix->rigid_flag || strstr(fix->style, "multisphere") || !strcmp(fix->style, "move")) {
-      if (shares_grains(fix->groupbit))
-        fail(std::string("knows grains that are moved by fix nve/sphere, nve/superquadric or nve/spheroid, or frozen, got fix ") + fix->id + " of style " +
-             fix->style);
-    }
-  }
-  int loose = 0;
-  for (int i = 0; i < atom->nlocal; i++)
-    if ((atom->mask[i] & groupbit) && !(atom->mask[i] & moved)) loose++;
-  MPI_Allreduce(MPI_IN_PLACE, &loose, 1, MPI_INT, MPI_SUM, world);
-  if (loose)
-    fail("every grain of the group must be moved by fix nve/sphere, nve/superquadric or nve/spheroid, or be frozen, got " + std::to_string(loose) +
-         " that are not");
-}
-
-void FixLedgerRecord::require_flowing_box() const {
-  for (int k = 0; k < modify->nfix; k++) {
-    const Fix *fix = modify->fix[k];
-    if (!fix->box_change_size && !fix->box_change_shape) continue;
-    const std::string which = std::string("fix ") + fix->id + " (" + fix->style + ")";
-    if (!domain->deform_vremap) fail("needs a box that carries velocities along where it deforms, 'remap v', got " + which + " without");
-    if (domain->deform_groupbit != 1)
-      fail("needs a box that deforms for the group all, got " + which + " for the group " + group->names[fix->igroup]);
-  }
-}
-
 void FixLedgerRecord::init() {
   impl_->pair = PairGranInsitu::required_by(lmp, impl_->name.c_str());
   ContactObserver &observer = impl_->pair->observer();
-  if (!observer.knows_past())
-    fail("needs 'ledger on' in pair_style gran/insitu, which remembers what each contact stored, got '" + impl_->pair->models() + "'");
-  require_known_models();
-  if (impl_->pair->renumbered())
-    fail("grains were given other IDs, and what is known of contacts goes by ID: say 'compress no' to delete_atoms");
-  require_moved_by_verlet();
-  require_flowing_box();
-  using Law = ContactObserver::TangentialLaw;
-  const bool history = observer.law() == Law::history;
-  impl_->ledger.set_law({impl_->pair->stressStrainExponent(), history, history || observer.law() == Law::no_history, observer.rolls()});
+  const grainscope::LedgerRequirements requirements(lmp, groupbit, impl_->name);
+  requirements.require_known_contacts(*impl_->pair);
+  requirements.require_moved_by_verlet();
+  requirements.require_flowing_box();
+  impl_->ledger.set_law(impl_->pair->law());
   observer.add(this);
   impl_->arrived = 0.0;
   impl_->stepping = false;
   impl_->dt = update->dt;
 }
 
-void FixLedgerRecord::begin_contacts() { impl_->ledger.begin_evaluation(atom->nlocal, impl_->pair->observer().again()); }
+void FixLedgerRecord::begin_contacts() { impl_->ledger.begin_evaluation(atom->nlocal, impl_->pair->observer().repeats()); }
 
-void FixLedgerRecord::add_contact(const Contact &c) {
-  if (atom->mask[c.i] & atom->mask[c.j] & groupbit) impl_->ledger.add(c, update->dt, impl_->pair->observer().springs_move());
+void FixLedgerRecord::add_contacts(grainscope::ContactSpan contacts) {
+  const bool springs_move = impl_->pair->observer().springs_move();
+  for (const Contact &c : contacts)
+    if (atom->mask[c.i] & atom->mask[c.j()] & groupbit) impl_->ledger.add(c, update->dt, springs_move);
 }
 
 /** Of a sphere, whose angular momentum the host does not keep. */
@@ -277,54 +224,26 @@ grainscope::LedgerAccount FixLedgerRecord::account() const {
   return sum;
 }
 
-std::string FixLedgerRecord::id_for(const char *compute) { return std::string(compute) + "_ledger"; }
-
 FixLedgerRecord *FixLedgerRecord::make(LAMMPS *lmp, const char *id, int igroup, const std::string &style) {
-  const std::string record = id_for(id);
-  if (lmp->modify->find_fix(record.c_str()) >= 0)
-    lmp->error->all(FLERR, ("compute " + std::string(id) + " needs the fix ID '" + record + "' for its ledger, but it is taken").c_str());
-  const std::string words[4] = {record, lmp->group->names[igroup], "ledger/record",
-                                std::string("compute ") + id + " (" + style + ")"};
-  char *arg[4];
-  for (int k = 0; k < 4; k++) arg[k] = const_cast<char *>(words[k].c_str());
-  making = true;
-  lmp->modify->add_fix(4, arg);
-  making = false;
-  return find(lmp, id);
+  return static_cast<FixLedgerRecord *>(record.make(lmp, id, igroup, {std::string("compute ") + id + " (" + style + ")"}));
 }
 
-FixLedgerRecord *FixLedgerRecord::find(LAMMPS *lmp, const char *id) {
-  const std::string record = id_for(id);
-  const int found = lmp->modify->find_fix(record.c_str());
-  FixLedgerRecord *fix = found < 0 ? nullptr : dynamic_cast<FixLedgerRecord *>(lmp->modify->fix[found]);
-  if (!fix)
-    lmp->error->all(FLERR, ("fix " + record + ", which keeps the ledger of compute " + id + ", is gone: uncompute it and compute again").c_str());
-  return fix;
-}
+FixLedgerRecord *FixLedgerRecord::find(LAMMPS *lmp, const char *id) { return static_cast<FixLedgerRecord *>(record.find(lmp, id)); }
 
-void FixLedgerRecord::forget(LAMMPS *lmp, const char *compute) {
-  const std::string id = id_for(compute);
-  const int found = lmp->modify->nfix ? lmp->modify->find_fix(id.c_str()) : -1;
-  if (found >= 0 && dynamic_cast<FixLedgerRecord *>(lmp->modify->fix[found])) lmp->modify->delete_fix(id.c_str());
-}
+void FixLedgerRecord::forget(LAMMPS *lmp, const char *id) { record.remove(lmp, id); }
 
-/** Summed over ranks, so that any number of them may continue; the first number says whether there was a step yet. */
+/** The run that goes on stays equal to one that is taken up again: it, too, has the sums on the first rank. */
 void FixLedgerRecord::write_restart(FILE *file) {
-  Saved saved;
+  SavedLedger saved;
   saved.started = impl_->ledger.started();
-  saved.state = impl_->ledger.state();
-  saved.frame = impl_->ledger.frame();
-  MPI_Allreduce(MPI_IN_PLACE, saved.state.data(), saved.state.size(), MPI_DOUBLE, MPI_SUM, world);
-  // As a continued run will: the run that goes on stays equal to it.
-  if (saved.started != 0.0) impl_->hold(saved.state, saved.frame, comm->me == 0);
-  if (comm->me != 0) return;
-  const int size = sizeof saved;
-  fwrite(&size, sizeof size, 1, file);
-  fwrite(&saved, size, 1, file);
+  const EnergyLedger::State state = impl_->ledger.state();
+  std::copy(state.begin(), state.end(), saved.state);
+  saved.set_frame(impl_->ledger.frame());
+  MPI_Allreduce(MPI_IN_PLACE, saved.state, state.size(), MPI_DOUBLE, MPI_SUM, world);
+  impl_->take(saved, comm->me == 0);
+  if (comm->me == 0) grainscope::write_state(file, saved);
 }
 
 void FixLedgerRecord::restart(char *buffer) {
-  Saved saved;
-  memcpy(static_cast<void *>(&saved), buffer, sizeof saved);
-  if (saved.started != 0.0) impl_->hold(saved.state, saved.frame, comm->me == 0);
+  impl_->take(grainscope::read_state<SavedLedger>(lmp, *this, buffer), comm->me == 0);
 }

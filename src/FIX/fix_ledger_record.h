@@ -9,7 +9,7 @@ FixStyle(ledger/record,FixLedgerRecord)
 #define LMP_FIX_LEDGER_RECORD_H
 
 #include "contact_sink.h"
-#include "fix.h"
+#include "internal_fix.h"
 #include <memory>
 #include <string>
 
@@ -23,7 +23,7 @@ namespace LAMMPS_NS {
 /** Keeps the energy ledger of a group up to date in every step, for a compute: sees every contact of every force evaluation, and the grains
  *  before their second kick and before the next step's first. What it has booked is in restart files.
  *  Made by computes, not by input scripts. */
-class FixLedgerRecord : public Fix, public grainscope::ContactSink {
+class FixLedgerRecord : public grainscope::InternalFix, public grainscope::ContactSink {
  public:
   FixLedgerRecord(class LAMMPS *lmp, int narg, char **arg);
   ~FixLedgerRecord();
@@ -36,7 +36,7 @@ class FixLedgerRecord : public Fix, public grainscope::ContactSink {
 
   bool wants_contacts() override { return true; }
   void begin_contacts() override;
-  void add_contact(const grainscope::Contact &contact) override;
+  void add_contacts(grainscope::ContactSpan contacts) override;
 
   /** Makes the record of compute `id`, in its constructor; `style` is for messages. Collective. */
   static FixLedgerRecord *make(class LAMMPS *lmp, const char *id, int igroup, const std::string &style);
@@ -50,18 +50,12 @@ class FixLedgerRecord : public Fix, public grainscope::ContactSink {
 
  private:
   struct Impl;
-  struct Saved;
   std::unique_ptr<Impl> impl_;
 
   [[noreturn]] void fail(const std::string &message) const;
-  void require_known_models() const;
-  bool shares_grains(int other_groupbit) const;
-  void require_moved_by_verlet() const;
-  void require_flowing_box() const;
   double start_step(grainscope::EnergyLedger &ledger) const;
   double moment_of_inertia(int i) const;
   void coming_spin(int i, double momentum[3], double omega_after[3]) const;
-  static std::string id_for(const char *compute);
 };
 
 }

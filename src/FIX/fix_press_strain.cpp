@@ -1,29 +1,24 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_press_strain.h"
-#include "arguments.h"
 #include "contact_observer.h"
+#include "fluctuations.h"
 #include "pair_gran_insitu.h"
-#include "peculiar_motion.h"
+#include "press_strain_requirements.h"
 #include "press_strain_settings.h"
 #include "range_warning.h"
+#include "restart_state.h"
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
-#include "fix_wall_gran.h"
 #include "force.h"
-#include "group.h"
-#include "input.h"
 #include "modify.h"
-#include "primitive_wall.h"
 #include "update.h"
-#include "variable.h"
 #include <cstring>
 
 using namespace LAMMPS_NS;
 using grainscope::NetworkResponse;
-using grainscope::PeculiarMotion;
+using grainscope::Fluctuations;
 using grainscope::press_strain_error;
-using grainscope::Quantity;
 using grainscope::Tilt;
 using Every = grainscope::PressStrainSettings::Every;
 
@@ -31,21 +26,13 @@ namespace {
 
 const double often_clipped = 0.2;  // of the inputs, in steady state: by gain auto none are
 
-/** Value of the variable that `keyword` names. */
-double value_of(LAMMPS *lmp, const char *keyword, const Quantity &quantity) {
-  const int found = lmp->input->variable->find(const_cast<char *>(quantity.variable.c_str()));
-  if (found < 0 || !lmp->input->variable->equalstyle(found))
-    press_strain_error(lmp, std::string("'") + keyword + "' must name an equal-style variable, got 'v_" + quantity.variable +
-                                (found < 0 ? "', which does not exist" : "', which is of another style"));
-  return lmp->input->variable->compute_equal(found);
-}
-
-/** Asked at a point that lies on no wall's axis or face; the host's own PrimitiveWall::axis() knows cylinders only. */
-bool pushes_along(PrimitiveWall *wall, int axis) {
-  double point[3] = {0.1234567891, 0.2345678912, 0.3456789123}, push[3];
-  wall->resolveContact(point, 0.0, push);
-  return push[axis] != 0.0;
-}
+/** In restart files. The window is summed over ranks, so that any number of them may continue. */
+struct SavedControl {
+  static constexpr std::uint32_t version = 1;
+  double strain, velocity, averaged_pressure, inputs, clipped;
+  double window_steps, window_pressure, window_stiffness, window_damping;
+  double every, interval, passed, next;   // how inputs are counted, and how far
+};
 
 }
 
@@ -59,8 +46,7 @@ struct FixPressStrain::Impl {
   int momentum_groupbit = 1;
   std::string momentum_group;
   grainscope::ContactObserver *observer = nullptr;
-  double exponent = 1.5;
-  bool sticks = true;
+  const grainscope::ContactLaw *law = nullptr;
   bool flip_pending = false;
 
   NetworkResponse now;             // this rank's sums of the last evaluation, over volume
@@ -143,92 +129,37 @@ FixPressStrain::FixPressStrain(LAMMPS *lmp, int narg, char **arg, const HostArgu
   restart_pbc = 0;  // the host's wrapping would move triclinic positions by an ulp
   declare(this, "press/strain", Impl::declared());
   global_freq = 1;
-  require_controllable_box();
+  grainscope::PressStrainRequirements(lmp, this, impl_->settings).require_controllable_box(impl_->box);
 }
 
 FixPressStrain::~FixPressStrain() {}
 
-void FixPressStrain::require_controllable_box() const {
-  const auto &settings = impl_->settings;
-  const int periodic[3] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
-  if (!periodic[settings.axis])
-    press_strain_error(lmp, std::string("cannot move box edges along '") + "xyz"[settings.axis] + "': the box must be periodic there");
-  if (settings.shear) {
-    const std::string shear = std::string("'shear ") + settings.shear->name + "'";
-    if (!periodic[settings.shear->flow] || !periodic[settings.shear->gradient])
-      press_strain_error(lmp, shear + " needs a box periodic along both axes");
-    for (const Tilt &tilt : grainscope::tilts)
-      if (&tilt != settings.shear && impl_->box.tilt(tilt) != 0.0)
-        press_strain_error(lmp, "with " + shear + " the tilt " + tilt.name + " must be 0, got " + grainscope::Arguments::text(impl_->box.tilt(tilt)));
-  }
-  for (int k = 0; k < modify->nfix; k++) {
-    Fix *fix = modify->fix[k];
-    if (fix == this || !fix) continue;
-    const std::string which = std::string("(fix ") + fix->id + ")";
-    if (!strcmp(fix->style, "deform"))
-      press_strain_error(lmp, "another fix already deforms the box " + which + ": only one fix deform or press/strain at a time");
-    if (fix->rigid_flag || strstr(fix->style, "multisphere")) press_strain_error(lmp, "does not work with rigid bodies " + which);
-    if (!strncmp(fix->style, "wall/", 5)) require_no_wall_on_axis(fix);
-  }
-}
-
-void FixPressStrain::require_no_wall_on_axis(Fix *fix) const {
-  const char axis = "xyz"[impl_->settings.axis];
-  FixWallGran *wall = dynamic_cast<FixWallGran *>(fix);
-  if (!wall || wall->is_mesh_wall())
-    press_strain_error(lmp, std::string("cannot move a box that holds a wall of style ") + fix->style + " (fix " + fix->id +
-                                "): only primitive walls of wall/gran on another axis");
-  if (wall->primitiveWall() && pushes_along(wall->primitiveWall(), impl_->settings.axis))
-    press_strain_error(lmp, std::string("cannot move box edges along '") + axis + "': fix " + fix->id + " is a wall on that axis");
-}
-
-/** The host lets a group be deleted that no fix is registered for, and this one is for `all`. */
-void FixPressStrain::require_momentum_group() const {
-  const int found = group->find(impl_->momentum_group.c_str());
-  if (found < 0 || group->bitmask[found] != impl_->momentum_groupbit)
-    press_strain_error(lmp, "its group '" + impl_->momentum_group + "' was deleted: define the group and the fix again");
-}
-
 void FixPressStrain::init() {
-  using Law = grainscope::ContactObserver::TangentialLaw;
   Impl &my = *impl_;
-  require_controllable_box();
-  require_momentum_group();
+  const grainscope::PressStrainRequirements requirements(lmp, this, my.settings);
+  requirements.require_controllable_box(my.box);
+  requirements.require_group(my.momentum_group.c_str(), my.momentum_groupbit);
   PairGranInsitu *pair = PairGranInsitu::required_by(lmp, "fix press/strain");
   my.observer = &pair->observer();
   my.observer->add(this);
-  my.exponent = pair->stressStrainExponent();
-  my.sticks = my.observer->law() == Law::history || my.observer->law() == Law::other;
-  if (my.settings.control.automatic && !my.observer->elastic())
-    press_strain_error(lmp, "'gain auto' knows the stiffness of the normal models hertz, hooke, hertz/stiffness and hooke/stiffness only: give a number");
-  evaluate_rate();
+  my.law = &pair->law();
+  if (my.settings.control.automatic && !my.law->knows_stiffness())
+    press_strain_error(lmp, std::string("'gain auto' knows the stiffness of the normal models ") + my.law->elastic_models() + " only: give a number");
+  my.settings.evaluate_rate(lmp);
   my.box.set_rates(my.velocity, my.settings.rate.value);
   plan_flip();
 }
 
 void FixPressStrain::setup(int) { evaluate_variables(); }
 
-void FixPressStrain::evaluate_rate() {
-  auto &settings = impl_->settings;
-  if (!settings.shear) return;
-  if (!settings.rate.variable.empty()) settings.rate.value = value_of(lmp, "rate", settings.rate);
-  if (settings.rate.value == 0.0 || !std::isfinite(settings.rate.value))
-    press_strain_error(lmp, "'rate' must be a shear rate other than 0, got v_" + settings.rate.variable + " = " +
-                                grainscope::Arguments::text(settings.rate.value));
-  if (!settings.max_rate_given) settings.control.max_rate = std::fabs(settings.rate.value);
-}
-
 /** Every step, so that the computes that a variable uses can be announced for the next one. */
 void FixPressStrain::evaluate_variables() {
   auto &settings = impl_->settings;
   if (settings.target.variable.empty() && settings.rate.variable.empty()) return;
   modify->clearstep_compute();
-  evaluate_rate();
-  if (!settings.target.variable.empty()) settings.target.value = value_of(lmp, "target", settings.target);
+  settings.evaluate_rate(lmp);
+  settings.evaluate_target(lmp);
   modify->addstep_compute(update->ntimestep + 1);
-  if (!(settings.target.value >= 0.0) || !std::isfinite(settings.target.value))
-    press_strain_error(lmp, "'target' must be a pressure >= 0, got v_" + settings.target.variable + " = " +
-                                grainscope::Arguments::text(settings.target.value));
 }
 
 void FixPressStrain::begin_contacts() {
@@ -236,8 +167,8 @@ void FixPressStrain::begin_contacts() {
   impl_->pressure_step = -1;
 }
 
-void FixPressStrain::add_contact(const grainscope::Contact &contact) {
-  impl_->now.add(contact, impl_->settings.axis, impl_->exponent, impl_->sticks);
+void FixPressStrain::add_contacts(grainscope::ContactSpan contacts) {
+  for (const grainscope::Contact &contact : contacts) impl_->now.add(contact, impl_->settings.axis, *impl_->law);
 }
 
 void FixPressStrain::plan_flip() {
@@ -271,7 +202,7 @@ double FixPressStrain::kinetic_pressure() const {
   if (!impl_->settings.kinetic) return 0.0;
   const grainscope::BoxState &box = impl_->observer->box();
   const int axis = impl_->settings.axis;
-  return PeculiarMotion(lmp, groupbit, box).momentum_flux()(axis, axis) * force->mvv2e * force->nktv2p / box.volume;
+  return Fluctuations(lmp, groupbit, box).momentum_flux()(axis, axis) * force->mvv2e * force->nktv2p / box.volume;
 }
 
 void FixPressStrain::end_of_step() {
@@ -301,7 +232,7 @@ void FixPressStrain::take_input() {
   my.window_steps = 0.0;
 
   if (my.settings.remove_momentum) {
-    const Eigen::Vector3d drift = PeculiarMotion(lmp, my.momentum_groupbit, my.observer->box()).drift();
+    const Eigen::Vector3d drift = Fluctuations(lmp, my.momentum_groupbit, my.observer->box()).drift();
     for (int i = 0; i < atom->nlocal; i++)
       if (atom->mask[i] & my.momentum_groupbit)
         for (int k = 0; k < 3; k++) atom->v[i][k] -= drift[k];
@@ -342,7 +273,6 @@ double FixPressStrain::relative_error() const {
   return target > 0.0 && impl_->inputs > 0.0 ? impl_->averaged_pressure / target - 1.0 : 0.0;
 }
 
-/** State that a continued run needs, as doubles; the window is summed over ranks, so that any number of them may continue. */
 void FixPressStrain::write_restart(FILE *file) {
   Impl &my = *impl_;
   double sums[3] = {my.window.pressure, my.window.stiffness, my.window.damping};
@@ -350,24 +280,22 @@ void FixPressStrain::write_restart(FILE *file) {
   my.window = NetworkResponse();
   if (comm->me != 0) return;
   my.window = {sums[0], sums[1], sums[2]};  // as a continued run will have it: the run that goes on stays equal to it, bit by bit
-  const double state[] = {my.strain, my.velocity, my.averaged_pressure, my.inputs, my.clipped, my.window_steps, sums[0], sums[1], sums[2],
-                          static_cast<double>(my.settings.every), my.settings.interval, my.intervals.passed(), my.intervals.next()};
-  const int size = sizeof state;
-  fwrite(&size, sizeof(int), 1, file);
-  fwrite(state, 1, size, file);
+  grainscope::write_state(file, SavedControl{my.strain, my.velocity, my.averaged_pressure, my.inputs, my.clipped, my.window_steps,
+                                            sums[0], sums[1], sums[2], static_cast<double>(my.settings.every), my.settings.interval,
+                                            my.intervals.passed(), my.intervals.next()});
 }
 
 void FixPressStrain::restart(char *buffer) {
   Impl &my = *impl_;
-  double state[13];
-  memcpy(state, buffer, sizeof state);
-  my.strain = state[0];
-  my.velocity = state[1];
-  my.averaged_pressure = state[2];
-  my.inputs = state[3];
-  my.clipped = state[4];
-  my.window_steps = state[5];
-  if (comm->me == 0) my.window = {state[6], state[7], state[8]};
+  const auto saved = grainscope::read_state<SavedControl>(lmp, *this, buffer);
+  my.strain = saved.strain;
+  my.velocity = saved.velocity;
+  my.averaged_pressure = saved.averaged_pressure;
+  my.inputs = saved.inputs;
+  my.clipped = saved.clipped;
+  my.window_steps = saved.window_steps;
+  if (comm->me == 0) my.window = {saved.window_pressure, saved.window_stiffness, saved.window_damping};
   // Counted otherwise than before, inputs begin anew, with one at the first step.
-  if (static_cast<double>(my.settings.every) == state[9] && my.settings.interval == state[10]) my.intervals.restore(state[11], state[12]);
+  if (static_cast<double>(my.settings.every) == saved.every && my.settings.interval == saved.interval)
+    my.intervals.restore(saved.passed, saved.next);
 }

@@ -35,7 +35,7 @@ class FixPressStrain : public FixDeform, public grainscope::DeclaresOutputs, pub
 
   bool wants_contacts() override { return true; }
   void begin_contacts() override;
-  void add_contact(const grainscope::Contact &contact) override;
+  void add_contacts(grainscope::ContactSpan contacts) override;
 
  private:
   struct Impl;
@@ -44,10 +44,6 @@ class FixPressStrain : public FixDeform, public grainscope::DeclaresOutputs, pub
   struct HostArguments;
   FixPressStrain(class LAMMPS *lmp, int narg, char **arg, const HostArguments &host);
 
-  void require_controllable_box() const;
-  void require_no_wall_on_axis(Fix *fix) const;
-  void require_momentum_group() const;
-  void evaluate_rate();
   void evaluate_variables();
   double progress_of_a_step() const;
   double time_between_inputs() const;

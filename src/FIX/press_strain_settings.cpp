@@ -2,11 +2,23 @@
 #include "press_strain_settings.h"
 #include "arguments.h"
 #include "domain.h"
+#include "input.h"
+#include "variable.h"
+#include <cmath>
 #include <set>
 
 namespace grainscope {
 
 namespace {
+
+/** Value of the variable that `keyword` names. */
+double value_of(LAMMPS_NS::LAMMPS *lmp, const char *keyword, const Quantity &quantity) {
+  const int found = lmp->input->variable->find(const_cast<char *>(quantity.variable.c_str()));
+  if (found < 0 || !lmp->input->variable->equalstyle(found))
+    press_strain_error(lmp, std::string("'") + keyword + "' must name an equal-style variable, got 'v_" + quantity.variable +
+                                (found < 0 ? "', which does not exist" : "', which is of another style"));
+  return lmp->input->variable->compute_equal(found);
+}
 
 bool positive(double x) { return x > 0.0; }
 
@@ -44,7 +56,7 @@ void read_gain(Arguments &arguments, PressureControl &control) {
 }
 
 void press_strain_error(LAMMPS_NS::LAMMPS *lmp, const std::string &message) {
-  Arguments(lmp, "fix press/strain", 0, 0, nullptr).fail(message);
+  Arguments(lmp, "fix press/strain").fail(message);
 }
 
 PressStrainSettings::PressStrainSettings(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) {
@@ -77,6 +89,21 @@ PressStrainSettings::PressStrainSettings(LAMMPS_NS::LAMMPS *lmp, int narg, char 
     arguments.fail(shear ? "'every', 'every/time' or 'every/step' is required" : "without 'shear', 'every/time' or 'every/step' is required");
   if (shear && !lmp->domain->triclinic)
     arguments.fail("'shear' needs a triclinic box: add 'change_box all triclinic' after the grains are in");
+}
+
+void PressStrainSettings::evaluate_rate(LAMMPS_NS::LAMMPS *lmp) {
+  if (!shear) return;
+  if (!rate.variable.empty()) rate.value = value_of(lmp, "rate", rate);
+  if (rate.value == 0.0 || !std::isfinite(rate.value))
+    press_strain_error(lmp, "'rate' must be a shear rate other than 0, got v_" + rate.variable + " = " +
+                                Arguments::text(rate.value));
+  if (!max_rate_given) control.max_rate = std::fabs(rate.value);
+}
+
+void PressStrainSettings::evaluate_target(LAMMPS_NS::LAMMPS *lmp) {
+  if (!target.variable.empty()) target.value = value_of(lmp, "target", target);
+  if (!(target.value >= 0.0) || !std::isfinite(target.value))
+    press_strain_error(lmp, "'target' must be a pressure >= 0, got v_" + target.variable + " = " + Arguments::text(target.value));
 }
 
 }

@@ -29,6 +29,10 @@ struct PressStrainSettings {
 
   /** Reads all words from arg[3] on; every complaint is an error. */
   PressStrainSettings(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
+
+  /** Values of variables now; errors where they are of no use. */
+  void evaluate_rate(LAMMPS_NS::LAMMPS *lmp);
+  void evaluate_target(LAMMPS_NS::LAMMPS *lmp);
 };
 
 /** An error that starts with the name of the fix. */

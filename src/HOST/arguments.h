@@ -13,11 +13,13 @@ namespace grainscope {
 /** Ends the run on all ranks with `message`. Apart from what reads words, which the fuzzer takes without the host. */
 [[noreturn]] void end_run(LAMMPS_NS::LAMMPS *lmp, const std::string &message);
 
-/** The words of one command, read in order. Every complaint names the style, the keyword, the requirement and the value received:
+/** The words of one command, read in order. Every error names the style, the keyword, the requirement and the value received:
  *  `compute dissipation: 'mode' must be instantaneous or step, got 'fast'`. Errors are collective: all ranks read the same words. */
 class Arguments {
  public:
   Arguments(LAMMPS_NS::LAMMPS *lmp, const std::string &style, int first, int narg, char **arg);
+  /** For errors alone, when the words have been read. */
+  Arguments(LAMMPS_NS::LAMMPS *lmp, const std::string &style) : lmp_(lmp), style_(style) {}
 
   bool done() const { return at_ == words_.size(); }
   /** The next word; an error that names `wanted` when there is none. */

@@ -2,7 +2,7 @@
 #ifndef GRAINSCOPE_BOX_STATE_H
 #define GRAINSCOPE_BOX_STATE_H
 
-#include <Eigen/Core>
+#include "affine_flow.h"
 #include <array>
 
 namespace LAMMPS_NS { class LAMMPS; }
@@ -12,14 +12,12 @@ namespace grainscope {
 /** Box edges in columns from the host's h or h_rate: xx yy zz yz xz xy. */
 Eigen::Matrix3d upper_triangular(const double *h);
 
-/** The simulation box at one moment: H holds the edge vectors in its columns, dH/dt
- *  their velocities; the velocity gradient is dH/dt H^-1 and includes
- *  the motion of a box edge that is being moved. Zero for a box that does not deform, or deforms without `remap v`. */
-struct BoxState {
+/** The simulation box at one moment, and the affine flow of its grains about its centre. H holds the edge vectors in its
+ *  columns, dH/dt their velocities; the velocity gradient is dH/dt H^-1 and includes the motion of a box edge that is being
+ *  moved. Zero for a box that does not deform, or deforms without `remap v`. */
+struct BoxState : AffineFlow {
   Eigen::Matrix3d edges = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d edge_velocities = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d velocity_gradient = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double volume = 1.0;
   std::array<bool, 3> periodic{{true, true, true}};
 
@@ -34,12 +32,6 @@ struct BoxState {
    *  elsewhere what is beyond a face, as a grain may be until a face that follows the grains is moved, belongs to the
    *  layer there. -1 for a place that is not finite. */
   int layer(const Eigen::Vector3d &x, int k, int layers) const;
-  /** Mean velocity of the affine flow at x; zero at the box centre. */
-  Eigen::Vector3d flow(const Eigen::Vector3d &x) const {
-    const Eigen::Vector3d r = x - centre;
-    const Eigen::Matrix3d &l = velocity_gradient;  // upper triangular, as H is
-    return {l(0, 0) * r[0] + l(0, 1) * r[1] + l(0, 2) * r[2], l(1, 1) * r[1] + l(1, 2) * r[2], l(2, 2) * r[2]};
-  }
 };
 
 }

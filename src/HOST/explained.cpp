@@ -126,15 +126,15 @@ std::string about_outputs(LAMMPS *lmp) {
 }
 
 /** Of a style that does not exist, the nearest that does. */
-std::string about_style(LAMMPS *lmp, const std::string &complaint) {
+std::string about_style(LAMMPS *lmp, const std::string &message) {
   const char *command = CurrentCommand::of(lmp->input);
   for (const StyleNames &styles : style_names()) {
     const std::string kind = styles.command;
-    if (complaint.rfind("Invalid " + kind + " style", 0) != 0) continue;
+    if (message.rfind("Invalid " + kind + " style", 0) != 0) continue;
     if (!command || (command != kind && command != kind + "_style") || lmp->input->narg <= styles.place) return "";
     const std::string name = lmp->input->arg[styles.place];
     if (std::find(styles.names.begin(), styles.names.end(), name) != styles.names.end()) return "";
-    const bool named = complaint.find(name) != std::string::npos;
+    const bool named = message.find(name) != std::string::npos;
     return (named ? "" : ": \"" + name + "\"") + nearest_name(name, styles.names);
   }
   return "";
@@ -142,8 +142,8 @@ std::string about_style(LAMMPS *lmp, const std::string &complaint) {
 
 }
 
-std::string explained(LAMMPS *lmp, const char *complaint) {
-  std::string text = complaint;
+std::string explained(LAMMPS *lmp, const char *message) {
+  std::string text = message;
   if (!lmp->input || !lmp->modify) return text;
   static const char *const about_names[] = {"accessed out-of-range", "is not large enough", "does not compute",
                                             "does not calculate", "Mismatched compute", "Mismatched fix", "Could not find",

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fluctuations.h"
 #include "arguments.h"
+#include "require_finite.h"
+#include "symmetric_tensor.h"
 #include "atom.h"
 #include "lammps.h"
-#include "update.h"
-#include <cmath>
 #include <mpi.h>
 
 namespace grainscope {
@@ -14,17 +14,15 @@ using Eigen::Vector3d;
 
 namespace {
 
-void sum_over_ranks(LAMMPS_NS::LAMMPS *lmp, double *values, int n) {
+void sum_over_ranks(const LAMMPS_NS::LAMMPS *lmp, double *values, int n) {
   MPI_Allreduce(MPI_IN_PLACE, values, n, MPI_DOUBLE, MPI_SUM, lmp->world);
 }
 
 }
 
 void require_layers(LAMMPS_NS::LAMMPS *lmp, const std::string &who, double grains) {
-  if (grains == 0.0) return;
-  const Arguments complaints(lmp, who, 0, 0, nullptr);
-  complaints.fail("step " + std::to_string(lmp->update->ntimestep) + ": the positions of " + Arguments::text(grains) +
-                  " grains are not finite, so that no layer holds them: look at what moves or pushes them");
+  require_finite(lmp, who, grains, "the positions",
+                 "grains are not finite, so that no layer holds them: look at what moves or pushes them");
 }
 
 void MeanFlow::read(Arguments &arguments) {
@@ -34,38 +32,102 @@ void MeanFlow::read(Arguments &arguments) {
   if (kind == Kind::layers) layers = arguments.whole_number("flow layers", 1, 10000);
 }
 
-Fluctuations::Fluctuations(LAMMPS_NS::LAMMPS *lmp, int groupbit, const BoxState &box, const MeanFlow &flow) : lmp_(lmp) {
-  const LAMMPS_NS::Atom *atom = lmp->atom;
-  const int across = flow.plane.gradient;
-  for (int i = 0; i < atom->nlocal; i++) {
+/** The grains of the group, with what their velocity has beside flow(x). */
+template <class Flow>
+inline void Fluctuations::collect(int groupbit, Flow flow) {
+  const LAMMPS_NS::Atom *atom = lmp_->atom;
+  local_.resize(atom->nlocal);
+  Grain *grain = local_.data();
+  for (int i = 0, n = atom->nlocal; i < n; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
-    const Map<const Vector3d> x(atom->x[i]);
-    Vector3d v = Map<const Vector3d>(atom->v[i]);
-    if (flow.kind == MeanFlow::Kind::box || flow.kind == MeanFlow::Kind::layers) v -= box.flow(x);
-    if (flow.kind == MeanFlow::Kind::rate) v[flow.plane.flow] -= flow.rate * (x[across] - box.centre[across]);
-    local_.push_back({i, atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]], v, Vector3d(Map<const Vector3d>(atom->omega[i]))});
+    const double m = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
+    *grain++ = {i, 0, m, Map<const Vector3d>(atom->v[i]) - flow(Map<const Vector3d>(atom->x[i]))};
   }
-  if (flow.kind == MeanFlow::Kind::fit) subtract_line(across);
-  if (flow.kind == MeanFlow::Kind::layers) subtract_layers(box, across, flow.layers);
-  else subtract_means();
+  local_.resize(grain - local_.data());
 }
 
-void Fluctuations::subtract_means() {
-  double sums[8] = {};  // m v, m, omega, grains
-  for (const Grain &g : local_) {
-    Map<Vector3d>(sums + 0) += g.mass * g.velocity;
-    sums[3] += g.mass;
-    Map<Vector3d>(sums + 4) += g.spin;
-    sums[7] += 1.0;
+Fluctuations::Fluctuations(LAMMPS_NS::LAMMPS *lmp, int groupbit, const BoxState &box) : lmp_(lmp), means_(1) {
+  const AffineFlow affine = box;  // a copy, which no store of a grain may change
+  collect(groupbit, [&affine](const Vector3d &x) { return affine.flow(x); });
+  find_mean_velocity();
+}
+
+Fluctuations::Fluctuations(LAMMPS_NS::LAMMPS *lmp, int groupbit, const BoxState &box, const MeanFlow &flow)
+    : lmp_(lmp), means_(flow.kind == MeanFlow::Kind::layers ? flow.layers : 1) {
+  const int along = flow.plane.flow, across = flow.plane.gradient;
+  switch (flow.kind) {
+    case MeanFlow::Kind::box:
+    case MeanFlow::Kind::layers: collect(groupbit, [&](const Vector3d &x) { return box.flow(x); }); break;
+    case MeanFlow::Kind::rate:
+      collect(groupbit, [&](const Vector3d &x) {
+        Vector3d shear = Vector3d::Zero();
+        shear[along] = flow.rate * (x[across] - box.centre[across]);
+        return shear;
+      });
+      break;
+    case MeanFlow::Kind::fit:
+      collect(groupbit, [](const Vector3d &) { return Vector3d(Vector3d::Zero()); });
+      subtract_line(across);
+      break;
   }
-  sum_over_ranks(lmp_, sums, 8);
-  grains_ = sums[7];
-  if (grains_ == 0.0) return;
-  const Vector3d velocity = Map<Vector3d>(sums + 0) / sums[3], spin = Map<Vector3d>(sums + 4) / grains_;
+  if (flow.kind == MeanFlow::Kind::layers) find_layers(box, across, flow.layers);
+  find_means();
+}
+
+Vector3d Fluctuations::spin(const Grain &grain) const {
+  return Map<const Vector3d>(lmp_->atom->omega[grain.index]) - means_[grain.layer].spin;
+}
+
+void Fluctuations::find_layers(const BoxState &box, int gradient, int layers) {
+  double outside = 0.0;
   for (Grain &g : local_) {
-    g.velocity -= velocity;
-    g.spin -= spin;
+    g.layer = box.layer(Map<const Vector3d>(lmp_->atom->x[g.index]), gradient, layers);
+    if (g.layer < 0) outside += 1.0;
   }
+  sum_over_ranks(lmp_, &outside, 1);
+  require_layers(lmp_, "flow layers", outside);
+}
+
+/** Of all grains, without their spins: what the pressure is measured with in every step. */
+void Fluctuations::find_mean_velocity() {
+  double mass = 0.0;
+  Vector3d momentum = Vector3d::Zero();
+  for (const Grain &g : local_) {
+    momentum += g.mass * g.u;
+    mass += g.mass;
+  }
+  double sums[5] = {momentum[0], momentum[1], momentum[2], mass, static_cast<double>(local_.size())};
+  sum_over_ranks(lmp_, sums, 5);
+  grains_ = sums[4];
+  if (sums[3] > 0.0) means_[0].velocity = Map<const Vector3d>(sums) / sums[3];
+}
+
+void Fluctuations::find_means() {
+  std::vector<double> sums(8 * means_.size(), 0.0);  // per layer: m u, m, omega, grains
+  for (const Grain &g : local_) {
+    double *at = &sums[8 * g.layer];
+    Map<Vector3d>(at + 0) += g.mass * g.u;
+    at[3] += g.mass;
+    Map<Vector3d>(at + 4) += Map<const Vector3d>(lmp_->atom->omega[g.index]);
+    at[7] += 1.0;
+  }
+  sum_over_ranks(lmp_, sums.data(), sums.size());
+  for (std::size_t k = 0; k < means_.size(); k++) {
+    const double *at = &sums[8 * k];
+    if (at[7] == 0.0) continue;
+    grains_ += at[7];
+    means_[k] = {Map<const Vector3d>(at + 0) / at[3], Map<const Vector3d>(at + 4) / at[7]};
+  }
+}
+
+Eigen::Matrix3d Fluctuations::momentum_flux() const {
+  double sums[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  for (const Grain &g : local_) {
+    const Vector3d dv = velocity(g), p = g.mass * dv;
+    add_components(sums, dyad(p, dv));
+  }
+  sum_over_ranks(lmp_, sums, 6);
+  return symmetric_tensor(sums);
 }
 
 /** Takes the slope of the fitted line out; its height goes with the mean. */
@@ -74,7 +136,7 @@ void Fluctuations::subtract_line(int gradient) {
   double first[5] = {};  // m y, m v, m
   for (const Grain &g : local_) {
     first[0] += g.mass * x[g.index][gradient];
-    Map<Vector3d>(first + 1) += g.mass * g.velocity;
+    Map<Vector3d>(first + 1) += g.mass * g.u;
     first[4] += g.mass;
   }
   sum_over_ranks(lmp_, first, 5);
@@ -85,39 +147,13 @@ void Fluctuations::subtract_line(int gradient) {
   double second[4] = {};  // m (y - <y>)(v - <v>), m (y - <y>)^2
   for (const Grain &g : local_) {
     const double y = x[g.index][gradient] - middle;
-    Map<Vector3d>(second + 0) += g.mass * y * (g.velocity - mean);
+    Map<Vector3d>(second + 0) += g.mass * y * (g.u - mean);
     second[3] += g.mass * y * y;
   }
   sum_over_ranks(lmp_, second, 4);
   if (second[3] == 0.0) return;
   slope_ = Map<Vector3d>(second + 0) / second[3];
-  for (Grain &g : local_) g.velocity -= slope_ * (x[g.index][gradient] - middle);
-}
-
-void Fluctuations::subtract_layers(const BoxState &box, int gradient, int layers) {
-  std::vector<int> layer(local_.size());
-  std::vector<double> sums(8 * layers + 1, 0.0);  // per layer, as in subtract_means; then grains that no layer holds
-  for (std::size_t k = 0; k < local_.size(); k++) {
-    const Grain &g = local_[k];
-    layer[k] = box.layer(Map<const Vector3d>(lmp_->atom->x[g.index]), gradient, layers);
-    if (layer[k] < 0) {
-      sums.back() += 1.0;
-      continue;
-    }
-    double *at = &sums[8 * layer[k]];
-    Map<Vector3d>(at + 0) += g.mass * g.velocity;
-    at[3] += g.mass;
-    Map<Vector3d>(at + 4) += g.spin;
-    at[7] += 1.0;
-  }
-  sum_over_ranks(lmp_, sums.data(), sums.size());
-  require_layers(lmp_, "flow layers", sums.back());
-  for (int k = 0; k < layers; k++) grains_ += sums[8 * k + 7];
-  for (std::size_t k = 0; k < local_.size(); k++) {
-    const double *at = &sums[8 * layer[k]];
-    local_[k].velocity -= Map<const Vector3d>(at + 0) / at[3];
-    local_[k].spin -= Map<const Vector3d>(at + 4) / at[7];
-  }
+  for (Grain &g : local_) g.u -= slope_ * (x[g.index][gradient] - middle);
 }
 
 }

@@ -25,33 +25,51 @@ struct MeanFlow {
   void read(Arguments &arguments);
 };
 
-/** How the grains of a group move against a mean flow, dv, and spin against their mean, dw = omega - <omega>. Collective. */
+/** How the grains of a group move and spin against a mean flow: u = v - flow, dv = u - <u> by mass, dw = omega - <omega>, where the
+ *  means are those of the group, or with flow layers of each layer. Collective. */
 class Fluctuations {
  public:
   struct Grain {
     int index;              // local index of the host
+    int layer;              // 0 without layers
     double mass;
-    Eigen::Vector3d velocity, spin;
+    Eigen::Vector3d u;
   };
 
+  /** Against the affine flow of the box; spins are not asked for. */
+  Fluctuations(LAMMPS_NS::LAMMPS *lmp, int groupbit, const BoxState &box);
   Fluctuations(LAMMPS_NS::LAMMPS *lmp, int groupbit, const BoxState &box, const MeanFlow &flow);
 
   /** This rank's grains of the group. */
   const std::vector<Grain> &local() const { return local_; }
+  Eigen::Vector3d velocity(const Grain &grain) const { return grain.u - means_[grain.layer].velocity; }
+  Eigen::Vector3d spin(const Grain &grain) const;
   /** Number of grains over all ranks. */
   double grains() const { return grains_; }
+  /** <u> of a flow without layers; zero for an empty group. */
+  const Eigen::Vector3d &drift() const { return means_[0].velocity; }
+  /** Sum m dv dv over all ranks. Collective. */
+  Eigen::Matrix3d momentum_flux() const;
   /** Slope of the fitted line, d<v>/dx_gradient; zero for other mean flows. */
   const Eigen::Vector3d &slope() const { return slope_; }
 
  private:
+  struct Mean {
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero(), spin = Eigen::Vector3d::Zero();
+  };
+
   LAMMPS_NS::LAMMPS *lmp_;
   std::vector<Grain> local_;
+  std::vector<Mean> means_;   // of each layer
   double grains_ = 0.0;
   Eigen::Vector3d slope_ = Eigen::Vector3d::Zero();
 
-  void subtract_means();
+  template <class Flow>
+  void collect(int groupbit, Flow flow);
+  void find_layers(const BoxState &box, int gradient, int layers);
   void subtract_line(int gradient);
-  void subtract_layers(const BoxState &box, int gradient, int layers);
+  void find_mean_velocity();
+  void find_means();
 };
 
 /** Ends the run unless `grains`, the number over all ranks of those that no layer holds, is 0. */

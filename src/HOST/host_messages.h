@@ -28,10 +28,10 @@ void last_words(LAMMPS_NS::LAMMPS *lmp, const char *format, ...) __attribute__((
 /** Where the last words of a signal handler go: descriptors of the log file, the screen and stderr, each place once. */
 std::vector<int> last_descriptors(LAMMPS_NS::LAMMPS *lmp);
 
-/** A complaint about a style, a compute or a fix in the current command or formula, with what there is. */
-std::string explained(LAMMPS_NS::LAMMPS *lmp, const char *complaint);
+/** An error message about a style, a compute or a fix in the current command or formula, with what there is. */
+std::string explained(LAMMPS_NS::LAMMPS *lmp, const char *message);
 
-/** The formula that complaints are about, while it is evaluated. */
+/** The formula that error messages are about, while it is evaluated. */
 class FormulaUnderway {
  public:
   explicit FormulaUnderway(const char *formula);

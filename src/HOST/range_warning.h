@@ -16,8 +16,8 @@ class RangeWarning {
   /** `format` takes the two numbers. All ranks may call; rank 0 speaks. */
   void watch(LAMMPS_NS::LAMMPS *lmp, bool outside, const char *format, double value, double limit) {
     times_ = outside ? times_ + 1 : 0;
-    if (told_ || times_ < patience) return;
-    told_ = true;
+    if (warned_ || times_ < patience) return;
+    warned_ = true;
     if (lmp->comm->me != 0) return;
     char message[512];
     snprintf(message, sizeof message, format, value, limit);
@@ -26,7 +26,7 @@ class RangeWarning {
 
  private:
   static constexpr int patience = 10;
-  bool told_ = false;
+  bool warned_ = false;
   int times_ = 0;
 };
 

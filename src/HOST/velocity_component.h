@@ -18,7 +18,9 @@ struct VelocityComponent {
     spin = name[0] == 'w';
     axis = name[1] - 'x';
   }
-  double of(const Fluctuations::Grain &grain) const { return (spin ? grain.spin : grain.velocity)[axis]; }
+  double of(const Fluctuations &motion, const Fluctuations::Grain &grain) const {
+    return (spin ? motion.spin(grain) : motion.velocity(grain))[axis];
+  }
 };
 
 }

@@ -33,7 +33,7 @@ void EllipsoidBodies::read_shapes(int n) {
     grain.spheroid = make_spheroid(s, atom->quaternion[i]);
     grain.equivalent_radius = std::cbrt(0.75 * atom->volume[i] / M_PI);  // in the host's words, to the last bit
     grain.elongation = axis.shape == Shape::sphere ? 0.0 : *std::max_element(s, s + 3) - *std::min_element(s, s + 3);
-    grain.across = std::sqrt(grain.spheroid.equatorial);
+    grain.across = std::sqrt(grain.spheroid.equatorial_square);
     grain.axis = std::max(axis.index, 0);
     grain.triaxial = axis.shape == Shape::triaxial;
     some_triaxial_ = some_triaxial_ || grain.triaxial;

@@ -20,13 +20,13 @@ namespace grainscope {
  *  the host's last bit, but neighbours that are surely apart are not looked at. Whatever else is asked of the loop (rigid bodies,
  *  multicontact, stored contact forces, compute pair/gran/local) goes the host's way. */
 template <class Model>
-class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model>, public EndsSprings {
+class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model>, public ResetsOpenSprings {
   using Host = LIGGGHTS::PairStyles::Granular<Model>;
   using PairGran = LAMMPS_NS::PairGran;
 
  public:
   EllipsoidLoop(LAMMPS_NS::LAMMPS *lmp, PairGran *pair, int64_t hash)
-      : Host(lmp, pair, hash), lmp_(lmp), pair_(pair), model_(*Model::newest()),
+      : Host(lmp, pair, hash), lmp_(lmp), pair_(pair), model_(static_cast<Model &>(*static_cast<LAMMPS_NS::PairGranInsitu *>(pair)->reader().model())),
         bodies_(static_cast<LAMMPS_NS::PairGranInsitu *>(pair)->ellipsoid_bodies()),
         surface_(static_cast<LAMMPS_NS::PairGranInsitu *>(pair)->ellipsoid_surface()) {}
 
@@ -48,7 +48,7 @@ class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model>, public EndsS
     const double *const *x, *radius;
   };
   /** Two neighbours. */
-  struct Near {
+  struct NeighbourPair {
     int i, j;
     double d[3], rsq;  // x_j - x_i
     bool may_touch;    // their bounding spheres do
@@ -65,9 +65,9 @@ class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model>, public EndsS
   void follow_motion();
   void solve_batch();
   Lists lists_of(int i) const;
-  Near neighbour(const Lists &lists, int i, int jj) const;
-  bool enter(const Near &near, const EllipsoidContact &contact);
-  void close(const Near &near);
+  NeighbourPair neighbour(const Lists &lists, int i, int jj) const;
+  bool enter(const NeighbourPair &pair, const EllipsoidContact &contact);
+  void close(const NeighbourPair &pair);
 
   LAMMPS_NS::LAMMPS *lmp_;
   PairGran *pair_;
@@ -75,14 +75,14 @@ class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model>, public EndsS
   EllipsoidBodies &bodies_;
   const EllipsoidSurface &surface_;
 
-  typename Model::Sides s_;
-  typename Model::Force on_i_, on_j_;
+  typename Model::Surfaces s_;
+  typename Model::Forces on_i_, on_j_;
 
   SeparationMemory apart_;
   std::vector<int> first_pair_;  // of each grain in the neighbour list
-  ListMark list_;
+  NeighbourListWatch list_;
   std::vector<int> look_;        // neighbours of one grain that may touch it, by place in its list
-  std::vector<Near> near_;
+  std::vector<NeighbourPair> to_solve_;
   std::vector<EllipsoidBodies::Query> queries_;
   std::vector<EllipsoidContact> contacts_;
 };
@@ -103,21 +103,21 @@ void EllipsoidLoop<Model>::own_compute_force(int eflag, int vflag) {
 
 /** Grain i and the neighbour of place jj in its list. */
 template <class Model>
-inline typename EllipsoidLoop<Model>::Near EllipsoidLoop<Model>::neighbour(const Lists &lists, int i, int jj) const {
-  Near near;
-  near.i = i;
-  near.j = lists.neighbours[jj] & NEIGHMASK;
-  const double *xi = lists.x[i], *xj = lists.x[near.j];
-  near.rsq = 0.0;
+inline typename EllipsoidLoop<Model>::NeighbourPair EllipsoidLoop<Model>::neighbour(const Lists &lists, int i, int jj) const {
+  NeighbourPair pair;
+  pair.i = i;
+  pair.j = lists.neighbours[jj] & NEIGHMASK;
+  const double *xi = lists.x[i], *xj = lists.x[pair.j];
+  pair.rsq = 0.0;
   for (int k = 0; k < 3; k++) {
-    near.d[k] = xj[k] - xi[k];
-    near.rsq += near.d[k] * near.d[k];
+    pair.d[k] = xj[k] - xi[k];
+    pair.rsq += pair.d[k] * pair.d[k];
   }
-  const double reach = lists.radius[i] + lists.radius[near.j];
-  near.may_touch = near.rsq < reach * reach;
-  near.flags = lists.flags + jj;
-  near.history = lists.history + lists.columns * jj;
-  return near;
+  const double reach = lists.radius[i] + lists.radius[pair.j];
+  pair.may_touch = pair.rsq < reach * reach;
+  pair.flags = lists.flags + jj;
+  pair.history = lists.history + lists.columns * jj;
+  return pair;
 }
 
 template <class Model>
@@ -135,9 +135,9 @@ void EllipsoidLoop<Model>::spheres() {
     const Lists lists = lists_of(i);
     bodies_.counts.listed += neighbours;
     for (int jj = 0; jj < neighbours; jj++) {
-      const Near near = neighbour(lists, i, jj);
-      const bool touching = near.may_touch && enter(near, bodies_.solve_spheres(i, near.j, near.d, near.rsq));
-      if (!touching && *near.flags) close(near);
+      const NeighbourPair pair = neighbour(lists, i, jj);
+      const bool touching = pair.may_touch && enter(pair, bodies_.solve_spheres(i, pair.j, pair.d, pair.rsq));
+      if (!touching && *pair.flags) close(pair);
     }
   }
 }
@@ -158,19 +158,19 @@ void EllipsoidLoop<Model>::ellipsoids() {
       looks += apart_.may_touch(first_pair_[ii] + jj, moved + apart_.moved(lists.neighbours[jj] & NEIGHMASK));
     }
     for (int k = 0; k < looks; k++) {
-      Near near = neighbour(lists, i, look_[k]);
-      near.number = first_pair_[ii] + look_[k];
-      near.motion = moved + apart_.moved(near.j);
-      if (near.may_touch) {
-        __builtin_prefetch(near.history + surface_.lambda);
-        __builtin_prefetch(near.history + lists.columns - 1);
-        near_.push_back(near);
+      NeighbourPair pair = neighbour(lists, i, look_[k]);
+      pair.number = first_pair_[ii] + look_[k];
+      pair.motion = moved + apart_.moved(pair.j);
+      if (pair.may_touch) {
+        __builtin_prefetch(pair.history + surface_.lambda);
+        __builtin_prefetch(pair.history + lists.columns - 1);
+        to_solve_.push_back(pair);
       } else {
-        apart_.set_apart(near.number, std::sqrt(near.rsq) - lists.radius[i] - lists.radius[near.j], near.motion);
-        if (*near.flags) close(near);
+        apart_.set_apart(pair.number, std::sqrt(pair.rsq) - lists.radius[i] - lists.radius[pair.j], pair.motion);
+        if (*pair.flags) close(pair);
       }
     }
-    if (near_.size() >= BATCH) solve_batch();
+    if (to_solve_.size() >= BATCH) solve_batch();
   }
   solve_batch();
 }
@@ -196,37 +196,37 @@ void EllipsoidLoop<Model>::follow_motion() {
 /** The solver's answers, in the order of the neighbour list. */
 template <class Model>
 void EllipsoidLoop<Model>::solve_batch() {
-  const int n = static_cast<int>(near_.size());
+  const int n = static_cast<int>(to_solve_.size());
   queries_.resize(n);
   contacts_.resize(n);
   for (int k = 0; k < n; k++) {
-    const Near &near = near_[k];
-    queries_[k] = {near.i, near.j, {near.d[0], near.d[1], near.d[2]}, surface_.start(near.history)};
+    const NeighbourPair &pair = to_solve_[k];
+    queries_[k] = {pair.i, pair.j, {pair.d[0], pair.d[1], pair.d[2]}, surface_.start(pair.history)};
   }
   bodies_.solve(n, queries_.data(), contacts_.data());
   for (int k = 0; k < n; k++) {
-    const Near &near = near_[k];
-    if (enter(near, contacts_[k])) {
-      apart_.set_touching(near.number);
+    const NeighbourPair &pair = to_solve_[k];
+    if (enter(pair, contacts_[k])) {
+      apart_.set_touching(pair.number);
     } else {
-      apart_.set_apart(near.number, contacts_[k].gap, near.motion);
-      if (*near.flags) close(near);
+      apart_.set_apart(pair.number, contacts_[k].gap, pair.motion);
+      if (*pair.flags) close(pair);
     }
   }
-  near_.clear();
+  to_solve_.clear();
 }
 
 /** One contact: the model's forces on its two grains. False if they do not touch. */
 template <class Model>
-inline __attribute__((always_inline)) bool EllipsoidLoop<Model>::enter(const Near &near, const EllipsoidContact &contact) {
+inline __attribute__((always_inline)) bool EllipsoidLoop<Model>::enter(const NeighbourPair &pair, const EllipsoidContact &contact) {
   LAMMPS_NS::Atom *atom = lmp_->atom;
-  const int i = near.i, j = near.j;
+  const int i = pair.i, j = pair.j;
   s_.i = i;
   s_.j = j;
-  for (int k = 0; k < 3; k++) s_.delta[k] = -near.d[k];
+  for (int k = 0; k < 3; k++) s_.delta[k] = -pair.d[k];
   s_.radi = bodies_.equivalent_radius(i);
   s_.radj = bodies_.equivalent_radius(j);
-  s_.contact_history = near.history;
+  s_.contact_history = pair.history;
   if (!surface_.enter(contact, s_, bodies_, atom)) return false;
 
   s_.itype = atom->type[i];
@@ -242,10 +242,10 @@ inline __attribute__((always_inline)) bool EllipsoidLoop<Model>::enter(const Nea
   if (atom->mask[i] & freeze) s_.meff = s_.mj;
   if (atom->mask[j] & freeze) s_.meff = s_.mi;
   s_.radsum = atom->radius[i] + atom->radius[j];
-  s_.rsq = near.rsq;
+  s_.rsq = pair.rsq;
   s_.r = std::sqrt(s_.rsq);
   s_.rinv = 1.0 / s_.r;
-  s_.contact_flags = near.flags;
+  s_.contact_flags = pair.flags;
   s_.has_force_update = true;
   on_i_.reset();
   on_j_.reset();
@@ -272,13 +272,13 @@ inline __attribute__((always_inline)) bool EllipsoidLoop<Model>::enter(const Nea
 
 /** A contact that has opened: the model forgets its springs. */
 template <class Model>
-inline void EllipsoidLoop<Model>::close(const Near &near) {
-  s_.i = near.i;
-  s_.j = near.j;
-  s_.itype = lmp_->atom->type[near.i];
-  s_.jtype = lmp_->atom->type[near.j];
-  s_.contact_flags = near.flags;
-  s_.contact_history = near.history;
+inline void EllipsoidLoop<Model>::close(const NeighbourPair &pair) {
+  s_.i = pair.i;
+  s_.j = pair.j;
+  s_.itype = lmp_->atom->type[pair.i];
+  s_.jtype = lmp_->atom->type[pair.j];
+  s_.contact_flags = pair.flags;
+  s_.contact_history = pair.history;
   s_.has_force_update = false;
   model_.surfacesClose(s_, on_i_, on_j_);
 }

@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pair_gran_insitu.h"
-#include "bin_index.h"
 #include "contact_ids.h"
 #include "contact_observer.h"
+#include "contact_reader.h"
 #include "ellipsoid_surface.h"
-#include "fix_run_guard.h"
-#include "fix_setup_memory.h"
 #include "gran_insitu_models.h"
 #include "kept_history.h"
+#include "model_names.h"
+#include "pair_checks.h"
+#include "run_fixes.h"
 #include "sphere_geometry.h"
 #include "stop_signal.h"
 #include "surface_required.h"
-#include "symmetry_axis.h"
 #include "tangential_bound.h"
 #include "time_step_watch.h"
 #include "atom.h"
 #include "comm.h"
-#include "domain.h"
 #include "error.h"
-#include "fix_contact_history.h"
 #include "force.h"
 #include "global_properties.h"
 #include "modify.h"
@@ -29,25 +27,28 @@
 #include <cstring>
 
 using namespace LAMMPS_NS;
-using grainscope::BoxState;
+using grainscope::ContactLaw;
 using grainscope::ContactObserver;
+using grainscope::ContactReader;
 using grainscope::TangentialBound;
+using grainscope::TangentialLaw;
 
 struct PairGranInsitu::Impl {
-  explicit Impl(LAMMPS *lmp) : observer(lmp), bodies(lmp), watch(lmp) {}
+  explicit Impl(LAMMPS *lmp) : observer(lmp), reader(observer), bodies(lmp), watch(lmp), checks(lmp) {}
   ContactObserver observer;
+  ContactReader reader;
   grainscope::EllipsoidBodies bodies;
   grainscope::EllipsoidSurface surface;
   grainscope::TimeStepWatch watch;
+  grainscope::PairChecks checks;
   std::unique_ptr<LIGGGHTS::PairStyles::IGranularPairStyle> loop;
   double **friction = nullptr;
+  int past_column = -1;            // first of the ledger's columns of the contact history, or -1
   std::string models;              // the words of the command, for messages
   bool ledger = false;
   bool neutral = false;
-  FixSetupMemory *memory = nullptr;
-  bool warned_of_stale_springs = false;
+  std::weak_ptr<grainscope::EvaluationMemory> memory;
   std::string sphere_model;        // that is given grains which may be no spheres, or ""
-  bool warned_of_sphere_model = false;
   bool sending_images = false;
   bigint grains = 0;               // in the last evaluation
   bool renumbered = false;         // since then
@@ -60,13 +61,17 @@ PairGranInsitu::PairGranInsitu(LAMMPS *lmp) : PairGranProxy(lmp), impl_(new Impl
 
 PairGranInsitu::~PairGranInsitu() {
   TangentialBound::get().set(TangentialBound::Mode::off);
-  FixRunGuard::forget(lmp);
-  FixSetupMemory::forget(lmp);
+  grainscope::run_fixes::remove(lmp);
+  grainscope::stop_signal::release();
 }
 
 const std::string &PairGranInsitu::models() const { return impl_->models; }
 
 ContactObserver &PairGranInsitu::observer() { return impl_->observer; }
+
+ContactReader &PairGranInsitu::reader() { return impl_->reader; }
+
+const ContactLaw &PairGranInsitu::law() const { return impl_->reader.law(); }
 
 bool PairGranInsitu::renumbered() const { return impl_->renumbered; }
 
@@ -102,7 +107,7 @@ void PairGranInsitu::settings(int narg, char **arg) {
     error->all(FLERR, ("pair_style gran/insitu: invalid contact model (check for typos, and enable at least one model), got '" + received +
                        "'").c_str());
   history_arg.clear();
-  impl_->observer.set_past(-1);
+  impl_->past_column = -1;
   dnum_pairgran = 0;
   impl_->loop.reset(grainscope::create_observed_loop(hash, lmp, this));
   impl_->loop->settings(narg, arg, this);
@@ -134,52 +139,21 @@ bool PairGranInsitu::take_setting(std::vector<char *> &words, const char *keywor
 }
 
 void PairGranInsitu::add_past_columns() {
-  impl_->observer.set_past(history_arg.size());
-  for (int k = 0; k < ContactObserver::past_columns; k++) add_history_value(ContactObserver::past_column(k), "0");
+  impl_->past_column = history_arg.size();
+  for (int k = 0; k < ContactReader::past_columns; k++) add_history_value(ContactReader::past_column(k), "0");
   if (comm->me != 0) return;
   for (FILE *out : {screen, logfile})
     if (out)
       fprintf(out, "pair_style gran/insitu: 'ledger on' keeps %d numbers more for every pair of neighbours (%d instead of %d); restart files "
-              "with and without them are not interchangeable\n", ContactObserver::past_columns, dnum_pairgran,
-              dnum_pairgran - ContactObserver::past_columns);
-}
-
-namespace {
-
-/** What a restart file holds for fixes that are not defined yet is the host's own matter: a derived class may look. */
-struct RestartData : Modify {
-  static const char *of(Modify *modify, const char *id) {
-    for (int k = 0; k < modify->*(&RestartData::nfix_restart_global); k++)
-      if (!strcmp((modify->*(&RestartData::id_restart_global))[k], id)) return (modify->*(&RestartData::state_restart_global))[k];
-    return nullptr;
-  }
-};
-
-}
-
-/** The host would say no more than that the models differ. */
-void PairGranInsitu::require_same_columns_in_restart() {
-  if (!history || fix_history) return;
-  const char *state = RestartData::of(modify, "contacthistory");
-  if (!state) return;
-  double columns[2];  // the host writes the number of columns, and one more
-  memcpy(columns, state, sizeof columns);
-  const int found = static_cast<int>(grainscope::whole_count(columns[0], 1e6)), wanted = dnum_pairgran;
-  const int past = ContactObserver::past_columns;
-  const std::string numbers = std::to_string(found) + " numbers per contact, and this pair_style has " + std::to_string(wanted) + ": ";
-  if (found == wanted) return;
-  if (found == wanted - past && impl_->ledger)
-    error->all(FLERR, ("pair_style gran/insitu: the restart file holds " + numbers + "it was written without 'ledger on', so the ledger cannot "
-                       "be continued from it. Say 'ledger off', or write the restart file with 'ledger on'").c_str());
-  if (found == wanted + past && !impl_->ledger)
-    error->all(FLERR, ("pair_style gran/insitu: the restart file holds " + numbers + "it was written with 'ledger on'. Say 'ledger on'").c_str());
+              "with and without them are not interchangeable\n", ContactReader::past_columns, dnum_pairgran,
+              dnum_pairgran - ContactReader::past_columns);
 }
 
 void PairGranInsitu::init_style() {
   impl_->observer.remove_all();
   impl_->observer.begin_run();
   impl_->images_of_build = -1;
-  require_same_columns_in_restart();
+  if (history && !fix_history) impl_->checks.require_same_columns_in_restart(dnum_pairgran, ContactReader::past_columns, impl_->ledger);
   impl_->renumbered = atom->natoms < impl_->grains && !grainscope::contacts_know_their_grains(lmp);
   if (impl_->renumbered && comm->me == 0)
     error->warning(FLERR, "grains were given other IDs, and the host keeps tangential springs by ID: some are now those of other contacts. Say "
@@ -187,113 +161,62 @@ void PairGranInsitu::init_style() {
   const std::string ledger = impl_->ledger ? " ledger on" : "", setup = impl_->neutral ? " setup neutral" : "";
   grainscope::require_surface_models(lmp, this, impl_->models + ledger + setup);
   PairGranProxy::init_style();
-  FixRunGuard::make(lmp, impl_->models + (impl_->ledger ? " ledger on" : ""));
-  if (impl_->neutral) {
-    impl_->memory = FixSetupMemory::make(lmp);
-    impl_->memory->kept_at(&impl_->memory);
-  }
-  warn_of_stale_springs();
+  grainscope::run_fixes::make_guard(lmp, impl_->models + (impl_->ledger ? " ledger on" : ""));
+  if (impl_->neutral) impl_->memory = grainscope::run_fixes::make_setup_memory(lmp);
+  const bool resets = dynamic_cast<grainscope::ResetsOpenSprings *>(impl_->loop.get());
+  if (law().tangential == TangentialLaw::spring && !resets) impl_->checks.warn_of_stale_springs();
   watch_time_step();
 }
 
 void PairGranInsitu::init_granular() {
-  using Law = ContactObserver::TangentialLaw;
   impl_->loop->init_granular();
-  Law law = Law::other;
-  if (contact_match("tangential", "off")) law = Law::off;
-  else if (contact_match("tangential", "no_history")) law = Law::no_history;
-  else if (contact_match("tangential", "history")) law = Law::history;
-  int spring = 0;
-  if (law == Law::history)
-    while (history_arg[spring].name != "shearx") spring++;
-  impl_->observer.set_law(law, spring);
-  bool elastic = false;
-  for (const char *model : {"hertz", "hooke", "hertz/stiffness", "hooke/stiffness"}) elastic = elastic || contact_match("normal", model);
-  impl_->observer.set_elastic(elastic);
-  impl_->observer.set_rolling(!contact_match("rolling_friction", "off"));
-  impl_->observer.set_limits_force(impl_->models.find("limitForce on") != std::string::npos);
-  impl_->observer.set_wet(contact_match("cohesion", "washino/capillary/viscous") ||
-                          contact_match("cohesion", "easo/capillary/viscous"));
-  impl_->sphere_model = contact_match("surface", "superquadric") ? grainscope::SphereGeometry::of(*this) : "";
-
+  ContactLaw law = grainscope::law_of_models(impl_->models, [this](const char *kind, const char *name) { return contact_match(kind, name); });
+  law.exponent = stressStrainExponent();
+  law.past_column = impl_->past_column;
+  if (law.tangential == TangentialLaw::spring) law.spring_column = column_of("shearx");
   impl_->friction = nullptr;
-  if (law == Law::no_history || law == Law::history) {
+  if (law.tangential == TangentialLaw::viscous || law.tangential == TangentialLaw::spring) {
     force->registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
     force->registry.connect("coeffFrict", impl_->friction, "pair_style gran/insitu");
   }
-  impl_->observer.set_friction(impl_->friction);
+  law.friction = impl_->friction;
+  impl_->reader.set_law(law);
+  impl_->observer.set_keeps_past(law.keeps_past());
+  impl_->sphere_model = contact_match("surface", "superquadric") ? grainscope::SphereGeometry::of(*this) : "";
 }
 
-void PairGranInsitu::warn_of_stale_springs() {
-  if (impl_->warned_of_stale_springs || impl_->observer.law() != ContactObserver::TangentialLaw::history) return;
-  if (neighbor->contactDistanceFactor > 1.0 || dynamic_cast<grainscope::EndsSprings *>(impl_->loop.get())) return;
-  int spheres = atom->sphere_flag;
-  if (atom->superquadric_flag)
-    for (int i = 0; i < atom->nlocal && !spheres; i++)
-      spheres = atom->shape[i][0] == atom->shape[i][1] && atom->shape[i][1] == atom->shape[i][2];
-  int any = 0;
-  MPI_Allreduce(&spheres, &any, 1, MPI_INT, MPI_MAX, world);
-  if (!any) return;
-  impl_->warned_of_stale_springs = true;
-  if (comm->me == 0)
-    error->warning(FLERR, "spheres at contact distance factor 1.0 keep the tangential spring of a contact that has opened, until the "
-                          "next neighbour list: add the line 'neigh_modify contact_distance_factor 1.05'");
-}
-
-/** Once, when there are such grains. */
-void PairGranInsitu::warn_of_sphere_model() {
-  if (impl_->sphere_model.empty() || impl_->warned_of_sphere_model) return;
-  int any = 0;
-  using grainscope::Shape;
-  for (int i = 0; i < atom->nlocal && !any; i++) any = grainscope::symmetry_axis(atom->shape[i]).shape != Shape::sphere;
-  MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, world);
-  if (!any) return;
-  const std::string message = "pair_style gran/insitu: '" + impl_->sphere_model + "' takes its geometry from the "
-      "distance of centres and the radii of spheres: with surface superquadric its forces on grains that are no "
-      "spheres are wrong. Say 'surface ellipsoid', which gives sjkr and sjkr2 the contact's own overlap and effective radius";
-  if (comm->me == 0) error->warning(FLERR, message.c_str());
-  impl_->warned_of_sphere_model = true;
+/** Of the contact history. */
+int PairGranInsitu::column_of(const std::string &name) const {
+  for (std::size_t k = 0; k < history_arg.size(); k++)
+    if (history_arg[k].name == name) return static_cast<int>(k);
+  error->all(FLERR, ("pair_style gran/insitu: the contact history must have a column '" + name + "' for the tangential spring, got '" + impl_->models +
+                     "'").c_str());
+  return -1;
 }
 
 void PairGranInsitu::watch_time_step() {
-  if (!impl_->observer.elastic() || !atom->rmass) return;
-  using Law = ContactObserver::TangentialLaw;
-  const Law law = impl_->observer.law();
-  impl_->watch.begin_run(stressStrainExponent(), law == Law::history || law == Law::other);
+  if (!law().elastic || !atom->rmass) return;
+  impl_->watch.begin_run(law());
   impl_->observer.add(&impl_->watch);
 }
 
-/** Contact history is keyed by grain ID: with two images of one grain within reach of another it is ambiguous. */
-void PairGranInsitu::require_box_large_enough() {
-  const BoxState box(lmp);
-  const double needed = 2.0 * neighbor->cutneighmax;
-  const int periodic[3] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
-  for (int k = 0; k < 3; k++)
-    if (periodic[k] && box.height(k) < needed) {
-      char message[256];
-      snprintf(message, sizeof message, "pair_style gran/insitu: the periodic box must be at least 2 x (largest diameter x contact distance "
-               "factor + skin) = %g high along %c, got %g: two images of one grain could touch the same neighbour", needed, "xyz"[k], box.height(k));
-      error->all(FLERR, message);
-    }
-}
-
 void PairGranInsitu::compute(int eflag, int vflag) {
-  if (neighbor->ago == 0 && history) require_box_large_enough();
-  if (neighbor->ago == 0) warn_of_sphere_model();
-  FixSetupMemory *memory = impl_->memory;
-  const bool again = memory && update->setupflag && memory->again();
-  if (again) {
-    memory->swap_evaluation();
+  if (neighbor->ago == 0 && history) impl_->checks.require_box_large_enough();
+  if (neighbor->ago == 0) impl_->checks.warn_of_sphere_model(impl_->sphere_model);
+  const std::shared_ptr<grainscope::EvaluationMemory> memory = impl_->memory.lock();
+  const bool repeats = memory && update->setupflag && memory->repeats();
+  if (repeats) {
+    memory->swap();
     impl_->observer.resume(memory->stamp());
   }
   {
-    const grainscope::KeptHistory kept(again ? listgranhistory : nullptr, list, dnum());
-    if (impl_->observer.begin(!update->setupflag, again)) update_image_shifts();
+    const grainscope::KeptHistory kept(repeats ? listgranhistory : nullptr, list, dnum());
+    if (impl_->observer.begin(!update->setupflag, repeats)) update_image_shifts();
     set_tangential_bound();
     PairGran::compute(eflag, vflag);
     impl_->observer.end();
   }
-  if (again) memory->swap_evaluation();
+  if (repeats) memory->swap();
   impl_->grains = atom->natoms;
   if (memory) memory->set_stamp(impl_->observer.stamp());
   impl_->watch.judge();

@@ -14,7 +14,11 @@ PairStyle(gran/insitu,PairGranInsitu)
 #include <string>
 #include <vector>
 
-namespace grainscope { class ContactObserver; }
+namespace grainscope {
+class ContactObserver;
+class ContactReader;
+struct ContactLaw;
+}
 
 namespace LAMMPS_NS {
 
@@ -44,6 +48,9 @@ class PairGranInsitu : public PairGranProxy, public grainscope::EllipsoidOwner {
   void unpack_comm(int n, int first, double *buf) override;
 
   grainscope::ContactObserver &observer();
+  grainscope::ContactReader &reader();
+  /** Of the run that was set up last. */
+  const grainscope::ContactLaw &law() const;
   /** The words of the command that name models and settings. */
   const std::string &models() const;
   /** Before a run: grains were given other IDs since the last, and with them each other's springs. */
@@ -57,10 +64,7 @@ class PairGranInsitu : public PairGranProxy, public grainscope::EllipsoidOwner {
 
   bool take_setting(std::vector<char *> &words, const char *keyword, const char *no, const char *yes);
   void add_past_columns();
-  void require_same_columns_in_restart();
-  void require_box_large_enough();
-  void warn_of_stale_springs();
-  void warn_of_sphere_model();
+  int column_of(const std::string &name) const;
   void set_tangential_bound();
   void watch_time_step();
   void update_image_shifts();

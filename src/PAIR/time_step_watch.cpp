@@ -15,17 +15,16 @@ const int steps_between_looks = 1000;
 
 }
 
-void TimeStepWatch::begin_run(double exponent, bool sticks) {
-  exponent_ = exponent;
-  sticks_ = sticks;
-  closer_ = false;
+void TimeStepWatch::begin_run(const ContactLaw &law) {
+  law_ = law;
+  grains_next_ = false;
 }
 
 bool TimeStepWatch::wants_contacts() {
   look_ = Look::none;
-  if (++steps_ < steps_between_looks && !closer_) return false;
-  look_ = closer_ ? Look::grains : Look::contacts;
-  closer_ = false;
+  if (++steps_ < steps_between_looks && !grains_next_) return false;
+  look_ = grains_next_ ? Look::grains : Look::contacts;
+  grains_next_ = false;
   steps_ = 0;
   return true;
 }
@@ -36,15 +35,18 @@ void TimeStepWatch::begin_contacts() {
   grains_.assign(look_ == Look::grains ? atom->nlocal : 0, time_step::GrainModes());
 }
 
-void TimeStepWatch::add_contact(const Contact &c) {
-  if (look_ == Look::contacts) {
-    const double mi = atom->rmass[c.i], mj = atom->rmass[c.j];
-    largest_ = std::max(largest_, time_step::of_contact(c, exponent_, mi * mj / (mi + mj), update->dt));
-    return;
+void TimeStepWatch::add_contacts(ContactSpan contacts) {
+  for (const Contact &c : contacts) {
+    if (look_ == Look::contacts) {
+      const double mi = atom->rmass[c.i], mj = atom->rmass[c.j()];
+      largest_ = std::max(largest_, time_step::of_contact(*c.motion, law_, mi * mj / (mi + mj), update->dt));
+      continue;
+    }
+    const Eigen::Vector3d &arm = c.motion->arm;
+    if (c.motion->tangential_damping > 0.0) damped_ = 1;
+    grains_[c.i].add(c, arm, law_);
+    if (!c.ghost()) grains_[c.j()].add(c, arm + c.branch, law_);
   }
-  if (c.tangential_damping > 0.0) damped_ = 1;
-  grains_[c.i].add(c, c.arm, exponent_, sticks_);
-  if (!c.ghost) grains_[c.j].add(c, c.arm + c.branch, exponent_, sticks_);
 }
 
 void TimeStepWatch::judge() {
@@ -55,7 +57,7 @@ void TimeStepWatch::judge() {
 
 void TimeStepWatch::judge_contacts() {
   MPI_Allreduce(MPI_IN_PLACE, &largest_, 1, MPI_DOUBLE, MPI_MAX, world);
-  closer_ = largest_ >= time_step::harmless;
+  grains_next_ = largest_ >= time_step::harmless;
 }
 
 void TimeStepWatch::judge_grains() {
@@ -67,8 +69,8 @@ void TimeStepWatch::judge_grains() {
   grains_.clear();
   struct { double value; int rank; } largest = {worst.value, comm->me};
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
-  if (largest.value <= std::max(time_step::limit, 2.0 * told_)) return;
-  told_ = largest.value;
+  if (largest.value <= std::max(time_step::limit, 2.0 * warned_of_)) return;
+  warned_of_ = largest.value;
   MPI_Allreduce(MPI_IN_PLACE, &damped_, 1, MPI_INT, MPI_MAX, world);
   double step = worst.value > 0.0 ? worst.largest_step() : 0.0;
   MPI_Bcast(&step, 1, MPI_DOUBLE, largest.rank, world);

@@ -2,6 +2,7 @@
 #ifndef GRAINSCOPE_TIME_STEP_WATCH_H
 #define GRAINSCOPE_TIME_STEP_WATCH_H
 
+#include "contact_law.h"
 #include "contact_sink.h"
 #include "time_step_bound.h"
 #include "lmptype.h"
@@ -16,21 +17,19 @@ class TimeStepWatch : public ContactSink, private LAMMPS_NS::Pointers {
  public:
   explicit TimeStepWatch(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
 
-  /** A run begins. `exponent`, `sticks`: as in NetworkResponse. */
-  void begin_run(double exponent, bool sticks);
+  void begin_run(const ContactLaw &law);
   bool wants_contacts() override;
   void begin_contacts() override;
-  void add_contact(const Contact &contact) override;
+  void add_contacts(ContactSpan contacts) override;
   /** After the evaluation; collective on the steps that it wanted. */
   void judge();
 
  private:
   enum class Look { none, contacts, grains } look_ = Look::none;
-  double exponent_ = 1.5;
-  bool sticks_ = true;
-  double told_ = 0.0;                         // the value that was warned of
+  ContactLaw law_;
+  double warned_of_ = 0.0;                    // the value of b
   int steps_ = 0;                             // since the last look
-  bool closer_ = false;                       // the next look is at grains
+  bool grains_next_ = false;                  // the next look is at grains
   double largest_ = 0.0;                      // of this rank's contacts
   int damped_ = 0;                            // one of them has tangential damping
   std::vector<time_step::GrainModes> grains_;

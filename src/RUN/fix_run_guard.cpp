@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_run_guard.h"
+#include "bin_index.h"
 #include "contact_observer.h"
 #include "finite.h"
 #include "host_messages.h"
 #include "pair_gran_insitu.h"
 #include "restart_seal.h"
+#include "restart_state.h"
 #include "stop_signal.h"
 #include "tangential_bound.h"
 #include "atom.h"
@@ -24,10 +26,11 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-char guard_id[] = "gran_insitu_guard", group_all[] = "all", guard_style[] = "run/guard";
-// A line of an input script would replace it.
-bool making = false;
-bool warned_of_damping = false;  // since there is a pair style of ours
+/** In restart files, with the words of the pair style behind it. */
+struct SavedGuard {
+  static constexpr std::uint32_t version = 1;
+  double length;
+};
 
 const int fixed_face = 1; // of the host's numbers for p f s m
 const int seldom = 100;   // steps between looks at what a run can do without for a while
@@ -51,34 +54,10 @@ std::ostream &operator<<(std::ostream &out, const Quantity &quantity) { return o
 
 }
 
-FixRunGuard::FixRunGuard(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg) {
-  if (!making) error->all(FLERR, "fix run/guard: is made by pair_style gran/insitu, not by an input script");
+FixRunGuard::FixRunGuard(LAMMPS *lmp, int narg, char **arg)
+    : InternalFix(lmp, narg, arg, "pair_style gran/insitu"), settings_(arg[3]), warned_of_damping_(std::make_shared<bool>(false)) {
   restart_global = restart_file = 1;
   nevery = 1;
-}
-
-void FixRunGuard::make(LAMMPS *lmp, const std::string &settings) {
-  Modify *modify = lmp->modify;
-  const int found = modify->find_fix(guard_id);
-  FixRunGuard *guard = found < 0 ? nullptr : dynamic_cast<FixRunGuard *>(modify->fix[found]);
-  if (found >= 0 && !guard)
-    lmp->error->all(FLERR, (std::string("pair_style gran/insitu needs the fix ID '") + guard_id + "', but it is taken").c_str());
-  if (guard) modify->delete_fix(guard_id);
-  char *words[] = {guard_id, group_all, guard_style};
-  making = true;
-  modify->add_fix(3, words);
-  making = false;
-  guard = static_cast<FixRunGuard *>(modify->fix[modify->nfix - 1]);
-  if (found < 0 && !guard->settings_.empty() && guard->settings_ != settings && lmp->comm->me == 0)
-    lmp->error->warning(FLERR, ("pair_style gran/insitu: the restart file was written with '" + guard->settings_ + "', and now it is '" + settings +
-                                "'").c_str());
-  guard->settings_ = settings;
-}
-
-void FixRunGuard::forget(LAMMPS *lmp) {
-  if (lmp->modify && lmp->modify->nfix && lmp->modify->find_fix(guard_id) >= 0) lmp->modify->delete_fix(guard_id);
-  grainscope::stop_signal::release();
-  warned_of_damping = false;
 }
 
 int FixRunGuard::setmask() { return FixConst::PRE_EXCHANGE | FixConst::PRE_NEIGHBOR | FixConst::END_OF_STEP; }
@@ -86,7 +65,7 @@ int FixRunGuard::setmask() { return FixConst::PRE_EXCHANGE | FixConst::PRE_NEIGH
 void FixRunGuard::init() {
   running_ = false;
   grainscope::stop_signal::watch();
-  grainscope::stop_signal::tell(grainscope::last_descriptors(lmp));
+  grainscope::stop_signal::write_last_line_to(grainscope::last_descriptors(lmp));
   fail_together(not_finite(false));
 }
 
@@ -99,11 +78,11 @@ void FixRunGuard::setup(int) {
 /** Once. All walls have been evaluated, too. */
 void FixRunGuard::warn_of_damping() {
   auto &bound = grainscope::TangentialBound::get();
-  if (warned_of_damping || bound.mode() != grainscope::TangentialBound::Mode::watch) return;
+  if (*warned_of_damping_ || bound.mode() != grainscope::TangentialBound::Mode::watch) return;
   double excess = bound.excess();
   MPI_Allreduce(MPI_IN_PLACE, &excess, 1, MPI_DOUBLE, MPI_MAX, world);
   if (excess == 0.0) return;
-  warned_of_damping = true;
+  *warned_of_damping_ = true;
   if (comm->me != 0) return;
   std::ostringstream message;
   message << "step " << update->ntimestep << ": in the first evaluation of a run LIGGGHTS does not limit tangential "
@@ -121,12 +100,12 @@ void FixRunGuard::end_of_step() {
   int all = grainscope::stop_signal::noted() | (trouble.empty() ? 0 : grainscope::stop_signal::trouble);
   if (comm->nprocs > 1) MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_BOR, world);
   if (all & grainscope::stop_signal::trouble) fail_together(trouble);
-  grainscope::stop_signal::pass_on(lmp, all);
+  grainscope::stop_signal::forward_to_host(lmp, all);
 }
 
 void FixRunGuard::post_run() {
   running_ = false;
-  grainscope::stop_signal::tell({STDERR_FILENO});  // the log file may be another before the next run
+  grainscope::stop_signal::write_last_line_to({STDERR_FILENO});  // the log file may be another before the next run
   PairGranInsitu::required_by(lmp, "fix run/guard")->observer().end_run();
   fail_together(not_written());
 }
@@ -135,12 +114,12 @@ void FixRunGuard::fail_together(const std::string &trouble) const {
   int first = trouble.empty() ? comm->nprocs : comm->me;
   MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, world);
   if (first == comm->nprocs) return;
-  std::string told = trouble;
-  int n = told.size();
+  std::string message = trouble;
+  int n = message.size();
   MPI_Bcast(&n, 1, MPI_INT, first, world);
-  told.resize(n);
-  MPI_Bcast(&told[0], n, MPI_CHAR, first, world);
-  error->all(FLERR, told.c_str());
+  message.resize(n);
+  MPI_Bcast(&message[0], n, MPI_CHAR, first, world);
+  error->all(FLERR, message.c_str());
 }
 
 /** A force that is not finite is met in its own step, before it moves a grain out of the world. */
@@ -160,11 +139,11 @@ std::string FixRunGuard::not_finite(bool forces) const {
 
   std::ostringstream message;
   message << "step " << update->ntimestep << ": the " << *first << " of grains";
-  int told = 0, all = 0;
+  int named = 0, all = 0;
   for (int i = 0; i < n; i++) {
     if (finite(first->values[i], first->width)) continue;
     all++;
-    if (told++ < 5) message << " " << atom->tag[i];
+    if (named++ < 5) message << " " << atom->tag[i];
   }
   if (all > 5) message << " and " << all - 5 << " more";
   message << " is not finite";
@@ -212,12 +191,16 @@ void FixRunGuard::write_restart(FILE *file) {
   Fix *springs = running_ ? modify->find_fix_style_strict("contacthistory", 0) : nullptr;
   if (springs) springs->pre_exchange();
   if (comm->me != 0) return;
-  const int size = settings_.size() + 1;
-  fwrite(&size, sizeof size, 1, file);
-  fwrite(settings_.c_str(), 1, size, file);
+  const SavedGuard saved{static_cast<double>(settings_.size())};
+  grainscope::write_state(file, saved, settings_.data(), settings_.size());
 }
 
-void FixRunGuard::restart(char *buffer) { settings_ = buffer; }
+void FixRunGuard::restart(char *buffer) {
+  const SavedGuard saved = grainscope::read_state<SavedGuard>(lmp, *this, buffer);
+  const std::string written(grainscope::state_block::tail(buffer), grainscope::whole_count(saved.length, 1e6));
+  if (written.empty() || written == settings_ || comm->me != 0) return;
+  error->warning(FLERR, ("pair_style gran/insitu: the restart file was written with '" + written + "', and now it is '" + settings_ + "'").c_str());
+}
 
 void FixRunGuard::write_restart_file(char *file) {
   if (strchr(file, '%')) return;

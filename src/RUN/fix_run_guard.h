@@ -8,7 +8,8 @@ FixStyle(run/guard,FixRunGuard)
 #ifndef LMP_FIX_RUN_GUARD_H
 #define LMP_FIX_RUN_GUARD_H
 
-#include "fix.h"
+#include "internal_fix.h"
+#include <memory>
 #include <string>
 
 namespace LAMMPS_NS {
@@ -16,8 +17,8 @@ namespace LAMMPS_NS {
 /** Watches over every run with pair_style gran/insitu: stops it at numbers that are not finite, at grains lost from a periodic box and at output that
  *  cannot be written; warns of a first evaluation that exceeds the friction limit; ends it in order at a signal; seals
  *  restart files, with the words of the pair style in them.
- *  Made by the pair style, not by input scripts. */
-class FixRunGuard : public Fix {
+ *  Made by the pair style, with its words as the argument, not by input scripts. */
+class FixRunGuard : public grainscope::InternalFix {
  public:
   FixRunGuard(class LAMMPS *lmp, int narg, char **arg);
   int setmask() override;
@@ -33,12 +34,13 @@ class FixRunGuard : public Fix {
   void restart(char *buffer) override;
   void write_restart_file(char *file) override;
 
-  /** Makes the one of this run, behind all other fixes; `settings`: the words of the pair style. Collective. */
-  static void make(class LAMMPS *lmp, const std::string &settings);
-  static void forget(class LAMMPS *lmp);
+ protected:
+  std::shared_ptr<void> state() override { return warned_of_damping_; }
+  void take_state(const std::shared_ptr<void> &state) override { warned_of_damping_ = std::static_pointer_cast<bool>(state); }
 
  private:
-  std::string settings_;
+  std::string settings_;         // the words of the pair style
+  std::shared_ptr<bool> warned_of_damping_;   // since there is a pair style of ours
   bool running_ = false;
   bigint grains_ = 0;            // on this rank, before they are dealt out to the ranks
 

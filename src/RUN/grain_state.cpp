@@ -1,56 +1,46 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "grain_state.h"
+#include "checksum.h"
 #include "atom.h"
+#include <algorithm>
 #include <cstddef>
 
 namespace grainscope {
 
 namespace {
 
-/** FNV-1a of the bits of numbers, as one that is a double without loss. */
-class Hash {
+/** The numbers of a grain that one checksum is made of. */
+class Numbers {
  public:
-  void add_bytes(const void *from, std::size_t n) {
-    const unsigned char *bytes = static_cast<const unsigned char *>(from);
-    for (std::size_t k = 0; k < n; k++) h_ = (h_ ^ bytes[k]) * 1099511628211u;
-  }
-  void add(const double *values, int n) { add_bytes(values, n * sizeof(double)); }
+  void add(const double *values, int n) { count_ = std::copy(values, values + n, numbers_ + count_) - numbers_; }
   void add(double value) { add(&value, 1); }
-  std::uint64_t bits() const { return h_; }
-  double value() const { return static_cast<double>(h_ >> 11); }
+  double checksum() const { return checksum_as_double(numbers_, count_ * sizeof(double)); }
 
  private:
-  std::uint64_t h_ = 14695981039346656037u;
+  double numbers_[18];
+  std::ptrdiff_t count_ = 0;
 };
 
 }
 
-double velocity_hash(const LAMMPS_NS::Atom *atom, int i) {
-  Hash hash;
-  hash.add(atom->v[i], 3);
-  return hash.value();
-}
+double velocity_hash(const LAMMPS_NS::Atom *atom, int i) { return checksum_as_double(atom->v[i], 3 * sizeof(double)); }
 
 double state_hash(const LAMMPS_NS::Atom *atom, int i) {
-  Hash hash;
-  hash.add(atom->omega[i], 3);
-  hash.add(atom->radius[i]);
-  hash.add(atom->rmass[i]);
-  hash.add(atom->type[i]);
+  Numbers state;
+  state.add(atom->omega[i], 3);
+  state.add(atom->radius[i]);
+  state.add(atom->rmass[i]);
+  state.add(atom->type[i]);
   if (atom->superquadric_flag) {
-    hash.add(atom->quaternion[i], 4);
-    hash.add(atom->angmom[i], 3);
-    hash.add(atom->shape[i], 3);
-    hash.add(atom->blockiness[i], 2);
+    state.add(atom->quaternion[i], 4);
+    state.add(atom->angmom[i], 3);
+    state.add(atom->shape[i], 3);
+    state.add(atom->blockiness[i], 2);
   }
-  return hash.value();
+  return state.checksum();
 }
 
-std::uint64_t text_hash(const std::string &text) {
-  Hash hash;
-  hash.add_bytes(text.data(), text.size());
-  return hash.bits();
-}
+std::uint64_t text_hash(const std::string &text) { return checksum(text.data(), text.size()); }
 
 void edges_crossed(LAMMPS_NS::tagint before, LAMMPS_NS::tagint after, int edges[3]) {
   for (int k = 0; k < 3; k++) {

@@ -10,9 +10,9 @@ Vector3d vector(fuzz::Input &input) { return {input.small(), input.small(), inpu
 
 void change_frame(fuzz::Input &input, LedgerFrame &frame) {
   for (int a = 0; a < 3; a++)
-    for (int b = a; b < 3; b++) frame.gradient(a, b) = input.small();
+    for (int b = a; b < 3; b++) frame.velocity_gradient(a, b) = input.small();
   frame.edge_lengths = Vector3d(9.0, 10.0, 11.0) + vector(input);
-  frame.edge_rates = input.flag() ? Vector3d(frame.gradient.diagonal().cwiseProduct(frame.edge_lengths)) : vector(input);
+  frame.edge_rates = input.flag() ? Vector3d(frame.velocity_gradient.diagonal().cwiseProduct(frame.edge_lengths)) : vector(input);
   frame.centre = vector(input);
 }
 
@@ -30,12 +30,8 @@ double turnover(const Pair &pair) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
   fuzz::Input input(data, size);
   Pair pair(input.logarithmic(1e-6, 1e-2));
-  grainscope::LedgerLaw law;
-  law.exponent = 1.5;
-  law.spring = true;
-  law.viscous = input.flag();
-  law.rolling = input.flag();
-  pair.rolling = law.rolling ? input.logarithmic(1e-3, 1.0) : 0.0;
+  const grainscope::ContactLaw law = make_law(1.5, grainscope::TangentialLaw::spring, input.flag());
+  pair.rolling = law.rolls ? input.logarithmic(1e-3, 1.0) : 0.0;
   pair.ledger.set_law(law);
   for (Sphere &s : pair.spheres) {
     s.mass = input.logarithmic(0.1, 10.0);
@@ -57,7 +53,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     largest = std::max(largest, turnover(pair));
     fuzz::require_below(std::fabs(pair.residual()), 1e-12 * largest, "the books close");
     EnergyLedger again;
-    again.restore(pair.ledger.state());
+    again.restore(pair.ledger.state(), pair.ledger.frame());
     fuzz::require(again.totals() == pair.ledger.totals(), "a restart keeps the books");
   }
   return 0;

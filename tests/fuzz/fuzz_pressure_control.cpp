@@ -9,17 +9,18 @@ using fuzz::require_below;
 namespace {
 
 Contact contact_of(fuzz::Input &input) {
-  Contact c{};
+  Contact c;
+  ContactMotion &m = c.motion.emplace();
   input.direction(c.normal.data(), 3);
   c.branch = input.logarithmic(1e-3, 1e3) * c.normal + input.small() * Eigen::Vector3d(input.small(), input.small(), input.small());
   c.force = 100.0 * Eigen::Vector3d(input.small(), input.small(), input.small());
   c.weight = input.flag() ? 1.0 : 0.5;
-  c.normal_stiffness = input.logarithmic(1e-3, 1e9);
-  c.tangential_stiffness = input.flag() ? 0.8 * c.normal_stiffness : 0.0;
-  c.damping_coefficient = input.flag() ? input.logarithmic(1e-6, 1e6) : 0.0;
-  c.tangential_damping = input.flag() ? c.damping_coefficient : 0.0;
+  m.normal_stiffness = input.logarithmic(1e-3, 1e9);
+  m.tangential_stiffness = input.flag() ? 0.8 * m.normal_stiffness : 0.0;
+  m.damping_coefficient = input.flag() ? input.logarithmic(1e-6, 1e6) : 0.0;
+  m.tangential_damping = input.flag() ? m.damping_coefficient : 0.0;
   c.sliding = input.flag();
-  c.damped = !c.sliding && c.tangential_damping > 0.0;
+  c.damped = !c.sliding && m.tangential_damping > 0.0;
   return c;
 }
 
@@ -64,8 +65,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
   if (input.flag()) control.max_rate = input.logarithmic(1e-9, 1e9);
   const int axis = input.whole(0, 2);
   NetworkResponse evaluation, window;
+  ContactLaw law;
   for (int n = input.whole(0, 8); n > 0; n--) {
-    evaluation.add(contact_of(input), axis, input.flag() ? 1.5 : 1.0, input.flag());
+    law.exponent = input.flag() ? 1.5 : 1.0;
+    law.tangential = input.flag() ? TangentialLaw::spring : TangentialLaw::none;
+    evaluation.add(contact_of(input), axis, law);
     require(evaluation.stiffness >= 0.0 && evaluation.damping >= 0.0, "a network resists", evaluation.stiffness);
   }
   window.add(evaluation, input.logarithmic(1e-3, 1.0));

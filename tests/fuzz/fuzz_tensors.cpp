@@ -60,7 +60,7 @@ void check_fabric(fuzz::Input &input) {
     m.distance = input.logarithmic(1e-3, 1e3);
     m.normal_force = input.small();
     m.tangential_force = input.uniform(0.0, 1.0);
-    Contact c{};
+    Contact c;
     c.normal = m.normal;
     c.weight = m.weight;
     sums.add(c);

@@ -15,23 +15,23 @@ namespace {
 struct Touch {
   Contact contact;
   Vector3d arm;
-  double exponent;
-  bool sticks;
+  ContactLaw law;
 };
 
 Touch touch_of(fuzz::Input &input, double size, double stiffness) {
-  Touch t{};
+  Touch t;
   Contact &c = t.contact;
+  ContactMotion &m = c.motion.emplace();
   input.direction(c.normal.data(), 3);
   t.arm = size * Vector3d(input.small(), input.small(), input.small());
-  c.normal_stiffness = stiffness * input.logarithmic(1e-3, 1e3);
-  c.tangential_stiffness = input.uniform(0.0, 1.0) * c.normal_stiffness;
-  c.damping_coefficient = input.flag() ? input.logarithmic(1e-9, 1e9) : 0.0;
-  c.tangential_damping = input.uniform(0.0, 1.0) * c.damping_coefficient;
+  m.normal_stiffness = stiffness * input.logarithmic(1e-3, 1e3);
+  m.tangential_stiffness = input.uniform(0.0, 1.0) * m.normal_stiffness;
+  m.damping_coefficient = input.flag() ? input.logarithmic(1e-9, 1e9) : 0.0;
+  m.tangential_damping = input.uniform(0.0, 1.0) * m.damping_coefficient;
   c.sliding = input.flag();
-  c.damped = !c.sliding && c.tangential_damping > 0.0;
-  t.exponent = input.flag() ? 1.5 : 1.0;
-  t.sticks = input.flag();
+  c.damped = !c.sliding && m.tangential_damping > 0.0;
+  t.law.exponent = input.flag() ? 1.5 : 1.0;
+  t.law.tangential = input.flag() ? TangentialLaw::spring : TangentialLaw::none;
   return t;
 }
 
@@ -40,7 +40,7 @@ GrainModes modes_of(const std::vector<Touch> &touches, std::size_t n, const Matr
   for (std::size_t k = 0; k < n; k++) {
     Contact c = touches[k].contact;
     c.normal = turn * c.normal;
-    modes.add(c, turn * touches[k].arm, touches[k].exponent, touches[k].sticks);
+    modes.add(c, turn * touches[k].arm, touches[k].law);
   }
   return modes;
 }

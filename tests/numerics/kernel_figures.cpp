@@ -103,9 +103,9 @@ void rotations(Random &random) {
 void ledgers(Random &random) {
   for (int n = 0; n < 50; n++) {
     colliding_pair::Pair pair;
-    pair.ledger.set_law({1.5, true, false, true});
+    pair.ledger.set_law(make_law(1.5, grainscope::TangentialLaw::spring, true));
     pair.rolling = 0.1;
-    pair.frame.gradient(0, 1) = random.uniform(-1.0, 1.0);
+    pair.frame.velocity_gradient(0, 1) = random.uniform(-1.0, 1.0);
     for (auto &sphere : pair.spheres)
       for (int k = 0; k < 3; k++) sphere.omega[k] = random.uniform(-1.0, 1.0);
     pair.evaluate(false);

@@ -3,13 +3,17 @@
 #define GRAINSCOPE_COLLIDING_PAIR_H
 
 #include "energy_ledger.h"
+#include "make_contact.h"
 #include <cmath>
 
 namespace colliding_pair {
 
 using Eigen::Vector3d;
 using grainscope::Contact;
+using grainscope::ContactMotion;
 using grainscope::ContactPast;
+using grainscope::ContactRolling;
+using grainscope::ContactSpring;
 using grainscope::EnergyLedger;
 using grainscope::LedgerFrame;
 
@@ -39,7 +43,7 @@ class Pair {
   double rolling = 0.0;  // torque per difference of spins
   bool touching = false, touched = false;
 
-  explicit Pair(double step = 1e-3) : dt(step) { ledger.set_law({1.5, true, false, false}); }
+  explicit Pair(double step = 1e-3) : dt(step) { ledger.set_law(make_law(1.5, grainscope::TangentialLaw::spring)); }
 
   void evaluate(bool springs_move) {
     Sphere &i = spheres[0], &j = spheres[1];
@@ -51,48 +55,48 @@ class Pair {
     const double d = 2.0 * radius - r.norm();
     touching = d > 0.0;
     if (!touching) {
-      past_ = ContactPast();
+      past_.reset();
       spring_.setZero();
       return;
     }
     touched = true;
-    Contact contact{};
-    contact.j = 1;
-    contact.weight = 1.0;
+    Contact contact;
+    ContactMotion &motion = contact.motion.emplace();
+    contact.i = 0;
+    contact.partner = grainscope::PartnerGrain{1, false};
     contact.branch = r;
     contact.normal = n;
     contact.overlap = d;
-    contact.arm = -(radius - 0.5 * d) * n;
-    const Vector3d u = i.v - j.v + i.omega.cross(contact.arm) - j.omega.cross(contact.arm + r);
-    contact.normal_velocity = u.dot(n);
-    contact.tangential_velocity = u - u.dot(n) * n;
-    contact.normal_stiffness = k * std::sqrt(d);
-    contact.tangential_stiffness = h * std::sqrt(d);
-    contact.normal_damping = -c * std::sqrt(std::sqrt(d)) * u.dot(n);
-    contact.spring_before = spring_;
+    motion.arm = -(radius - 0.5 * d) * n;
+    const Vector3d u = i.v - j.v + i.omega.cross(motion.arm) - j.omega.cross(motion.arm + r);
+    motion.normal_velocity = u.dot(n);
+    motion.tangential_velocity = u - u.dot(n) * n;
+    motion.normal_stiffness = k * std::sqrt(d);
+    motion.tangential_stiffness = h * std::sqrt(d);
+    motion.normal_damping = -c * std::sqrt(std::sqrt(d)) * u.dot(n);
+    const Vector3d before = spring_;
     Vector3d tried = spring_;
     if (springs_move) {
-      tried += dt * contact.tangential_velocity;
+      tried += dt * motion.tangential_velocity;
       tried -= tried.dot(n) * n;
     }
-    contact.normal_force = contact.normal_stiffness * d + contact.normal_damping;
-    const double limit = friction * std::fabs(contact.normal_force) / contact.tangential_stiffness;
+    contact.normal_force = motion.normal_stiffness * d + motion.normal_damping;
+    const double limit = friction * std::fabs(contact.normal_force) / motion.tangential_stiffness;
     contact.sliding = tried.norm() > limit;
     spring_ = contact.sliding ? Vector3d(limit / tried.norm() * tried) : tried;
-    contact.spring = spring_;
-    contact.cut = tried - spring_;
-    contact.tangential_force = -contact.tangential_stiffness * spring_;
+    contact.spring = ContactSpring{before, spring_, tried - spring_};
+    contact.tangential_force = -motion.tangential_stiffness * spring_;
     contact.force = contact.normal_force * n + contact.tangential_force;
-    contact.spin = i.omega - j.omega;
-    contact.rolling_torque = -rolling * contact.spin;
-    contact.past = &past_;
+    const Vector3d spin = i.omega - j.omega, torque = -rolling * spin;
+    contact.rolling = ContactRolling{spin, torque};
+    contact.past = past_;
     ledger.add(contact, dt, springs_move);
-    past_ = {true, d, contact.normal_stiffness * d, contact.tangential_stiffness, -0.5 * dt * contact.normal_stiffness * d * u.dot(n),
-             0.5 * dt * contact.tangential_stiffness * spring_.dot(contact.tangential_velocity)};
+    past_ = ContactPast{d, motion.normal_stiffness * d, motion.tangential_stiffness, -0.5 * dt * motion.normal_stiffness * d * u.dot(n),
+             0.5 * dt * motion.tangential_stiffness * spring_.dot(motion.tangential_velocity)};
     i.force += contact.force;
     j.force -= contact.force;
-    i.torque += contact.arm.cross(contact.force) + contact.rolling_torque;
-    j.torque -= (contact.arm + r).cross(contact.force) + contact.rolling_torque;
+    i.torque += motion.arm.cross(contact.force) + torque;
+    j.torque -= (motion.arm + r).cross(contact.force) + torque;
   }
 
   void step(const Vector3d &unseen_kick = Vector3d::Zero()) {
@@ -130,7 +134,7 @@ class Pair {
 
  private:
   Vector3d spring_ = Vector3d::Zero();
-  ContactPast past_;
+  std::optional<ContactPast> past_;
 };
 
 }

@@ -65,9 +65,9 @@ TEST(energy_ledger, a_kick_between_steps_comes_from_outside) {
 
 TEST(energy_ledger, energies_of_another_frame_close_too) {
   Pair pair;
-  pair.frame.gradient << 0.1, 0.7, -0.2, 0.0, -0.3, 0.4, 0.0, 0.0, 0.2;
+  pair.frame.velocity_gradient << 0.1, 0.7, -0.2, 0.0, -0.3, 0.4, 0.0, 0.0, 0.2;
   pair.frame.edge_lengths << 8.0, 9.0, 10.0;
-  pair.frame.edge_rates = pair.frame.gradient.diagonal().cwiseProduct(pair.frame.edge_lengths);
+  pair.frame.edge_rates = pair.frame.velocity_gradient.diagonal().cwiseProduct(pair.frame.edge_lengths);
   pair.frame.centre << 0.3, -0.1, 0.2;
   pair.evaluate(false);
   for (int n = 0; n < 200; n++) pair.step();
@@ -80,20 +80,20 @@ TEST(energy_ledger, energies_of_another_frame_close_too) {
 TEST(energy_ledger, a_changed_frame_is_told_apart_from_a_box_that_moves_on) {
   Pair pair;
   pair.frame.edge_lengths << 10.0, 10.0, 10.0;
-  pair.frame.gradient(1, 1) = 0.1;
+  pair.frame.velocity_gradient(1, 1) = 0.1;
   pair.frame.edge_rates[1] = 1.0;
   pair.evaluate(false);
   pair.step();
   pair.frame.edge_lengths[1] += pair.dt;  // the same velocity of the edge, a longer box: a smaller gradient
-  pair.frame.gradient(1, 1) = 1.0 / pair.frame.edge_lengths[1];
+  pair.frame.velocity_gradient(1, 1) = 1.0 / pair.frame.edge_lengths[1];
   pair.step();
   EXPECT_EQ(pair.ledger.totals()[E::W_frame], 0.0);
   double expected = 0.0;
   for (const Sphere &s : pair.spheres) {
-    const double y = s.x[1], p = s.v[1] - pair.frame.gradient(1, 1) * y, q = s.v[1] - 0.2 * y;
+    const double y = s.x[1], p = s.v[1] - pair.frame.velocity_gradient(1, 1) * y, q = s.v[1] - 0.2 * y;
     expected += 0.5 * s.mass * (q * q - p * p);
   }
-  pair.frame.gradient(1, 1) = 0.2;
+  pair.frame.velocity_gradient(1, 1) = 0.2;
   pair.step();
   EXPECT_NEAR(pair.ledger.totals()[E::W_frame], expected, rounding);
   EXPECT_NEAR(pair.residual(), 0.0, rounding);
@@ -125,25 +125,22 @@ TEST(energy_ledger, one_step_of_a_spring_by_hand) {
   // k_t 100 -> 400, spring (0.01, 0, 0) -> tried (0.05, 0, 0), cut at (0.03, 0, 0):
   // D_t = (1 + 12)/2 0.02 = 0.13, G_k = -(400 - 100)/2 0.01 0.03 = -0.045.
   EnergyLedger ledger;
-  ledger.set_law({1.5, true, false, false});
+  ledger.set_law(make_law(1.5, grainscope::TangentialLaw::spring));
   const double rest[3] = {0.0, 0.0, 0.0};
   const LedgerFrame frame;
   ledger.begin_evaluation(2);
   Contact c = make_contact();
-  ContactPast past;
-  c.past = &past;
-  c.tangential_stiffness = 100.0;
-  c.spring = c.spring_before = Vector3d(0.0, 0.01, 0.0);
-  c.cut.setZero();
+  const Vector3d before(0.0, 0.01, 0.0), after(0.0, 0.03, 0.0), cut(0.0, 0.02, 0.0);
+  c.motion->tangential_stiffness = 100.0;
+  c.spring = ContactSpring{before, before, Vector3d::Zero()};
   ledger.add(c, 0.1, false);
   ledger.begin_start_of_step(frame);
   for (int g = 0; g < 2; g++) ledger.start_of_step({g, 1.0, rest, rest, rest, rest}, rest, rest, 0.1);
   ledger.book_start(0.1);
   ledger.begin_evaluation(2);
-  past = {true, 0.01, 6.0, 100.0, 0.0, 0.0};
-  c.tangential_stiffness = 400.0;
-  c.spring = Vector3d(0.0, 0.03, 0.0);
-  c.cut = Vector3d(0.0, 0.02, 0.0);
+  c.past = ContactPast{0.01, 6.0, 100.0, 0.0, 0.0};
+  c.motion->tangential_stiffness = 400.0;
+  c.spring = ContactSpring{before, after, cut};
   c.sliding = true;
   ledger.add(c, 0.1, true);
   ledger.begin_end_of_step();
@@ -171,7 +168,7 @@ TEST(energy_ledger, closes_wherever_it_is_in_memory) {
 
 TEST(energy_ledger, rolling_loses_what_the_ledger_says) {
   Pair pair;
-  pair.ledger.set_law({1.5, true, false, true});
+  pair.ledger.set_law(make_law(1.5, grainscope::TangentialLaw::spring, true));
   pair.rolling = 0.5;
   pair.evaluate(false);
   for (int n = 0; n < 400; n++) pair.step();

@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 namespace {
 
 Contact along(const Vector3d &normal, double weight = 1.0) {
-  Contact c = {};
+  Contact c;
   c.normal = normal;
   c.weight = weight;
   return c;

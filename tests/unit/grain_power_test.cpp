@@ -30,10 +30,10 @@ TEST(grain_power, two_owners_give_the_power_once_with_the_velocity_of_the_image)
   grainscope::GrainPower power;
   power.reset(2);
   grainscope::Contact c = make_contact(0.5);
-  c.j = 2;  // a ghost of grain 1
+  c.partner = grainscope::PartnerGrain{2, true};  // a ghost of grain 1
   power.add(c, force, lever_i, lever_j, image);
   c.i = 1;
-  c.j = 3;  // a ghost of grain 0
+  c.partner = grainscope::PartnerGrain{3, true};  // a ghost of grain 0
   power.add(c, -force, lever_j, lever_i, -image);
   EXPECT_NEAR(power.power(v, omega), relative_power(image), 1e-15);
 }

@@ -8,39 +8,42 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using grainscope::Contact;
+using grainscope::TangentialLaw;
 using grainscope::time_step::GrainModes;
 using grainscope::time_step::of_contact;
 
 // make_contact(): k_n 600, k_t 500, gamma_n 8, gamma_t 5, sliding.
 const double dt = 0.01, mass = 2.0, radius = 1.0;
+const grainscope::ContactLaw hertz = make_law(1.5, TangentialLaw::none), hooke = make_law(1.0, TangentialLaw::none),
+                             sticking_hooke = make_law(1.0, TangentialLaw::spring);
 const Matrix3d inertia = 0.4 * mass * radius * radius * Matrix3d::Identity();
 
 TEST(time_step_bound, one_contact_of_equal_spheres_is_exact) {
   GrainModes modes;
   const Contact c = make_contact();
-  modes.add(c, Vector3d(-1.0, 0.0, 0.0), 1.5, false);
+  modes.add(c, Vector3d(-1.0, 0.0, 0.0), hertz);
   const double expected = (dt * dt * 900.0 + 2.0 * dt * 8.0) / (0.5 * mass);
   EXPECT_NEAR(modes.fastest(mass, inertia, dt).value, expected, 1e-14);
-  EXPECT_NEAR(of_contact(c, 1.5, 0.5 * mass, dt), expected, 1e-15);
+  EXPECT_NEAR(of_contact(*c.motion, hertz, 0.5 * mass, dt), expected, 1e-15);
 }
 
 TEST(time_step_bound, a_sphere_under_its_tangential_spring_has_two_sevenths_of_its_mass) {
   GrainModes modes;
   Contact c = make_contact();
-  c.damping_coefficient = 0.0;
-  modes.add(c, Vector3d(-1.0, 0.0, 0.0), 1.0, true);
+  c.motion->damping_coefficient = 0.0;
+  modes.add(c, Vector3d(-1.0, 0.0, 0.0), sticking_hooke);
   // 1/m + r^2/I = 3.5/m; k_t 3.5 = 1750 is more than k_n = 600
   EXPECT_NEAR(modes.fastest(mass, inertia, dt).value, 2.0 * dt * dt * 500.0 * 3.5 / mass, 1e-14);
 }
 
 TEST(time_step_bound, tangential_damping_counts_where_the_contact_sticks) {
   Contact c = make_contact();
-  c.damping_coefficient = 0.0;
+  c.motion->damping_coefficient = 0.0;
   GrainModes sliding, sticking;
-  sliding.add(c, Vector3d(-1.0, 0.0, 0.0), 1.0, true);
+  sliding.add(c, Vector3d(-1.0, 0.0, 0.0), sticking_hooke);
   c.sliding = false;
   c.damped = true;
-  sticking.add(c, Vector3d(-1.0, 0.0, 0.0), 1.0, true);
+  sticking.add(c, Vector3d(-1.0, 0.0, 0.0), sticking_hooke);
   const double difference = sticking.fastest(mass, inertia, dt).value - sliding.fastest(mass, inertia, dt).value;
   EXPECT_NEAR(difference, 2.0 * 2.0 * dt * 5.0 * 3.5 / mass, 1e-14);
 }
@@ -48,16 +51,16 @@ TEST(time_step_bound, tangential_damping_counts_where_the_contact_sticks) {
 TEST(time_step_bound, contacts_on_both_sides_add_up) {
   GrainModes one, two;
   Contact c = make_contact();
-  one.add(c, Vector3d(-1.0, 0.0, 0.0), 1.0, false);
-  two.add(c, Vector3d(-1.0, 0.0, 0.0), 1.0, false);
+  one.add(c, Vector3d(-1.0, 0.0, 0.0), hooke);
+  two.add(c, Vector3d(-1.0, 0.0, 0.0), hooke);
   c.normal = -c.normal;
-  two.add(c, Vector3d(1.0, 0.0, 0.0), 1.0, false);
+  two.add(c, Vector3d(1.0, 0.0, 0.0), hooke);
   EXPECT_NEAR(two.fastest(mass, inertia, dt).value, 2.0 * one.fastest(mass, inertia, dt).value, 1e-14);
 }
 
 TEST(time_step_bound, the_largest_step_is_where_the_limit_is_reached) {
   GrainModes modes;
-  modes.add(make_contact(), Vector3d(-1.0, 0.0, 0.0), 1.5, false);
+  modes.add(make_contact(), Vector3d(-1.0, 0.0, 0.0), hertz);
   const double largest = modes.fastest(mass, inertia, dt).largest_step();
   EXPECT_NEAR(modes.fastest(mass, inertia, largest).value, 4.0, 1e-12);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#ifndef GRAINSCOPE_SURROUNDINGS_H
-#define GRAINSCOPE_SURROUNDINGS_H
+#ifndef GRAINSCOPE_REQUIREMENTS_H
+#define GRAINSCOPE_REQUIREMENTS_H
 
 #include "arguments.h"
 #include "atom.h"
@@ -11,14 +11,14 @@ namespace grainscope {
 
 /** Errors unless grains have a radius or semi-axes, and spins. In the constructor, once the words are read, and in init(): before there is a box
  *  the atom style may change. */
-inline void require_grains(LAMMPS_NS::LAMMPS *lmp, const Arguments &complaints) {
+inline void require_grains(LAMMPS_NS::LAMMPS *lmp, const Arguments &errors) {
   if (!lmp->atom->superquadric_flag && !lmp->atom->sphere_flag)
-    complaints.fail("needs atom_style superquadric or sphere, got '" + std::string(lmp->atom->atom_style) + "'");
+    errors.fail("needs atom_style superquadric or sphere, got '" + std::string(lmp->atom->atom_style) + "'");
 }
 
 /** Errors unless there is a box: the host makes no fix before, and a memory of grains is one. */
-inline void require_box(LAMMPS_NS::LAMMPS *lmp, const Arguments &complaints) {
-  if (!lmp->domain->box_exist) complaints.fail("remembers what grains did: define it after the simulation box");
+inline void require_box(LAMMPS_NS::LAMMPS *lmp, const Arguments &errors) {
+  if (!lmp->domain->box_exist) errors.fail("remembers what grains did: define it after the simulation box");
 }
 
 }

@@ -69,7 +69,7 @@ void release() {
   watching = false;
 }
 
-void tell(const std::vector<int> &where) {
+void write_last_line_to(const std::vector<int> &where) {
   places = 0;  // in this order: a signal may come in between
   const int n = std::min<int>(where.size(), most);
   for (int k = 0; k < n; k++) descriptors[k] = where[k];
@@ -78,7 +78,7 @@ void tell(const std::vector<int> &where) {
 
 int noted() { return (wants_quit ? quit : 0) | (wants_restart ? restart : 0); }
 
-void pass_on(LAMMPS_NS::LAMMPS *lmp, int all) {
+void forward_to_host(LAMMPS_NS::LAMMPS *lmp, int all) {
   if (!(all & (quit | restart))) return;
   wants_restart = 0;
   if ((all & quit) && !SignalHandler::request_quit) say(lmp, "SIGINT or SIGTERM: the run ends after the coming step, or after this one when it is its last");

@@ -16,16 +16,16 @@ namespace stop_signal {
 /** Takes the signals over from the host, with what it has noted. */
 void watch();
 /** Descriptors that a second signal, which ends the process at once, writes its line to; stderr until this is called. */
-void tell(const std::vector<int> &where);
+void write_last_line_to(const std::vector<int> &where);
 /** Gives them back. */
 void release();
 
-/** What ranks tell each other at the end of a step, as bits. */
-enum Word { quit = 1, restart = 2, trouble = 4 };
+/** What ranks exchange at the end of a step, as bits. */
+enum Request { quit = 1, restart = 2, trouble = 4 };
 /** The first two, as far as they have reached this rank. */
 int noted();
-/** At the end of a step: what has reached any rank is passed on to the host, for the coming step, or for this one when it is the last. */
-void pass_on(LAMMPS_NS::LAMMPS *lmp, int all);
+/** At the end of a step: what has reached any rank is handed to the host, for the coming step, or for this one when it is the last. */
+void forward_to_host(LAMMPS_NS::LAMMPS *lmp, int all);
 
 }
 

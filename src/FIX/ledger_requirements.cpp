@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ledger_requirements.h"
+#include "contact_law.h"
+#include "pair_gran_insitu.h"
+#include "atom.h"
+#include "domain.h"
+#include "error.h"
+#include "fix.h"
+#include "group.h"
+#include "modify.h"
+#include <cstdlib>
+#include <cstring>
+#include <initializer_list>
+
+namespace grainscope {
+
+using LAMMPS_NS::Fix;
+using LAMMPS_NS::PairGranInsitu;
+
+namespace {
+
+bool one_of(const char *style, std::initializer_list<const char *> styles) {
+  for (const char *one : styles)
+    if (!strcmp(style, one)) return true;
+  return false;
+}
+
+}
+
+void LedgerRequirements::fail(const std::string &message) const {
+  error->all(FLERR, (who_ + ": " + message).c_str());
+  std::abort();  // not reached: error->all ends the run
+}
+
+void LedgerRequirements::require_known_contacts(PairGranInsitu &pair) const {
+  const ContactLaw &law = pair.law();
+  if (!law.keeps_past())
+    fail("needs 'ledger on' in pair_style gran/insitu, which remembers what each contact stored, got '" + pair.models() + "'");
+  if (!law.why_no_energy().empty()) fail(law.why_no_energy());
+  if (pair.renumbered())
+    fail("grains were given other IDs, and what is known of contacts goes by ID: say 'compress no' to delete_atoms");
+}
+
+/** Whether some grain belongs to the ledger's group and to another. Collective. */
+bool LedgerRequirements::shares_grains(int other_groupbit) const {
+  int any = 0;
+  for (int i = 0; i < atom->nlocal; i++)
+    if ((atom->mask[i] & groupbit_) && (atom->mask[i] & other_groupbit)) any = 1;
+  MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, world);
+  return any;
+}
+
+/** Kinetic energy is booked as velocity Verlet moves it: every grain of the group by one such fix, or not at all (frozen). */
+void LedgerRequirements::require_moved_by_verlet() const {
+  int moved = 0;
+  for (int k = 0; k < modify->nfix; k++) {
+    const Fix *fix = modify->fix[k];
+    if (one_of(fix->style, {"nve/sphere", "nve/superquadric", "nve/spheroid", "freeze"})) {
+      moved |= fix->groupbit;
+    } else if (fix->time_integrate || fix->rigid_flag || strstr(fix->style, "multisphere") || !strcmp(fix->style, "move")) {
+      if (shares_grains(fix->groupbit))
+        fail(std::string("knows grains that are moved by fix nve/sphere, nve/superquadric or nve/spheroid, or frozen, got fix ") + fix->id + " of style " +
+             fix->style);
+    }
+  }
+  int loose = 0;
+  for (int i = 0; i < atom->nlocal; i++)
+    if ((atom->mask[i] & groupbit_) && !(atom->mask[i] & moved)) loose++;
+  MPI_Allreduce(MPI_IN_PLACE, &loose, 1, MPI_INT, MPI_SUM, world);
+  if (loose)
+    fail("every grain of the group must be moved by fix nve/sphere, nve/superquadric or nve/spheroid, or be frozen, got " + std::to_string(loose) +
+         " that are not");
+}
+
+void LedgerRequirements::require_flowing_box() const {
+  for (int k = 0; k < modify->nfix; k++) {
+    const Fix *fix = modify->fix[k];
+    if (!fix->box_change_size && !fix->box_change_shape) continue;
+    const std::string which = std::string("fix ") + fix->id + " (" + fix->style + ")";
+    if (!domain->deform_vremap) fail("needs a box that carries velocities along where it deforms, 'remap v', got " + which + " without");
+    if (domain->deform_groupbit != 1)
+      fail("needs a box that deforms for the group all, got " + which + " for the group " + group->names[fix->igroup]);
+  }
+}
+
+}

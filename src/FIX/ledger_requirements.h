@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_LEDGER_REQUIREMENTS_H
+#define GRAINSCOPE_LEDGER_REQUIREMENTS_H
+
+#include "pointers.h"
+#include <string>
+
+namespace LAMMPS_NS { class PairGranInsitu; }
+
+namespace grainscope {
+
+/** What the energy ledger of a group needs of contact models, fixes and box: what is not met ends the run. Collective. */
+class LedgerRequirements : private LAMMPS_NS::Pointers {
+ public:
+  /** `who`: for messages. */
+  LedgerRequirements(LAMMPS_NS::LAMMPS *lmp, int groupbit, const std::string &who) : Pointers(lmp), groupbit_(groupbit), who_(who) {}
+
+  void require_known_contacts(LAMMPS_NS::PairGranInsitu &pair) const;
+  void require_moved_by_verlet() const;
+  void require_flowing_box() const;
+
+ private:
+  int groupbit_;
+  std::string who_;
+
+  [[noreturn]] void fail(const std::string &message) const;
+  bool shares_grains(int other_groupbit) const;
+};
+
+}
+
+#endif

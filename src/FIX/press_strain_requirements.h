@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_PRESS_STRAIN_REQUIREMENTS_H
+#define GRAINSCOPE_PRESS_STRAIN_REQUIREMENTS_H
+
+#include "pointers.h"
+
+namespace LAMMPS_NS { class Fix; }
+
+namespace grainscope {
+
+struct PressStrainSettings;
+class ShearedBox;
+
+/** What fix press/strain needs of the box and of other fixes: what is not met ends the run. In its constructor and before each run. */
+class PressStrainRequirements : private LAMMPS_NS::Pointers {
+ public:
+  /** `fix`: press/strain itself. */
+  PressStrainRequirements(LAMMPS_NS::LAMMPS *lmp, const LAMMPS_NS::Fix *fix, const PressStrainSettings &settings)
+      : Pointers(lmp), fix_(fix), settings_(settings) {}
+
+  void require_controllable_box(const ShearedBox &box) const;
+  /** The host lets a group be deleted that no fix is registered for, and this fix is for `all`. */
+  void require_group(const char *name, int groupbit) const;
+
+ private:
+  const LAMMPS_NS::Fix *fix_;
+  const PressStrainSettings &settings_;
+
+  void require_alone() const;
+  void require_no_wall_on_axis(LAMMPS_NS::Fix *wall) const;
+};
+
+}
+
+#endif

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact_reader.h"
+#include "tangential_bound.h"
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace grainscope {
+
+using Eigen::Map;
+using Eigen::Vector3d;
+
+/** The spring as it was before the friction limit. The host's model must be repeated for that: it shortens a spring in place and keeps neither
+ *  its length nor a mark that it was cut, and the length cut is what friction dissipates. In the host's own operations and order, so
+ *  that a spring that was not cut compares equal to the last bit. In the first evaluation of a run the host moves no spring: a cut
+ *  then means that the force was limited, and slip is what would have been cut; where it repeats an evaluation, springs
+ *  have been cut. */
+inline void ContactReader::judge_spring(const Surfaces &s, Friction &friction) const {
+  double x = spring_[0], y = spring_[1], z = spring_[2];
+  if (observer_.springs_move()) {
+    const double dt = observer_.time_step();
+    x += s.vtr1 * dt;
+    y += s.vtr2 * dt;
+    z += s.vtr3 * dt;
+    const double along = x * s.en[0] + y * s.en[1] + z * s.en[2];
+    x -= along * s.en[0];
+    y -= along * s.en[1];
+    z -= along * s.en[2];
+  }
+  friction.spring[0] = x;
+  friction.spring[1] = y;
+  friction.spring[2] = z;
+  const double length = std::sqrt(x * x + y * y + z * z);
+  friction.cut = s.kt * length > friction.limit;
+  if (friction.cut && !observer_.repeats()) friction.slip = length - friction.limit / s.kt;
+}
+
+/** Where no spring has moved, whether the limit is reached is known from the force alone. */
+inline void ContactReader::judge_damping(const Surfaces &s, Friction &friction) const {
+  const double spring[3] = {-(s.kt * spring_[0]), -(s.kt * spring_[1]), -(s.kt * spring_[2])};
+  const double u[3] = {s.vtr1, s.vtr2, s.vtr3};
+  friction.beyond = TangentialBound::length(s.gammat, spring, u) > friction.limit;
+  if (friction.beyond && TangentialBound::get().mode() == TangentialBound::Mode::bound)
+    friction.damping = TangentialBound::largest(s.gammat, spring, u, friction.limit);
+}
+
+inline ContactReader::Friction ContactReader::judge_friction(const Surfaces &s, double limit) const {
+  Friction friction;
+  friction.limit = limit;
+  friction.damping = law_.tangential == TangentialLaw::none ? 0.0 : s.gammat;
+  if (law_.tangential == TangentialLaw::spring) {
+    judge_spring(s, friction);
+    if (!friction.cut && s.gammat > 0.0 && observer_.first_evaluation()) judge_damping(s, friction);
+  } else if (law_.tangential == TangentialLaw::viscous) {
+    const double speed = std::sqrt(s.vtr1 * s.vtr1 + s.vtr2 * s.vtr2 + s.vtr3 * s.vtr3);
+    friction.cut = limit < s.gammat * speed;
+    if (friction.cut) friction.slip = speed * observer_.time_step();
+  }
+  return friction;
+}
+
+/** The law's tangential force by itself, where the force on i has another beside it. */
+Vector3d ContactReader::friction_force(const Surfaces &s, const Friction &friction, const Contact &c) const {
+  const Vector3d u(s.vtr1, s.vtr2, s.vtr3), spring = Map<const Vector3d>(friction.spring);
+  Vector3d force = Vector3d::Zero();
+  if (law_.tangential == TangentialLaw::unknown) return c.tangential_force;
+  if (law_.tangential == TangentialLaw::spring)
+    force = friction.cut ? Vector3d(-friction.limit * spring.normalized())
+                         : Vector3d(-s.kt * spring - friction.damping * u);
+  if (law_.tangential == TangentialLaw::viscous)
+    force = friction.cut ? Vector3d(-friction.limit * u.normalized()) : Vector3d(-friction.damping * u);
+  return force - force.dot(c.normal) * c.normal;
+}
+
+const char *ContactReader::past_column(int k) {
+  static const char *const names[past_columns] = {"past_stamp", "past_overlap", "past_elastic_force", "past_kt", "past_elastic_work",
+                                                  "past_spring_work"};
+  return names[k];
+}
+
+void ContactReader::read_past(const Surfaces &s, Contact &c) const {
+  const double *at = s.contact_history + law_.past_column;
+  if (at[0] == observer_.stamp_before()) c.past.emplace(ContactPast{at[1], at[2], at[3], at[4], at[5]});
+}
+
+void ContactReader::write_past(const Surfaces &s, const Contact &c) const {
+  double *at = s.contact_history + law_.past_column;
+  const ContactMotion &m = *c.motion;
+  const double half = 0.5 * observer_.time_step(), elastic_force = m.normal_stiffness * c.overlap;
+  at[0] = observer_.stamp();
+  at[1] = c.overlap;
+  at[2] = elastic_force;
+  at[3] = m.tangential_stiffness;
+  at[4] = -half * elastic_force * m.normal_velocity;
+  at[5] = c.spring ? half * m.tangential_stiffness * c.spring->after.dot(m.tangential_velocity) : 0.0;
+}
+
+/** `limitForce` sets a negative total to exactly 0: the damping part is then what cancels the elastic one. */
+inline double ContactReader::normal_damping(const Surfaces &s) const {
+  const double damping = -s.gamman * s.vn, elastic = s.kn * s.deltan;
+  return law_.elastic && law_.limits_force && damping + elastic < 0.0 ? -elastic : damping;
+}
+
+inline void ContactReader::add_motion(const Surfaces &s, const Friction &friction, Contact &c) const {
+  const Map<const Vector3d> xi(observer_.positions()[s.i]);
+  ContactMotion &m = c.motion.emplace();
+  if (s.is_non_spherical) m.point = Map<const Vector3d>(s.contact_point);
+  else m.point = xi - s.cri * c.normal;
+  m.arm = m.point - xi;
+  m.normal_velocity = s.vn;
+  m.tangential_velocity = Vector3d(s.vtr1, s.vtr2, s.vtr3);
+  m.normal_damping = normal_damping(s);
+  m.normal_stiffness = s.kn;
+  m.tangential_stiffness = s.kt;
+  m.damping_coefficient = s.gamman;
+  m.tangential_damping = friction.damping;
+}
+
+inline void ContactReader::add_spring(const Surfaces &s, const Friction &friction, Contact &c) const {
+  ContactSpring &spring = c.spring.emplace();
+  spring.after = Map<const Vector3d>(s.contact_history + law_.spring_column);
+  spring.before = Map<const Vector3d>(spring_);
+  if (friction.cut && observer_.springs_move()) spring.cut = Map<const Vector3d>(friction.spring) - spring.after;
+}
+
+inline void ContactReader::add_rolling(const Surfaces &s, const Forces &force_on_i, Contact &c) const {
+  ContactRolling &rolling = c.rolling.emplace();
+  rolling.spin = Map<const Vector3d>(s.omega_i) - Map<const Vector3d>(s.omega_j);
+  rolling.torque = Map<const Vector3d>(force_on_i.delta_torque) - c.motion->arm.cross(c.force);
+}
+
+void ContactReader::after(const Surfaces &s, const Forces &force_on_i) {
+  const double *const *x = observer_.positions();
+  const Map<const Vector3d> xi(x[s.i]), xj(x[s.j]);
+  const Vector3d normal(s.en[0], s.en[1], s.en[2]), force(force_on_i.delta_F[0], force_on_i.delta_F[1], force_on_i.delta_F[2]);
+  const double normal_force = force.dot(normal), coefficient = law_.friction_coefficient(s.itype, s.jtype);
+  const Friction friction = judge_friction(s, ContactLaw::friction_limit(coefficient, s.Fn));
+
+  Contact &c = observer_.next();
+  const bool ghost = s.j >= observer_.local_grains();
+  c.i = s.i;
+  c.partner = PartnerGrain{s.j, ghost};
+  c.weight = ghost ? 0.5 : 1.0;
+  c.branch = xi - xj;
+  c.normal = normal;
+  c.overlap = s.deltan;
+  c.force = force;
+  c.normal_force = normal_force;
+  c.tangential_force = force - normal_force * normal;
+  c.friction = coefficient;
+  c.friction_limit = friction.limit;
+  c.friction_force = law_.liquid_bridges ? friction_force(s, friction, c) : c.tangential_force;
+  c.sliding = friction.cut || friction.beyond;
+  c.damped = !friction.cut && friction.damping > 0.0;
+  c.slip = friction.slip;
+  if (observer_.needs_motion()) add_motion(s, friction, c);
+  if (!law_.keeps_past()) return;
+  read_past(s, c);
+  if (law_.tangential == TangentialLaw::spring) add_spring(s, friction, c);
+  if (law_.rolls) add_rolling(s, force_on_i, c);
+  write_past(s, c);
+}
+
+}

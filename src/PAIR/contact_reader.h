@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_CONTACT_READER_H
+#define GRAINSCOPE_CONTACT_READER_H
+
+#include "contact_law.h"
+#include "contact_observer.h"
+#include "contact_interface.h"
+
+namespace grainscope {
+
+/** The contact model around which a reader stands; see Observed. */
+class ObservedModel {
+ protected:
+  ObservedModel() = default;
+  ~ObservedModel() = default;
+};
+
+/** Turns the working data of one contact model of the host into Contacts, and gives them to the observer. Called before and after the model. */
+class ContactReader {
+ public:
+  using Surfaces = LIGGGHTS::ContactModels::SurfacesIntersectData;
+  using Forces = LIGGGHTS::ContactModels::ForceData;
+
+  explicit ContactReader(ContactObserver &observer) : observer_(observer) {}
+
+  void set_law(const ContactLaw &law) { law_ = law; }
+  const ContactLaw &law() const { return law_; }
+
+  void set_model(ObservedModel *model) { model_ = model; }
+  /** The one that was made last. */
+  ObservedModel *model() const { return model_; }
+
+  static constexpr int past_columns = 6;
+  static const char *past_column(int k);
+
+  bool active() const { return observer_.active(); }
+  void before(const Surfaces &s) {
+    if (law_.tangential != TangentialLaw::spring) return;
+    double *spring = s.contact_history + law_.spring_column;
+    for (int k = 0; k < 3; k++) {
+      // Springs that were cut to the limit are at it, but for rounding: in a repetition a touch more keeps them sliding. It is not kept.
+      if (observer_.repeats()) spring[k] *= 1.0 + 1e-12;
+      spring_[k] = spring[k];
+    }
+  }
+  void after(const Surfaces &s, const Forces &force_on_i);
+
+ private:
+  ContactObserver &observer_;
+  ContactLaw law_;
+  ObservedModel *model_ = nullptr;
+  double spring_[3] = {0.0, 0.0, 0.0};  // before the model moved it
+
+  /** What friction made of one contact. */
+  struct Friction {
+    double limit;                       // of the force
+    bool cut = false;                   // the spring was, or the force of a law without springs
+    bool beyond = false;                // not cut, but kept to the limit by damping, or beyond it: in first evaluations
+    double slip = 0.0;
+    double damping = 0.0;               // the coefficient that acts where it is not cut
+    double spring[3] = {0.0, 0.0, 0.0}; // before the cut
+  };
+  Friction judge_friction(const Surfaces &s, double limit) const;
+  void judge_spring(const Surfaces &s, Friction &friction) const;
+  void judge_damping(const Surfaces &s, Friction &friction) const;
+  Eigen::Vector3d friction_force(const Surfaces &s, const Friction &friction, const Contact &c) const;
+  double normal_damping(const Surfaces &s) const;
+  void add_motion(const Surfaces &s, const Friction &friction, Contact &c) const;
+  void add_spring(const Surfaces &s, const Friction &friction, Contact &c) const;
+  void add_rolling(const Surfaces &s, const Forces &force_on_i, Contact &c) const;
+  void read_past(const Surfaces &s, Contact &c) const;
+  void write_past(const Surfaces &s, const Contact &c) const;
+};
+
+}
+
+#endif

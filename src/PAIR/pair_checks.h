@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_PAIR_CHECKS_H
+#define GRAINSCOPE_PAIR_CHECKS_H
+
+#include "pointers.h"
+#include <string>
+
+namespace grainscope {
+
+/** What pair_style gran/insitu looks at before a run or at a new neighbour list, and what the host would not say. All are collective. */
+class PairChecks : private LAMMPS_NS::Pointers {
+ public:
+  explicit PairChecks(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
+
+  /** The restart file that is to be continued must hold `wanted` numbers per contact; `past`: those of them that `ledger on` adds. */
+  void require_same_columns_in_restart(int wanted, int past, bool ledger) const;
+  /** Contact history is keyed by grain ID: with two images of one grain within reach of another it is ambiguous. */
+  void require_box_large_enough() const;
+  /** Once, where spheres keep the tangential springs of contacts that have opened. */
+  void warn_of_stale_springs();
+  /** Once, where `model`, which takes its geometry from spheres, is given other grains; "" for no such model. */
+  void warn_of_sphere_model(const std::string &model);
+
+ private:
+  bool warned_of_stale_springs_ = false;
+  bool warned_of_sphere_model_ = false;
+};
+
+}
+
+#endif

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_LAST_RUN_H
+#define GRAINSCOPE_LAST_RUN_H
+
+#include "host_box.h"
+
+namespace LAMMPS_NS { class LAMMPS; }
+
+namespace grainscope {
+
+class GrainMemory;
+
+/** What the last run ended with, beside its grains: the next one may go on only as long as nothing of it has changed. Doubles throughout, as it
+ *  stands in restart files. */
+struct LastRun {
+  HostBox box;
+  double grains = -1.0;        // -1 before the first run
+  double time_step = 0.0;
+  double steps_to_sorting = 0.0;   // until the host sorts grains by position
+  double movers = 0.0;         // checksum of the fixes that push or move grains
+
+  static LastRun ending_now(LAMMPS_NS::LAMMPS *lmp);
+  bool there_was_none() const { return grains < 0.0; }
+  /** Whether all of it is as it was then, and every grain too; says so when it is not. Collective. */
+  bool goes_on(LAMMPS_NS::LAMMPS *lmp, const GrainMemory &memory) const;
+
+ private:
+  bool same_box(const LAMMPS_NS::LAMMPS *lmp) const;
+};
+
+}
+
+#endif

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Restart files of other versions of grainscope: each fix refuses a state that it cannot read, with both versions. And what fixes are made for
+other styles alone."""
+from dataclasses import replace
+import struct
+import zlib
+
+from case import main, require
+from catalogue import DISPLACEMENT
+from deck import Deck, thermo
+from packing import dense_packing
+from refusal import require_refused
+from run import run
+
+PRESS = "fix press all press/strain axis y target 2e5 shear xy rate 0.05 every 7e-4"
+FIXES = {"run/guard": "gran_insitu_guard", "setup/memory": "gran_insitu_setup", "grain/record": "displacement_record",
+         "ledger/record": "ledger_ledger", "press/strain": "press"}
+MARK = b"grs stat"
+SEAL = struct.Struct("<16sQII")      # mark, length, checksum, format
+
+
+def measured():
+    deck = Deck(dense_packing(1.5), surface="ellipsoid", extra="setup neutral ledger on")
+    lines = [PRESS, DISPLACEMENT.define("all"), "compute ledger all energy/ledger"]
+    return deck, [*lines, *thermo(5, *DISPLACEMENT.columns(), "c_ledger[19]")]
+
+
+def resealed(body, whole, **changes):
+    """`body` with the seal that fits it."""
+    mark, _, _, form = SEAL.unpack(whole[-SEAL.size:])
+    return body + SEAL.pack(mark, len(body), zlib.crc32(body), changes.get("format", form))
+
+
+def with_number(whole, style, offset, value):
+    """Another number `offset` bytes after the mark of the style's state."""
+    body = bytearray(whole[:-SEAL.size])
+    name = style.encode() + b"\0"
+    at = body.index(name) + len(name) + 4
+    require(body[at:at + len(MARK)] == MARK, f"fix {style} keeps no state with a version")
+    struct.pack_into("<I", body, at + offset, value)
+    return resealed(bytes(body), whole)
+
+
+def written(ranks):
+    deck, lines = measured()
+    file = run(replace(deck, body=[*lines, "run 5", "write_restart now.restart"]), ranks).folder / "now.restart"
+    return file, file.read_bytes(), deck.restarted(file, [*lines, "run 1"])
+
+
+def refused(style, offset, value, words):
+    def case(ranks):
+        file, whole, resume = written(ranks)
+        file.write_bytes(with_number(whole, style, offset, value))
+        require_refused(resume, ranks, f"fix {FIXES[style]} ({style}): the restart file {words}")
+    return case
+
+
+def same_file_is_read(ranks):
+    """What the other cases change is read when it is written again with the number that it had."""
+    file, whole, resume = written(ranks)
+    for style in FIXES:
+        file.write_bytes(with_number(whole, style, 8, 1))
+        require(file.read_bytes() == whole, f"the file has another version of {style}, or another seal")
+    run(resume, ranks)
+
+
+def former_seal_refused(ranks):
+    """Files from before states had versions."""
+    file, whole, resume = written(ranks)
+    file.write_bytes(resealed(whole[:-SEAL.size], whole, format=1))
+    require_refused(resume, ranks, "was written by a version of grainscope that kept format 1, this one keeps format 2")
+
+
+def not_by_an_input_script(ranks):
+    deck, lines = measured()
+    for style, words in (("run/guard", "pair_style gran/insitu"), ("setup/memory", "pair_style gran/insitu"),
+                         ("grain/record", "the computes that need it"), ("ledger/record", "the computes that need it")):
+        body = [*lines, f"fix mine all {style}", "run 1"]
+        require_refused(replace(deck, body=body), ranks, f"fix {style}: is made by {words}, not by an input script")
+
+
+OTHER = "was written by another version of grainscope: it holds {} of its state, and this program reads version 1"
+CASES = {"same-file-is-read": same_file_is_read, "former-seal": former_seal_refused,
+         "not-by-an-input-script": not_by_an_input_script}
+for one in FIXES:
+    CASES[f"{one}-version"] = refused(one, 8, 9, OTHER.format("version 9"))
+    CASES[f"{one}-size"] = refused(one, 12, 4, OTHER.format("4 bytes"))
+    CASES[f"{one}-without-a-version"] = refused(
+        one, 0, 0, "holds its state without a version, as earlier versions of grainscope wrote it, and this program reads version 1")
+
+if __name__ == "__main__":
+    main(CASES)
