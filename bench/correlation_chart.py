@@ -120,8 +120,9 @@ class Bench:
 
     def measure(self, points, options, bins=BINS):
         """On one rank, in processor time: over many steps, or once where it takes seconds. Bins are read when there are BINS of them."""
-        told = outputs("velocity/correlation")
-        cells = [told.word("c", name, k) for k in range(1, BINS + 1) for name in ("r", "C", "pairs")] if bins == BINS else []
+        own = outputs("velocity/correlation")
+        names = ("r", "C", "pairs")
+        cells = [own.word("c", name, k) for k in range(1, BINS + 1) for name in names] if bins == BINS else []
         correlation = f"velocity/correlation bins {bins} {options}"
         first, _, values = self.run(points, correlation, ["c_c", *cells])
         seconds = max(first - self.run(points, "nematic")[0], 1e-3)

@@ -22,7 +22,8 @@ EVERY_STEP = "fix mean all ave/time 1 1 1 {value} file /dev/null\n"
 STRAIN = "variable strain equal 0.00977*0.009*step\n"
 OBSERVERS = {
     "gran/insitu, idle": "",
-    "stress/contact": "compute observer all stress/contact\n" + EVERY_STEP.format(value=outputs("stress/contact").word("observer", "P")),
+    "stress/contact": "compute observer all stress/contact\n"
+                      + EVERY_STEP.format(value=outputs("stress/contact").word("observer", "P")),
     "dissipation mode step": "compute observer all dissipation\n" + EVERY_STEP.format(value="c_observer"),
     "dissipation mode instantaneous": "compute observer all dissipation mode instantaneous\n" + EVERY_STEP.format(value="c_observer"),
     "contact/local overlap fn": "compute observer all contact/local overlap fn\ncompute largest all reduce max "
@@ -67,9 +68,11 @@ compute m all layering
 SETTINGS = "tangential_damping off gaussianCurvature yes curvatureLimitFactor 100"
 LEDGER = {  # with `ledger on`, which wants a restart file of its own
     "ledger on, idle": "",
-    "ledger on, energy/ledger": "compute observer all energy/ledger\n" + EVERY_STEP.format(value=outputs("energy/ledger").word("observer", "residual")),
+    "ledger on, energy/ledger": "compute observer all energy/ledger\n"
+                                + EVERY_STEP.format(value=outputs("energy/ledger").word("observer", "residual")),
 }
-CONTACTS = f"compute count all stress/contact\nthermo_style custom step {outputs('stress/contact').word('count', 'N_c')}\n"
+CONTACTS = ("compute count all stress/contact\n"
+            f"thermo_style custom step {outputs('stress/contact').word('count', 'N_c')}\n")
 
 
 class Bench:

@@ -451,6 +451,7 @@ add_cases(every-style-outputs cases/outputs.py LABEL case STYLES outputs ${with_
   norm json-is-made pages declared-in-words)
 add_cases(outputs-variables cases/outputs.py LABEL case STYLES outputs stress/contact RANKS 1 2 CASES
   read-everywhere announced lasting printed-once)
-add_cases(outputs-variables cases/outputs.py LABEL case STYLES outputs stress/contact dissipation press/strain CASES prefixes)
+add_cases(outputs-variables cases/outputs.py LABEL case STYLES outputs stress/contact dissipation press/strain CASES
+  prefixes)
 add_cases(outputs-variables cases/outputs.py LABEL case
   STYLES outputs fabric contact/local property/atom contact/direction stress/contact CASES chosen listed-only users-own)

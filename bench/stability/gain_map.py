@@ -102,7 +102,8 @@ class Bench:
             if line not in text:
                 raise SystemExit(f"{DECK.name} does not set its interval as this script expects")
             (folder / "in.start").write_text(text.replace(line, f"variable every  equal {interval!r}*1e-3*$I^(1/3)")
-                                             .replace("c_order c_solver", "c_order c_solver v_press_inputs v_press_clipped"))
+                                             .replace("c_order c_solver",
+                                                      "c_order c_solver v_press_inputs v_press_clipped"))
             if not self.run("in.start", folder, out="out", N=self.grains, I=inertial, alpha=alpha, strain=INERTIAL[inertial]):
                 raise SystemExit(f"the run in {folder} failed")
         return folder

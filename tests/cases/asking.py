@@ -129,7 +129,8 @@ def come_and_go(ranks):
     blocks_of_thermo = run(deck, ranks).thermo()
     require(len(blocks_of_thermo) == 3, "runs are missing")
     again = blocks_of_thermo[2]
-    require(again[C_MEMORY["samples"]][0] == 1.0 and again[C_MOVED["strain"]][0] == 0.0, "the new computes did not begin anew")
+    require(again[C_MEMORY["samples"]][0] == 1.0 and again[C_MOVED["strain"]][0] == 0.0,
+            "the new computes did not begin anew")
     require(all(np.isfinite(values).all() for values in again.values()), "not finite")
 
 

@@ -16,7 +16,8 @@ C_SOLVER = outputs("contact/solver").of("solver")
 C_STRESS = outputs("stress/contact").of("stress")
 
 SOLVER = "compute solver all contact/solver"
-COUNTS = (C_SOLVER["pairs_listed"], C_SOLVER["pairs_solved"], C_SOLVER["pairs_touching"], C_SOLVER["steps"], C_SOLVER["steps_max"], C_SOLVER["fallbacks"])
+COUNTS = (C_SOLVER["pairs_listed"], C_SOLVER["pairs_solved"], C_SOLVER["pairs_touching"], C_SOLVER["steps"],
+          C_SOLVER["steps_max"], C_SOLVER["fallbacks"])
 
 
 def counts(table, row=-1):

@@ -30,7 +30,8 @@ def same_as_gran(deck, ranks, lists, skipped, contacts=1.0):
     own = run(counting, ranks)
     require_same_snapshots(own.dump("grains.dump"), plain.dump("grains.dump"), "gran/insitu against gran")
     table = own.thermo()[-1]
-    listed, solved, touching, fallbacks = (table[C_SOLVER[name]][-1] for name in ("pairs_listed", "pairs_solved", "pairs_touching", "fallbacks"))
+    counts = ("pairs_listed", "pairs_solved", "pairs_touching", "fallbacks")
+    listed, solved, touching, fallbacks = (table[C_SOLVER[name]][-1] for name in counts)
     steps = table[C_SOLVER["pairs_listed"]].size and int(own.dump("grains.dump")[-1][0])
     print(f"{builds(own)} lists; of {listed:.0f} listed {solved:.0f} solved, {touching:.0f} touched")
     require(builds(own) >= lists, f"{builds(own)} neighbour lists, at least {lists} wanted")
@@ -109,7 +110,8 @@ def cohesive(ranks):
     own = run(replace(deck, body=[*SOLVER, *deck.body]), ranks)
     require_same_snapshots(own.dump("grains.dump"), plain.dump("grains.dump"), "gran/insitu against gran")
     table = own.thermo()[-1]
-    require(table[C_SOLVER["pairs_listed"]][-1] == 0.0 and table[C_SOLVER["pairs_touching"]][-1] > 0.0, "not the host's loop")
+    require(table[C_SOLVER["pairs_listed"]][-1] == 0.0 and table[C_SOLVER["pairs_touching"]][-1] > 0.0,
+            "not the host's loop")
 
 
 CASES = {

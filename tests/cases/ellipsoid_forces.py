@@ -99,7 +99,8 @@ def start_survives_a_swap(ranks):
     order = [columns["id"].tolist() for _, columns in result.dump("order.dump")]
     require(order[0] == [1.0, 2.0, 3.0] and order[-1] == [3.0, 2.0, 1.0], f"grains are in order {order[-1]}, were {order[0]}: no swap")
     table = result.thermo()[0]
-    require(table[C_SOLVER["pairs_touching"]][-1] == 41.0, f"{table[C_SOLVER['pairs_touching']][-1]} contacts in 41 evaluations")
+    require(table[C_SOLVER["pairs_touching"]][-1] == 41.0,
+            f"{table[C_SOLVER['pairs_touching']][-1]} contacts in 41 evaluations")
     require_equal(np.diff(table[C_SOLVER["steps"]]), np.ones(40), "Newton steps")
 
 

@@ -158,7 +158,8 @@ def grains_change_between_runs(ranks):
     grain, dumped = "compute grain all contact/grain", f"write_dump all custom grains.dump id {C_GRAIN['N_c']}"
     asked = [*thermo(5, "c_most"), "run 5"]
     most = f"compute most all reduce max {C_GRAIN['N_c']}"
-    within = run(deck(grain, f"dump d all custom 5 grains.dump id {C_GRAIN['N_c']}", "run 5"), ranks).dump("grains.dump")[-1]
+    within = run(deck(grain, f"dump d all custom 5 grains.dump id {C_GRAIN['N_c']}", "run 5"),
+                 ranks).dump("grains.dump")[-1]
     after = run(deck(grain, most, *asked, dumped), ranks).dump("grains.dump")[-1]
     for found, expected in zip(*(np.array(list(s[1].values()))[:, np.argsort(s[1]["id"])] for s in (after, within))):
         require_equal(found, expected, "asked within the run, and once more after it")

@@ -393,7 +393,8 @@ def rates_add_up(ranks):
 def step_mode_is_the_trapezium(ranks):
     """compute dissipation mode step tells F.v at the ends of steps; D_n of the ledger is its trapezium rule, up to terms of the ends."""
     deck = sheared(dense_packing(atom_style="sphere", speed=0.4), 0.05)
-    deck.body = [*deck.body[:-3], "compute loss all dissipation mode step", *thermo(1, *TOTALS, C_LOSS["P_n"]), "run 500"]
+    deck.body = [*deck.body[:-3], "compute loss all dissipation mode step", *thermo(1, *TOTALS, C_LOSS["P_n"]),
+                 "run 500"]
     table, dt = run(deck, ranks).thermo()[0], deck.dt()
     power = table[C_LOSS["P_n"]][200:]
     rule = dt * (power.sum() - 0.5 * (power[0] + power[-1]))

@@ -21,7 +21,8 @@ EXACT = 1e-10
 TWO_SIDED = 2e-6
 
 
-COMPUTES = {"stress": "stress/contact", "now": "dissipation mode instantaneous", "loss": "dissipation mode step", "order": "nematic"}
+COMPUTES = {"stress": "stress/contact", "now": "dissipation mode instantaneous", "loss": "dissipation mode step",
+            "order": "nematic"}
 
 
 def vector(name):

@@ -225,7 +225,8 @@ def rarely_asked(rate):
                      *thermo(steps, *MOVED.columns()), f"run {2 * steps}", "reset_timestep 0", f"run {2 * steps}"]
         for table in run(deck, ranks).thermo():
             # X reaches 40, and its steps add up over thousands.
-            require_close([table[C_MOVED[square]] for square in ("d2_x", "d2_y", "d2_z")], np.zeros((3, 3)), 1e-16, "<d^2>", 40.0 ** 2)
+            require_close([table[C_MOVED[square]] for square in ("d2_x", "d2_y", "d2_z")], np.zeros((3, 3)), 1e-16,
+                          "<d^2>", 40.0 ** 2)
     return case
 
 
@@ -263,7 +264,8 @@ def remembers_later_grains(ranks):
                  "run 3"]
     table, old = run(deck, ranks).thermo()[-1], len(rest)
     # Seven samples, steps 0 to 6; the new grain is in the last three (run 2 begins without a sample at its first step).
-    require_equal([table[C_MEMORY[row, "pairs"]][-1] for row in (1, 2, 3)], [7 * old + 3, 6 * old + 2, 5 * old + 1], "pairs")
+    require_equal([table[C_MEMORY[row, "pairs"]][-1] for row in (1, 2, 3)], [7 * old + 3, 6 * old + 2, 5 * old + 1],
+                  "pairs")
 
 
 def starts_late(ranks):

@@ -79,7 +79,8 @@ def stress_atom(deck):
     """The host's own tally, sum of stress/atom over the volume. Its xy entry is r_x F_y: our total yx."""
     sums = [f"compute sum{k} all reduce sum c_atoms[{k}]" for k in range(1, 7)]
     body = [shear(0.02), "compute s all stress/contact", "compute atoms all stress/atom pair", *sums,
-            *thermo(50, "vol", *[f"c_sum{k}" for k in range(1, 7)], *(C_S[name] for name in ("sxx", "syy", "szz", "syx"))), "run 300"]
+            *thermo(50, "vol", *[f"c_sum{k}" for k in range(1, 7)],
+                    *(C_S[name] for name in ("sxx", "syy", "szz", "syx"))), "run 300"]
 
     def case(ranks):
         table = run(replace(deck, body=body), ranks).thermo()[0]

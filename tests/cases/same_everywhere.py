@@ -144,7 +144,8 @@ def does_not_disturb(packing):
         silent = [shear(RATE), *dump_grains(packing, steps), f"run {steps}"]
         lines = measuring(deck, steps)
         talking = [line for line in lines if not line.startswith(("dump", "run"))]
-        talking += [*dump_grains(packing, steps), f"dump asked all custom 1 asked.dump id {C_GRAIN['N_c']}", f"run {steps}"]
+        talking += [*dump_grains(packing, steps), f"dump asked all custom 1 asked.dump id {C_GRAIN['N_c']}",
+                    f"run {steps}"]
         expected = run(replace(deck, body=silent), ranks)
         found = run(replace(deck, body=talking), ranks)
         require_same_snapshots(found.dump("grains.dump"), expected.dump("grains.dump"), "measured in every step against not at all")

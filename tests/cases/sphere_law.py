@@ -53,7 +53,8 @@ def follows_the_law(deck, motion, box_at):
             check_rows(rows_of(dumped, "rows"), expected, step)
             check_powers(expected, [table[q][step] for q in quantities], deck.dt(), step)
             slid += int(expected["sliding"].sum())
-        require(F_PRESS["L_rate"] not in table or np.ptp(table[F_PRESS["L_rate"]]) > 0.01, "the box length did not change")
+        require(F_PRESS["L_rate"] not in table or np.ptp(table[F_PRESS["L_rate"]]) > 0.01,
+                "the box length did not change")
         require(deck.tangential == "off" or slid > STEPS, f"only {slid} sliding contacts")
     return case
 

@@ -179,7 +179,8 @@ def _largest(tables, *names):
 def _compare_grains(found, expected, worst):
     """Grains are about 1 large: places are told over 1, torques over the largest force times 1."""
     scales = {"x": 1.0, "torque": _largest(expected, *MOTION["force"])}
-    for label, names in (*MOTION.items(), *((f"[{k}]", (word,)) for k, word in enumerate(outputs("contact/grain").of("grain").all("per grain"), 1))):
+    for label, names in (*MOTION.items(), *((f"[{k}]", (word,)) for k,
+                                            word in enumerate(outputs("contact/grain").of("grain").all("per grain"), 1))):
         scale = scales.get(label) or _largest(expected, *names)
         for a, b in zip(found, expected):
             value = max(_scaled(a[n], b[n], scale) for n in names)
