@@ -196,7 +196,7 @@ void FixRunGuard::write_restart(FILE *file) {
 }
 
 void FixRunGuard::restart(char *buffer) {
-  const SavedGuard saved = grainscope::read_state<SavedGuard>(lmp, *this, buffer);
+  const SavedGuard saved = grainscope::read_state<SavedGuard>(lmp, *this, style, buffer);
   const std::string written(grainscope::state_block::tail(buffer), grainscope::whole_count(saved.length, 1e6));
   if (written.empty() || written == settings_ || comm->me != 0) return;
   error->warning(FLERR, ("pair_style gran/insitu: the restart file was written with '" + written + "', and now it is '" + settings_ + "'").c_str());

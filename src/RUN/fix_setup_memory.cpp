@@ -161,7 +161,7 @@ void FixSetupMemory::write_restart(FILE *file) {
 }
 
 void FixSetupMemory::restart(char *buffer) {
-  const SavedSetup saved = grainscope::read_state<SavedSetup>(lmp, *this, buffer);
+  const SavedSetup saved = grainscope::read_state<SavedSetup>(lmp, *this, style, buffer);
   impl_->memory->evaluation.set_box(saved.evaluated);
   impl_->memory->run = saved.run;
   impl_->memory->evaluation.set_stamp(saved.stamp);
