@@ -22,7 +22,7 @@ struct SolverCounts {
 };
 
 /** Tells whether neighbour lists, or grains between two runs, have changed since it was asked last. All ranks alike. */
-class ListMark {
+class NeighbourListWatch {
  public:
   bool renewed(const LAMMPS_NS::Neighbor &neighbor, const LAMMPS_NS::Update &update) {
     if (neighbor.ago != 0 && built_ == neighbor.lastcall && run_ == update.firststep) return false;
@@ -83,7 +83,7 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
   };
   std::vector<Grain> grains_;
   bool only_spheres_ = false, some_triaxial_ = false;
-  ListMark list_;
+  NeighbourListWatch lists_;
   std::vector<EllipsoidPair> pairs_;
   std::vector<int> place_;                 // of each of them among the queries
   std::vector<EllipsoidContact> solved_;

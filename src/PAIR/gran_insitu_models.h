@@ -6,9 +6,9 @@
 
 namespace grainscope {
 
-/** A loop of ours that ends a spring with its contact; the host's may keep it until the next neighbour list. */
-struct EndsSprings {
-  virtual ~EndsSprings() {}
+/** A loop of ours that resets the spring of a contact when it opens; the host's may keep it until the next neighbour list. */
+struct ResetsOpenedSprings {
+  virtual ~ResetsOpenedSprings() {}
 };
 
 /** The observed pair loop for the contact-model combination `hash`: compiled for every combination of the whitelist, the host's

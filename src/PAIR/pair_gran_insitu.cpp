@@ -222,7 +222,7 @@ void PairGranInsitu::init_granular() {
 
 void PairGranInsitu::warn_of_stale_springs() {
   if (impl_->warned_of_stale_springs || impl_->observer.law() != ContactObserver::TangentialLaw::history) return;
-  if (neighbor->contactDistanceFactor > 1.0 || dynamic_cast<grainscope::EndsSprings *>(impl_->loop.get())) return;
+  if (neighbor->contactDistanceFactor > 1.0 || dynamic_cast<grainscope::ResetsOpenedSprings *>(impl_->loop.get())) return;
   int spheres = atom->sphere_flag;
   if (atom->superquadric_flag)
     for (int i = 0; i < atom->nlocal && !spheres; i++)
