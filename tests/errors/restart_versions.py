@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Restart files of other versions of grainscope: each fix refuses a state that it cannot read, with both versions. And what fixes are made for
-other styles alone."""
+"""Restart files of other versions of grainscope: each fix refuses a state that it cannot read, with both versions.
+And fixes that no input script makes."""
 from dataclasses import replace
 import struct
 import zlib
@@ -86,7 +86,8 @@ for one in FIXES:
     CASES[f"{one}-version"] = refused(one, 8, 9, OTHER.format("version 9"))
     CASES[f"{one}-size"] = refused(one, 12, 4, OTHER.format("4 bytes"))
     CASES[f"{one}-without-a-version"] = refused(
-        one, 0, 0, "holds its state without a version, as earlier versions of grainscope wrote it, and this program reads version 1")
+        one, 0, 0, "holds its state without a version, as earlier versions of grainscope wrote it, and this program "
+        "reads version 1")
 
 if __name__ == "__main__":
     main(CASES)
