@@ -23,9 +23,9 @@ class AtomVecSuperquadricFiles : public AtomVecSuperquadric {
   explicit AtomVecSuperquadricFiles(class LAMMPS *lmp);
 
   /** Looks at `n` lines of the section Atoms; how many columns they have, image flags apart. Collective. */
-  virtual int columns_of_atoms(int n, char *lines) override;
+  int columns_of_atoms(int n, char *lines) override;
   /** Looks at `n` lines of the section Velocities. Collective. */
-  virtual void check_velocities(int n, char *lines) override;
+  void check_velocities(int n, char *lines) override;
 
   void data_atom(double *x, tagint image, char **values) override;
   void data_vel(int i, char **values) override;

@@ -2,6 +2,7 @@
 #include "compute_contact_grain.h"
 #include "arguments.h"
 #include "contact_measures.h"
+#include "contact_sums.h"
 #include "grain_shape.h"
 #include "nematic.h"
 #include "rows.h"
@@ -60,15 +61,14 @@ void ComputeContactGrain::begin_contacts() {
 }
 
 void ComputeContactGrain::add_contacts(grainscope::ContactSpan contacts) {
-  for (const Contact &c : contacts) {
-    if (!counts(c)) continue;
+  grainscope::for_each_contact(contacts, of_group(), [this](const Contact &c) {
     const double contribution[ANGLE] = {1.0, c.sliding ? 1.0 : 0.0, 0.5 * grainscope::damping_loss(c),
                                         0.5 * grainscope::friction_loss(c), grainscope::mobilisation(c)};
     for (int k = 0; k < ANGLE; k++) {
       array_atom[c.i][k] += contribution[k];
       if (!c.ghost()) array_atom[c.j()][k] += contribution[k];  // a ghost's owner counts it
     }
-  }
+  });
 }
 
 /** Angle of the major axis, as compute nematic averages it. */

@@ -3,6 +3,7 @@
 #include "arguments.h"
 #include "contact_measures.h"
 #include "contact_observer.h"
+#include "contact_sums.h"
 #include "atom.h"
 #include "update.h"
 #include <algorithm>
@@ -123,8 +124,9 @@ bool ComputeContactLocal::is_mine(const Contact &c) const {
 void ComputeContactLocal::begin_contacts() { impl_->values.clear(); }
 
 void ComputeContactLocal::add_contacts(grainscope::ContactSpan contacts) {
-  for (const Contact &c : contacts)
-    if (counts(c) && is_mine(c)) add_row(c);
+  grainscope::for_each_contact(contacts, of_group(), [this](const Contact &c) {
+    if (is_mine(c)) add_row(c);
+  });
 }
 
 void ComputeContactLocal::add_row(const Contact &c) {

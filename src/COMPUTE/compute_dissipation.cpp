@@ -48,8 +48,7 @@ struct DampingForces : grainscope::ContactCompute::Accumulator {
     tangential.reset(atom->nlocal);
   }
   void add(grainscope::ContactSpan contacts, const grainscope::ContactCompute &of) override {
-    for (const Contact &c : contacts)
-      if (of.counts(c)) add(c);
+    grainscope::for_each_contact(contacts, of.of_group(), [this](const Contact &c) { add(c); });
   }
   void add(const Contact &c) {
     const grainscope::ContactMotion &m = *c.motion;

@@ -55,8 +55,9 @@ struct Moments : grainscope::ContactCompute::Accumulator {
 
   void reset() override { of_contacts.clear(); }
   void add(grainscope::ContactSpan contacts, const grainscope::ContactCompute &of) override {
-    for (const Contact &c : contacts)
-      if (of.counts(c)) of_contacts.push_back({c.normal, c.weight, c.branch.norm(), c.normal_force, c.tangential_force.norm()});
+    grainscope::for_each_contact(contacts, of.of_group(), [this](const Contact &c) {
+      of_contacts.push_back({c.normal, c.weight, c.branch.norm(), c.normal_force, c.tangential_force.norm()});
+    });
   }
 };
 

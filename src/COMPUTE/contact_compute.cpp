@@ -81,7 +81,7 @@ bool ContactCompute::kept_since_run(LAMMPS_NS::bigint answered) const {
 
 bool ContactCompute::in_group(int i) const { return atom->mask[i] & groupbit; }
 
-bool ContactCompute::counts(const Contact &c) const { return atom->mask[c.i] & atom->mask[c.j()] & groupbit; }
+ContactCompute::Group ContactCompute::of_group() const { return {atom->mask, groupbit}; }
 
 const ContactLaw &ContactCompute::law() const { return PairGranInsitu::required_by(lmp, name_.c_str())->law(); }
 

@@ -40,8 +40,12 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
   void add_contacts(ContactSpan contacts) override;
   void end_run() override;
 
-  /** Whether a contact belongs to the group: both of its grains do. */
-  bool counts(const Contact &contact) const;
+  /** The contacts that belong to a group: both of their grains do. */
+  struct Group {
+    const int *mask;
+    int bit;
+  };
+  Group of_group() const;
   /** Sums `values` over all ranks, in place. */
   void sum_over_ranks(double *values, int n) const;
 

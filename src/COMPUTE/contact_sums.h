@@ -8,6 +8,13 @@
 
 namespace grainscope {
 
+/** Calls `use` with each of the contacts that belongs to the group. */
+template <class Use>
+void for_each_contact(ContactSpan contacts, ContactCompute::Group group, const Use &use) {
+  for (const Contact &c : contacts)
+    if (group.mask[c.i] & group.mask[c.j()] & group.bit) use(c);
+}
+
 /** Sums over the contacts of a compute's group. The kernel has
  *    reset()                 forget everything
  *    add(const Contact &)    one contact; its weight makes sums over ranks count it once
@@ -22,8 +29,7 @@ class ContactSums : public ContactCompute::Accumulator {
     reduced_ = false;
   }
   void add(ContactSpan contacts, const ContactCompute &of) override {
-    for (const Contact &c : contacts)
-      if (of.counts(c)) mine_.add(c);
+    for_each_contact(contacts, of.of_group(), [this](const Contact &c) { mine_.add(c); });
   }
   /** Of this rank. */
   Kernel &mine() { return mine_; }

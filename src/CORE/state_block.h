@@ -8,8 +8,9 @@
 
 namespace grainscope {
 
-/** The bytes that a fix keeps in a restart file: a header, a struct of numbers, and what the struct says there is behind it. LIGGGHTS hands them
- *  back without saying how many there are: the header has the version and the size of the struct. */
+/** The bytes that a fix keeps in a restart file: a header, a struct of numbers, and what the struct says there is
+ *  behind it. LIGGGHTS hands them back without saying how many there are: the header has the version and the size of
+ *  the struct. */
 namespace state_block {
 
 struct Header {

@@ -135,7 +135,7 @@ void FixGrainRecord::write_restart(FILE *file) {
 
 /** What does not mean the same may have other numbers, too. */
 void FixGrainRecord::restart(char *buffer) {
-  const SavedRecord saved = grainscope::read_state<SavedRecord>(lmp, *this, buffer);
+  const SavedRecord saved = grainscope::read_state<SavedRecord>(lmp, *this, style, buffer);
   if (saved.meaning != meaning_ || saved.shared_numbers != shared_.size()) {
     const std::string message = std::string(id) + ": the restart file holds the memory of another compute: give the compute the style, group and "
                                 "keywords that it had, or another ID";

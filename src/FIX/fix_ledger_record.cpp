@@ -245,5 +245,5 @@ void FixLedgerRecord::write_restart(FILE *file) {
 }
 
 void FixLedgerRecord::restart(char *buffer) {
-  impl_->take(grainscope::read_state<SavedLedger>(lmp, *this, buffer), comm->me == 0);
+  impl_->take(grainscope::read_state<SavedLedger>(lmp, *this, style, buffer), comm->me == 0);
 }

@@ -287,7 +287,7 @@ void FixPressStrain::write_restart(FILE *file) {
 
 void FixPressStrain::restart(char *buffer) {
   Impl &my = *impl_;
-  const auto saved = grainscope::read_state<SavedControl>(lmp, *this, buffer);
+  const auto saved = grainscope::read_state<SavedControl>(lmp, *this, "press/strain", buffer);
   my.strain = saved.strain;
   my.velocity = saved.velocity;
   my.averaged_pressure = saved.averaged_pressure;

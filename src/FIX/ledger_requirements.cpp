@@ -50,7 +50,8 @@ bool LedgerRequirements::shares_grains(int other_groupbit) const {
   return any;
 }
 
-/** Kinetic energy is booked as velocity Verlet moves it: every grain of the group by one such fix, or not at all (frozen). */
+/** Kinetic energy is booked as velocity Verlet moves it: every grain of the group by one such fix, or not at all
+ *  (frozen). */
 void LedgerRequirements::require_moved_by_verlet() const {
   int moved = 0;
   for (int k = 0; k < modify->nfix; k++) {

@@ -9,7 +9,8 @@ namespace LAMMPS_NS { class PairGranInsitu; }
 
 namespace grainscope {
 
-/** What the energy ledger of a group needs of contact models, fixes and box: what is not met ends the run. Collective. */
+/** What the energy ledger of a group needs of contact models, fixes and box: what is not met ends the run.
+ *  Collective. */
 class LedgerRequirements : private LAMMPS_NS::Pointers {
  public:
   /** `who`: for messages. */

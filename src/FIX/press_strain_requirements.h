@@ -11,7 +11,8 @@ namespace grainscope {
 struct PressStrainSettings;
 class ShearedBox;
 
-/** What fix press/strain needs of the box and of other fixes: what is not met ends the run. In its constructor and before each run. */
+/** What fix press/strain needs of the box and of other fixes: what is not met ends the run. In its constructor and
+ *  before each run. */
 class PressStrainRequirements : private LAMMPS_NS::Pointers {
  public:
   /** `fix`: press/strain itself. */

@@ -9,8 +9,8 @@
 
 namespace grainscope {
 
-/** A fix that another style makes for itself: the memory of a compute, the guard of a run. A line of an input script makes none, as it would
- *  replace what is remembered. All members that make or delete one are collective. */
+/** A fix that another style makes for itself: the memory of a compute, the guard of a run. A line of an input script
+ *  makes none, as it would replace what is remembered. All members that make or delete one are collective. */
 class InternalFix : public LAMMPS_NS::Fix {
  public:
   /** Words of the command: ID, group, style, further ones. */
@@ -19,7 +19,8 @@ class InternalFix : public LAMMPS_NS::Fix {
   /** `makers` are for the message that an input script gets. */
   InternalFix(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg, const char *makers);
 
-  /** Makes it, behind all other fixes. `why`: "compute c needs the fix ID 'c_record' for its memory", for an error when the ID is taken. */
+  /** Makes it, behind all other fixes. `why`: "compute c needs the fix ID 'c_record' for its memory", for an error
+   *  when the ID is taken. */
   static InternalFix *make(LAMMPS_NS::LAMMPS *lmp, const Words &words, const std::string &why);
   /** Makes it, or moves it behind all other fixes, with its state; made anew when its words have changed. */
   static InternalFix *make_last(LAMMPS_NS::LAMMPS *lmp, const Words &words, const std::string &why);
@@ -37,7 +38,8 @@ class InternalFix : public LAMMPS_NS::Fix {
   Words words_;
 };
 
-/** The fix ID_suffix that compute ID makes for itself in its constructor, finds in init() and removes in its destructor. */
+/** The fix ID_suffix that compute ID makes for itself in its constructor, finds in init() and removes in its
+ *  destructor. */
 struct ComputeFix {
   const char *style, *suffix;
   const char *purpose;   // "memory", as in: needs the fix ID for its memory

@@ -12,8 +12,9 @@
 
 namespace grainscope {
 
-/** How fixes keep their state in restart files. `State` is a struct of numbers with `static constexpr std::uint32_t version`, raised whenever
- *  its members, or their meaning, change: a file of another version is refused, with both. `tail`: what has no fixed length; the state says how long it is. */
+/** How fixes keep their state in restart files. `State` is a struct of numbers with `static constexpr std::uint32_t
+ *  version`, raised whenever its members, or their meaning, change: a file of another version is refused, with both.
+ *  `tail`: what has no fixed length; the state says how long it is. */
 template <class State>
 void write_state(std::FILE *file, const State &state, const void *tail = nullptr, std::size_t tail_size = 0) {
   static_assert(std::is_trivially_copyable<State>::value, "a restart file holds bytes");
@@ -23,12 +24,13 @@ void write_state(std::FILE *file, const State &state, const void *tail = nullptr
   fwrite(block.data(), 1, size, file);
 }
 
-/** In a fix's restart(). Collective, as the host hands the same bytes to all ranks. */
+/** In a fix's restart(). Collective, as the host hands the same bytes to all ranks. `style`: as input scripts know
+ *  it. */
 template <class State>
-State read_state(LAMMPS_NS::LAMMPS *lmp, const LAMMPS_NS::Fix &fix, const char *block) {
+State read_state(LAMMPS_NS::LAMMPS *lmp, const LAMMPS_NS::Fix &fix, const char *style, const char *block) {
   static_assert(std::is_trivially_copyable<State>::value, "a restart file holds bytes");
   const std::string differs = state_block::what_differs(block, State::version, sizeof(State));
-  if (!differs.empty()) lmp->error->all(FLERR, (std::string("fix ") + fix.id + " (" + fix.style + "): " + differs).c_str());
+  if (!differs.empty()) lmp->error->all(FLERR, (std::string("fix ") + fix.id + " (" + style + "): " + differs).c_str());
   State state;
   memcpy(&state, state_block::state(block), sizeof state);
   return state;

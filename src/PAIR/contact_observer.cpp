@@ -6,8 +6,6 @@
 
 namespace grainscope {
 
-ContactObserver::ContactObserver(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) { batch_.reserve(batch_size); }
-
 ContactObserver::~ContactObserver() { remove_all(); }
 
 void ContactObserver::add(ContactSink *sink) {
@@ -31,7 +29,7 @@ bool ContactObserver::begin(bool springs_move, bool repeats) {
   springs_move_ = springs_move;
   repeats_ = repeats;
   listening_.clear();
-  batch_.clear();
+  waiting_ = 0;
   bool images = false;
   for (ContactSink *sink : sinks_)
     if (sink->wants_contacts()) listening_.push_back(sink);
@@ -57,13 +55,13 @@ bool ContactObserver::begin(bool springs_move, bool repeats) {
 }
 
 void ContactObserver::hand_over() {
-  const ContactSpan contacts(batch_.data(), batch_.size());
+  const ContactSpan contacts(batch_.data(), waiting_);
   for (ContactSink *sink : listening_) sink->add_contacts(contacts);
-  batch_.clear();
+  waiting_ = 0;
 }
 
 void ContactObserver::end() {
-  if (!batch_.empty()) hand_over();
+  if (waiting_ > 0) hand_over();
   active_ = false;
 }
 

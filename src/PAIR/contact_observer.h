@@ -6,6 +6,7 @@
 #include "contact.h"
 #include "contact_sink.h"
 #include "pointers.h"
+#include <array>
 #include <vector>
 
 namespace grainscope {
@@ -15,7 +16,7 @@ namespace grainscope {
  *  it costs one branch per contact. */
 class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers {
  public:
-  explicit ContactObserver(LAMMPS_NS::LAMMPS *lmp);
+  explicit ContactObserver(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
   ~ContactObserver();
 
   void add(ContactSink *sink);
@@ -53,11 +54,15 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   const double *const *positions() const { return x_; }
   int local_grains() const { return n_local_; }
 
-  /** A contact to be filled in; sinks see it at the latest when the evaluation ends. */
+  /** A contact of which everything is to be filled in, but for what is optional; sinks see it at the latest when the evaluation ends. */
   Contact &next() {
-    if (batch_.size() == batch_size) hand_over();
-    batch_.emplace_back();
-    return batch_.back();
+    if (waiting_ == batch_.size()) hand_over();
+    Contact &contact = batch_[waiting_++];
+    contact.motion.reset();
+    contact.past.reset();
+    contact.spring.reset();
+    contact.rolling.reset();
+    return contact;
   }
 
   /** Image shift of atom j, three integers as doubles: x_j = x_owner + H . shift. Valid when a sink asked for images. */
@@ -69,10 +74,9 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   }
 
  private:
-  static constexpr std::size_t batch_size = 32;  // 16 kB: they stay in the first cache
-
   std::vector<ContactSink *> sinks_, listening_;
-  std::vector<Contact> batch_;
+  std::array<Contact, 32> batch_;  // 16 kB: they stay in the first cache
+  std::size_t waiting_ = 0;        // of them
   bool active_ = false;
   bool motion_ = false;
   bool keeps_past_ = false;

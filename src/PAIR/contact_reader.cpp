@@ -138,7 +138,7 @@ void ContactReader::after(const Surfaces &s, const Forces &force_on_i) {
   Contact &c = observer_.next();
   const bool ghost = s.j >= observer_.local_grains();
   c.i = s.i;
-  c.partner = PartnerGrain{s.j, ghost};
+  c.partner.emplace<PartnerGrain>(PartnerGrain{s.j, ghost});
   c.weight = ghost ? 0.5 : 1.0;
   c.branch = xi - xj;
   c.normal = normal;

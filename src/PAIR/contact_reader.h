@@ -22,6 +22,7 @@ class ContactReader {
   using Forces = LIGGGHTS::ContactModels::ForceData;
 
   explicit ContactReader(ContactObserver &observer) : observer_(observer) {}
+  const ContactObserver &observer() const { return observer_; }
 
   void set_law(const ContactLaw &law) { law_ = law; }
   const ContactLaw &law() const { return law_; }
@@ -33,7 +34,6 @@ class ContactReader {
   static constexpr int past_columns = 6;
   static const char *past_column(int k);
 
-  bool active() const { return observer_.active(); }
   void before(const Surfaces &s) {
     if (law_.tangential != TangentialLaw::spring) return;
     double *spring = s.contact_history + law_.spring_column;

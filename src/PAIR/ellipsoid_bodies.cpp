@@ -12,7 +12,7 @@ namespace grainscope {
 
 void EllipsoidBodies::prepare() {
   const int n = atom->nlocal + atom->nghost;
-  if (list_.renewed(*neighbor, *update)) {
+  if (lists_.renewed(*neighbor, *update)) {
     refuse_other_blockiness();
     read_shapes(n);
     refuse_other_than_spheres();

@@ -83,7 +83,7 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
   };
   std::vector<Grain> grains_;
   bool only_spheres_ = false, some_triaxial_ = false;
-  NeighbourListWatch list_;
+  NeighbourListWatch lists_;
   std::vector<EllipsoidPair> pairs_;
   std::vector<int> place_;                 // of each of them among the queries
   std::vector<EllipsoidContact> solved_;

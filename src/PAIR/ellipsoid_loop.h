@@ -20,7 +20,7 @@ namespace grainscope {
  *  the host's last bit, but neighbours that are surely apart are not looked at. Whatever else is asked of the loop (rigid bodies,
  *  multicontact, stored contact forces, compute pair/gran/local) goes the host's way. */
 template <class Model>
-class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model>, public ResetsOpenSprings {
+class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model>, public ResetsOpenedSprings {
   using Host = LIGGGHTS::PairStyles::Granular<Model>;
   using PairGran = LAMMPS_NS::PairGran;
 
@@ -80,7 +80,7 @@ class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model>, public Reset
 
   SeparationMemory apart_;
   std::vector<int> first_pair_;  // of each grain in the neighbour list
-  NeighbourListWatch list_;
+  NeighbourListWatch lists_;
   std::vector<int> look_;        // neighbours of one grain that may touch it, by place in its list
   std::vector<NeighbourPair> to_solve_;
   std::vector<EllipsoidBodies::Query> queries_;
@@ -179,7 +179,7 @@ template <class Model>
 void EllipsoidLoop<Model>::follow_motion() {
   const LAMMPS_NS::Atom *atom = lmp_->atom;
   const LAMMPS_NS::NeighList *list = pair_->list;
-  if (list_.renewed(*lmp_->neighbor, *lmp_->update)) {
+  if (lists_.renewed(*lmp_->neighbor, *lmp_->update)) {
     int pairs = 0;
     first_pair_.resize(list->inum);
     for (int ii = 0; ii < list->inum; ii++) {

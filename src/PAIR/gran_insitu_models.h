@@ -6,9 +6,9 @@
 
 namespace grainscope {
 
-/** A loop of ours that resets the tangential spring of a contact that opens; the host's may keep it until the next neighbour list. */
-struct ResetsOpenSprings {
-  virtual ~ResetsOpenSprings() {}
+/** A loop of ours that resets the spring of a contact when it opens; the host's may keep it until the next neighbour list. */
+struct ResetsOpenedSprings {
+  virtual ~ResetsOpenedSprings() {}
 };
 
 /** The observed pair loop for the contact-model combination `hash`: compiled for every combination of the whitelist, the host's

@@ -19,12 +19,13 @@ class Observed : public ContactModel, public ObservedModel {
 
   Observed(LAMMPS_NS::LAMMPS *lmp, LIGGGHTS::IContactHistorySetup *setup, bool is_wall, const int64_t hash)
       : ContactModel(lmp, setup, is_wall, hash), x_(&lmp->atom->x),
-        reader_(static_cast<LAMMPS_NS::PairGranInsitu *>(static_cast<LAMMPS_NS::PairGran *>(setup))->reader()) {
+        reader_(static_cast<LAMMPS_NS::PairGranInsitu *>(static_cast<LAMMPS_NS::PairGran *>(setup))->reader()),
+        observer_(reader_.observer()) {
     reader_.set_model(this);  // the host's loop keeps its model to itself
   }
 
   void surfacesIntersect(Surfaces &s, Forces &i, Forces &j) {
-    if (reader_.active()) reader_.before(s);
+    if (observer_.active()) reader_.before(s);
     ContactModel::surfacesIntersect(s, i, j);
   }
 
@@ -32,12 +33,13 @@ class Observed : public ContactModel, public ObservedModel {
     ContactModel::endSurfacesIntersect(s, mesh, i, j);
     if (s.is_non_spherical)
       for (int k = 0; k < 3; k++) s.delta[k] = (*x_)[s.i][k] - (*x_)[s.j][k];
-    if (reader_.active()) reader_.after(s, i);
+    if (observer_.active()) reader_.after(s, i);
   }
 
  private:
   double ***x_;
   ContactReader &reader_;
+  const ContactObserver &observer_;
 };
 
 }

@@ -163,7 +163,7 @@ void PairGranInsitu::init_style() {
   PairGranProxy::init_style();
   grainscope::run_fixes::make_guard(lmp, impl_->models + (impl_->ledger ? " ledger on" : ""));
   if (impl_->neutral) impl_->memory = grainscope::run_fixes::make_setup_memory(lmp);
-  const bool resets = dynamic_cast<grainscope::ResetsOpenSprings *>(impl_->loop.get());
+  const bool resets = dynamic_cast<grainscope::ResetsOpenedSprings *>(impl_->loop.get());
   if (law().tangential == TangentialLaw::spring && !resets) impl_->checks.warn_of_stale_springs();
   watch_time_step();
 }

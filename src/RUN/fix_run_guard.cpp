@@ -43,7 +43,8 @@ struct Quantity {
 
 bool finite(const double *values, int n) { return grainscope::all_finite(values, n); }
 
-/** Of a file whose lines go out as they end, so that nothing is left to be flushed. Sets errno, by a line break more. */
+/** Of a file whose lines go out as they end, so that nothing is left to be flushed. Sets errno, by a line break
+ *  more. */
 bool lost_a_line(FILE *file) {
   if (!file || file == stdout || !ferror(file)) return false;
   errno = EIO;
@@ -176,7 +177,8 @@ void FixRunGuard::pre_neighbor() {
   error->all(FLERR, message.str().c_str());
 }
 
-/** All streams that the host has open: it does not look whether its output arrives. A screen that is gone is no reason to end a run. */
+/** All streams that the host has open: it does not look whether its output arrives. A screen that is gone is no
+ *  reason to end a run. */
 std::string FixRunGuard::not_written() const {
   const bool screen_is_gone = fflush(stdout) != 0;
   const bool written = fflush(nullptr) == 0 && !lost_a_line(logfile) && !lost_a_line(screen);
@@ -185,8 +187,9 @@ std::string FixRunGuard::not_written() const {
   return "step " + std::to_string(update->ntimestep) + ": output of this run (dumps, tables, log) cannot be written: " + reason;
 }
 
-/** The words of the pair style: what contact history is made of. In a run the host would write springs as they were before the step: it puts them
- *  where restart files are written from when lists are built, which is before forces are formed. */
+/** The words of the pair style: what contact history is made of. In a run the host would write springs as they were
+ *  before the step: it puts them where restart files are written from when lists are built, which is before forces
+ *  are formed. */
 void FixRunGuard::write_restart(FILE *file) {
   Fix *springs = running_ ? modify->find_fix_style_strict("contacthistory", 0) : nullptr;
   if (springs) springs->pre_exchange();
@@ -196,7 +199,7 @@ void FixRunGuard::write_restart(FILE *file) {
 }
 
 void FixRunGuard::restart(char *buffer) {
-  const SavedGuard saved = grainscope::read_state<SavedGuard>(lmp, *this, buffer);
+  const SavedGuard saved = grainscope::read_state<SavedGuard>(lmp, *this, style, buffer);
   const std::string written(grainscope::state_block::tail(buffer), grainscope::whole_count(saved.length, 1e6));
   if (written.empty() || written == settings_ || comm->me != 0) return;
   error->warning(FLERR, ("pair_style gran/insitu: the restart file was written with '" + written + "', and now it is '" + settings_ + "'").c_str());

@@ -89,7 +89,8 @@ void FixSetupMemory::setup_pre_force(int) {
 
 void FixSetupMemory::setup(int) { impl_->memory->evaluation.end_repetition(); }
 
-/** In the step after a restart file: what the host does next too, but in an order that does not depend on the ranks' past. */
+/** In the step after a restart file: what the host does next too, but in an order that does not depend on the ranks'
+ *  past. */
 void FixSetupMemory::pre_exchange() {
   if (update->ntimestep != next_reneighbor) return;
   if (domain->triclinic) domain->x2lamda(atom->nlocal);
@@ -143,7 +144,8 @@ void FixSetupMemory::unpack_restart(int i, int nth) {
   impl_->memory->evaluation.grains.read(i, numbers);
 }
 
-/** Comes before the grains are written. The run that begins from the file wraps grains and builds lists where this one does. */
+/** Comes before the grains are written. The run that begins from the file wraps grains and builds lists where this
+ *  one does. */
 void FixSetupMemory::write_restart(FILE *file) {
   Memory &memory = *impl_->memory;
   if (impl_->running) {
@@ -161,7 +163,7 @@ void FixSetupMemory::write_restart(FILE *file) {
 }
 
 void FixSetupMemory::restart(char *buffer) {
-  const SavedSetup saved = grainscope::read_state<SavedSetup>(lmp, *this, buffer);
+  const SavedSetup saved = grainscope::read_state<SavedSetup>(lmp, *this, style, buffer);
   impl_->memory->evaluation.set_box(saved.evaluated);
   impl_->memory->run = saved.run;
   impl_->memory->evaluation.set_stamp(saved.stamp);

@@ -38,7 +38,8 @@ class GrainMemory : private LAMMPS_NS::Pointers {
   void note_end_of_step();
   /** Exchanges positions, velocities and spins with those of the last evaluation. */
   void swap_evaluation();
-  /** Gives grains the positions that they ended the step with; `box`: of the evaluation, for grains that were wrapped since. */
+  /** Gives grains the positions that they ended the step with; `box`: of the evaluation, for grains that were
+   *  wrapped since. */
   void restore_positions(const HostBox &box);
   void restore_forces() const;
   /** Grain i was wrapped since the last evaluation: changes the position and velocity that are remembered of it. */

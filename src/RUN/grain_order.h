@@ -6,7 +6,8 @@
 
 namespace grainscope {
 
-/** The order of a rank's grains, which forces are summed in. LIGGGHTS sorts grains by position every so many steps, and when a run begins. */
+/** The order of a rank's grains, which forces are summed in. LIGGGHTS sorts grains by position every so many steps,
+ *  and when a run begins. */
 class GrainOrder : private LAMMPS_NS::Pointers {
  public:
   explicit GrainOrder(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}

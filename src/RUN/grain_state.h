@@ -10,8 +10,8 @@ namespace LAMMPS_NS { class Atom; }
 
 namespace grainscope {
 
-/** Checksums by which a change of a grain is noticed: of its velocity, which wrapping may change, and of its spin, orientation, shape, mass
- *  and type, which nothing but a command changes between runs. Whole numbers. */
+/** Checksums by which a change of a grain is noticed: of its velocity, which wrapping may change, and of its spin,
+ *  orientation, shape, mass and type, which nothing but a command changes between runs. Whole numbers. */
 double velocity_hash(const LAMMPS_NS::Atom *atom, int i);
 double state_hash(const LAMMPS_NS::Atom *atom, int i);
 

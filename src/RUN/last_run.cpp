@@ -18,7 +18,8 @@ using LAMMPS_NS::LAMMPS;
 
 namespace {
 
-/** Old forces do not hold when a fix that adds to them comes or goes. In any order: that of an input script after read_restart may be another. */
+/** Old forces do not hold when a fix that adds to them comes or goes. In any order: that of an input script after
+ *  read_restart may be another. */
 double movers_of(const LAMMPS *lmp) {
   double sum = 0.0;
   for (int k = 0; k < lmp->modify->nfix; k++) {
@@ -41,8 +42,8 @@ LastRun LastRun::ending_now(LAMMPS *lmp) {
   return run;
 }
 
-/** Whether images are where they were. A face that is not periodic pushes no grain, wherever it is: one that follows the
- *  grains is set again when the run begins. */
+/** Whether images are where they were. A face that is not periodic pushes no grain, wherever it is: one that follows
+ *  the grains is set again when the run begins. */
 bool LastRun::same_box(const LAMMPS *lmp) const {
   const LAMMPS_NS::Domain *domain = lmp->domain;
   const HostBox now = HostBox::of(domain);

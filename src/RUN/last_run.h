@@ -10,8 +10,8 @@ namespace grainscope {
 
 class GrainMemory;
 
-/** What the last run ended with, beside its grains: the next one may go on only as long as nothing of it has changed. Doubles throughout, as it
- *  stands in restart files. */
+/** What the last run ended with, beside its grains: the next one may go on only as long as nothing of it has
+ *  changed. Doubles throughout, as it stands in restart files. */
 struct LastRun {
   HostBox box;
   double grains = -1.0;        // -1 before the first run

@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Restart files of other versions of grainscope: each fix refuses a state that it cannot read, with both versions. And what fixes are made for
-other styles alone."""
+"""Restart files of other versions of grainscope: each fix refuses a state that it cannot read, with both versions.
+And fixes that no input script makes."""
 from dataclasses import replace
 import struct
 import zlib
 
 from case import main, require
-from catalogue import DISPLACEMENT
+from catalogue import DISPLACEMENT, strain_lines
 from deck import Deck, thermo
 from packing import dense_packing
 from refusal import require_refused
 from run import run
 
 PRESS = "fix press all press/strain axis y target 2e5 shear xy rate 0.05 every 7e-4"
-FIXES = {"run/guard": "gran_insitu_guard", "setup/memory": "gran_insitu_setup", "grain/record": "displacement_record",
+FIXES = {"run/guard": "gran_insitu_guard", "setup/memory": "gran_insitu_setup", "grain/record": "moved_record",
          "ledger/record": "ledger_ledger", "press/strain": "press"}
 MARK = b"grs stat"
 SEAL = struct.Struct("<16sQII")      # mark, length, checksum, format
@@ -21,7 +21,7 @@ SEAL = struct.Struct("<16sQII")      # mark, length, checksum, format
 
 def measured():
     deck = Deck(dense_packing(1.5), surface="ellipsoid", extra="setup neutral ledger on")
-    lines = [PRESS, DISPLACEMENT.define("all"), "compute ledger all energy/ledger"]
+    lines = [*strain_lines(0.05), PRESS, DISPLACEMENT.define("all"), "compute ledger all energy/ledger"]
     return deck, [*lines, *thermo(5, *DISPLACEMENT.columns(), "c_ledger[19]")]
 
 
@@ -32,11 +32,11 @@ def resealed(body, whole, **changes):
 
 
 def with_number(whole, style, offset, value):
-    """Another number `offset` bytes after the mark of the style's state."""
+    """Another number `offset` bytes after the mark of the state of the style's fix, which follows its ID and style."""
     body = bytearray(whole[:-SEAL.size])
-    name = style.encode() + b"\0"
-    at = body.index(name) + len(name) + 4
-    require(body[at:at + len(MARK)] == MARK, f"fix {style} keeps no state with a version")
+    name = body.index(FIXES[style].encode() + b"\0")
+    at = body.index(MARK, name)
+    require(at - name < 60, f"fix {style} keeps no state with a version")
     struct.pack_into("<I", body, at + offset, value)
     return resealed(bytes(body), whole)
 
@@ -86,7 +86,8 @@ for one in FIXES:
     CASES[f"{one}-version"] = refused(one, 8, 9, OTHER.format("version 9"))
     CASES[f"{one}-size"] = refused(one, 12, 4, OTHER.format("4 bytes"))
     CASES[f"{one}-without-a-version"] = refused(
-        one, 0, 0, "holds its state without a version, as earlier versions of grainscope wrote it, and this program reads version 1")
+        one, 0, 0, "holds its state without a version, as earlier versions of grainscope wrote it, and this program "
+        "reads version 1")
 
 if __name__ == "__main__":
     main(CASES)

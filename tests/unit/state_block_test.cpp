@@ -41,7 +41,8 @@ TEST(StateBlock, RefusesAnotherSize) {
             "which has 24");
 }
 
-/** What earlier programs wrote: numbers, or words that may be shorter than a mark. The sanitizers see that no byte behind them is read. */
+/** What earlier programs wrote: numbers, or words that may be shorter than a mark. The sanitizers see that no byte
+ *  behind them is read. */
 TEST(StateBlock, RefusesAStateWithoutAVersion) {
   const std::string words = "the restart file holds its state without a version, as earlier versions of grainscope wrote it, and this program "
                             "reads version 1";
