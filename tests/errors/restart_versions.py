@@ -7,6 +7,7 @@ import zlib
 
 from case import main, require
 from catalogue import DISPLACEMENT, strain_lines
+from columns import outputs
 from deck import Deck, thermo
 from packing import dense_packing
 from refusal import require_refused
@@ -22,7 +23,8 @@ SEAL = struct.Struct("<16sQII")      # mark, length, checksum, format
 def measured():
     deck = Deck(dense_packing(1.5), surface="ellipsoid", extra="setup neutral ledger on")
     lines = [*strain_lines(0.05), PRESS, DISPLACEMENT.define("all"), "compute ledger all energy/ledger"]
-    return deck, [*lines, *thermo(5, *DISPLACEMENT.columns(), "c_ledger[19]")]
+    balance = outputs("energy/ledger").word("ledger", "residual_relative")
+    return deck, [*lines, *thermo(5, *DISPLACEMENT.columns(), balance)]
 
 
 def resealed(body, whole, **changes):
