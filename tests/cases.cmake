@@ -446,8 +446,8 @@ add_cases(suite-floors cases/floors.py LABEL case STYLES suite CASES
 set(with_outputs stress/contact fabric contact/direction contact/surface contact/grain contact/local contact/solver
   displacement/shear dissipation energy/ledger fluctuation layering nematic velocity/correlation velocity/memory
   property/atom press/strain)
-add_cases(every-style-outputs cases/outputs.py LABEL case STYLES outputs ${with_outputs} RANKS 1 2 CASES every-number)
-add_cases(every-style-outputs cases/outputs.py LABEL case STYLES outputs ${with_outputs} CASES
+add_cases(every-style-outputs cases/outputs_declared.py LABEL case STYLES outputs ${with_outputs} RANKS 1 2 CASES every-number)
+add_cases(every-style-outputs cases/outputs_declared.py LABEL case STYLES outputs ${with_outputs} CASES
   norm json-is-made pages declared-in-words)
 add_cases(outputs-variables cases/outputs.py LABEL case STYLES outputs stress/contact RANKS 1 2 CASES
   read-everywhere announced lasting printed-once)
