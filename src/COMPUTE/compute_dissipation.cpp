@@ -57,7 +57,7 @@ struct DampingForces : grainscope::ContactCompute::Accumulator {
     if (c.ghost() && domain->deform_vremap && (atom->mask[c.j()] & domain->deform_groupbit))
       image_velocity = observer->image_velocity(c.j());
     normal.add(c, m.normal_damping * c.normal, lever_i, lever_j, image_velocity);
-    if (c.damped) tangential.add(c, -m.tangential_damping * m.tangential_velocity, lever_i, lever_j, image_velocity);
+    if (m.damped) tangential.add(c, -m.tangential_damping * m.tangential_velocity, lever_i, lever_j, image_velocity);
   }
 };
 

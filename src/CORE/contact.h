@@ -42,6 +42,7 @@ struct ContactMotion {
   double tangential_stiffness = 0.0;                 // k_t
   double damping_coefficient = 0.0;                  // gamma_n: damping force / normal velocity
   double tangential_damping = 0.0;                   // gamma_t, acting while `damped`
+  bool damped = false;                               // tangential damping acts: the spring was not cut
 };
 
 /** The tangential spring s; its force on i is -k_t s. */
@@ -74,7 +75,6 @@ struct Contact {
   Eigen::Vector3d friction_force = Eigen::Vector3d::Zero();    // tangential_force less the drag of a liquid bridge, which no friction limits
   bool sliding = false;                              // the tangential spring was cut (friction limit reached) in this evaluation;
                                                      // in the first of a run also: damping takes the force to the limit or beyond
-  bool damped = false;                               // tangential damping acts: the spring was not cut
   double slip = 0.0;                                 // length cut from the spring, >= 0
 
   std::optional<ContactMotion> motion;               // when a sink needs it (ContactSink::needs_motion)

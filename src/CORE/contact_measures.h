@@ -11,7 +11,7 @@ namespace grainscope {
 inline double mobilisation(const Contact &c) {
   if (!(c.friction_limit > 0.0)) return 0.0;
   const double ratio = c.friction_force.norm() / c.friction_limit;
-  return c.sliding && !c.damped ? std::min(ratio, 1.0) : ratio;
+  return c.sliding && !c.motion->damped ? std::min(ratio, 1.0) : ratio;
 }
 
 /** Power lost to normal damping at this instant, -F_damping u_n. Bilotto et al. 2025, Eq. (4). */
@@ -19,7 +19,7 @@ inline double damping_loss(const Contact &c) { return -c.motion->normal_damping 
 
 /** Power lost to friction at this instant, -F_t . u_t of a contact that was cut. Bilotto et al. 2025, Eq. (4). */
 inline double friction_loss(const Contact &c) {
-  return c.sliding && !c.damped ? -c.friction_force.dot(c.motion->tangential_velocity) : 0.0;
+  return c.sliding && !c.motion->damped ? -c.friction_force.dot(c.motion->tangential_velocity) : 0.0;
 }
 
 }

@@ -125,7 +125,7 @@ void EnergyLedger::add(const Contact &c, double dt, bool springs_move) {
   if (slot_[spring] >= 0) {
     // In the first evaluation of a run the host does not turn springs into the contact plane: they may push along the normal too.
     Vector3d force = c.force - (elastic_force + m.normal_damping) * c.normal;
-    if (law_.viscous && c.damped) {
+    if (law_.viscous && m.damped) {
       const Vector3d viscous_force = -m.tangential_damping * m.tangential_velocity;
       force -= viscous_force;
       add_part(viscous, 1.0, Unit(c, viscous_force, arm_j, viscous_force.dot(m.tangential_velocity)), of_i, of_j);

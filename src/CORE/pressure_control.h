@@ -22,7 +22,7 @@ struct NetworkResponse {
     const ContactMotion &m = *c.motion;
     pressure += c.weight * c.force[axis] * r;
     stiffness += wr2 * (law.tangent_stiffness(m) * n2 + (law.sticks() ? m.tangential_stiffness * (1.0 - n2) : 0.0));
-    damping += wr2 * (m.damping_coefficient * n2 + (c.damped ? m.tangential_damping * (1.0 - n2) : 0.0));
+    damping += wr2 * (m.damping_coefficient * n2 + (m.damped ? m.tangential_damping * (1.0 - n2) : 0.0));
   }
   void add(const NetworkResponse &other, double factor) {
     pressure += factor * other.pressure;

@@ -32,7 +32,7 @@ class GrainModes {
   void add(const Contact &c, const Eigen::Vector3d &arm, const ContactLaw &law) {
     const Eigen::Matrix3d n = c.normal * c.normal.transpose(), t = Eigen::Matrix3d::Identity() - n;
     const ContactMotion &m = *c.motion;
-    const double k_t = law.sticks() ? m.tangential_stiffness : 0.0, damping_t = c.damped ? m.tangential_damping : 0.0;
+    const double k_t = law.sticks() ? m.tangential_stiffness : 0.0, damping_t = m.damped ? m.tangential_damping : 0.0;
     stiffness_ += seen_from(arm, law.tangent_stiffness(m) * n + k_t * t);
     damping_ += seen_from(arm, m.damping_coefficient * n + damping_t * t);
   }

@@ -29,7 +29,8 @@ bool ContactObserver::begin(bool springs_move, bool repeats) {
   springs_move_ = springs_move;
   repeats_ = repeats;
   listening_.clear();
-  waiting_ = 0;
+  next_ = batch_.data();
+  batch_.fill(Contact());
   bool images = false;
   for (ContactSink *sink : sinks_)
     if (sink->wants_contacts()) listening_.push_back(sink);
@@ -55,13 +56,13 @@ bool ContactObserver::begin(bool springs_move, bool repeats) {
 }
 
 void ContactObserver::hand_over() {
-  const ContactSpan contacts(batch_.data(), waiting_);
+  const ContactSpan contacts(batch_.data(), next_ - batch_.data());
   for (ContactSink *sink : listening_) sink->add_contacts(contacts);
-  waiting_ = 0;
+  next_ = batch_.data();
 }
 
 void ContactObserver::end() {
-  if (waiting_ > 0) hand_over();
+  if (next_ != batch_.data()) hand_over();
   active_ = false;
 }
 

@@ -54,15 +54,10 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   const double *const *positions() const { return x_; }
   int local_grains() const { return n_local_; }
 
-  /** A contact of which everything is to be filled in, but for what is optional; sinks see it at the latest when the evaluation ends. */
+  /** A contact to be filled in, where another of this evaluation may have been; sinks see it at the latest when the evaluation ends. */
   Contact &next() {
-    if (waiting_ == batch_.size()) hand_over();
-    Contact &contact = batch_[waiting_++];
-    contact.motion.reset();
-    contact.past.reset();
-    contact.spring.reset();
-    contact.rolling.reset();
-    return contact;
+    if (next_ == batch_.data() + batch_.size()) hand_over();
+    return *next_++;
   }
 
   /** Image shift of atom j, three integers as doubles: x_j = x_owner + H . shift. Valid when a sink asked for images. */
@@ -76,7 +71,7 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
  private:
   std::vector<ContactSink *> sinks_, listening_;
   std::array<Contact, 32> batch_;  // 16 kB: they stay in the first cache
-  std::size_t waiting_ = 0;        // of them
+  Contact *next_ = batch_.data();  // the first that is not filled in
   bool active_ = false;
   bool motion_ = false;
   bool keeps_past_ = false;

@@ -79,6 +79,7 @@ const char *ContactReader::past_column(int k) {
 
 void ContactReader::read_past(const Surfaces &s, Contact &c) const {
   const double *at = s.contact_history + law_.past_column;
+  c.past.reset();
   if (at[0] == observer_.stamp_before()) c.past.emplace(ContactPast{at[1], at[2], at[3], at[4], at[5]});
 }
 
@@ -113,6 +114,7 @@ inline void ContactReader::add_motion(const Surfaces &s, const Friction &frictio
   m.tangential_stiffness = s.kt;
   m.damping_coefficient = s.gamman;
   m.tangential_damping = friction.damping;
+  m.damped = !friction.cut && friction.damping > 0.0;
 }
 
 inline void ContactReader::add_spring(const Surfaces &s, const Friction &friction, Contact &c) const {
@@ -150,7 +152,6 @@ void ContactReader::after(const Surfaces &s, const Forces &force_on_i) {
   c.friction_limit = friction.limit;
   c.friction_force = law_.liquid_bridges ? friction_force(s, friction, c) : c.tangential_force;
   c.sliding = friction.cut || friction.beyond;
-  c.damped = !friction.cut && friction.damping > 0.0;
   c.slip = friction.slip;
   if (observer_.needs_motion()) add_motion(s, friction, c);
   if (!law_.keeps_past()) return;

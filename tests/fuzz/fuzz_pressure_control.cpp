@@ -20,7 +20,7 @@ Contact contact_of(fuzz::Input &input) {
   m.damping_coefficient = input.flag() ? input.logarithmic(1e-6, 1e6) : 0.0;
   m.tangential_damping = input.flag() ? m.damping_coefficient : 0.0;
   c.sliding = input.flag();
-  c.damped = !c.sliding && m.tangential_damping > 0.0;
+  m.damped = !c.sliding && m.tangential_damping > 0.0;
   return c;
 }
 

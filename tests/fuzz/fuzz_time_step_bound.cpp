@@ -29,7 +29,7 @@ Touch touch_of(fuzz::Input &input, double size, double stiffness) {
   m.damping_coefficient = input.flag() ? input.logarithmic(1e-9, 1e9) : 0.0;
   m.tangential_damping = input.uniform(0.0, 1.0) * m.damping_coefficient;
   c.sliding = input.flag();
-  c.damped = !c.sliding && m.tangential_damping > 0.0;
+  m.damped = !c.sliding && m.tangential_damping > 0.0;
   t.law.exponent = input.flag() ? 1.5 : 1.0;
   t.law.tangential = input.flag() ? TangentialLaw::spring : TangentialLaw::none;
   return t;

@@ -27,7 +27,7 @@ TEST(network_response, one_contact_by_hand) {
   EXPECT_DOUBLE_EQ(across.stiffness, 500.0 * 4.0);
   EXPECT_DOUBLE_EQ(across.damping, 0.0);  // it slides
   c.sliding = false;
-  c.damped = true;
+  c.motion->damped = true;
   NetworkResponse sticking;
   sticking.add(c, 1, hertz);
   EXPECT_DOUBLE_EQ(sticking.damping, 5.0 * 4.0);

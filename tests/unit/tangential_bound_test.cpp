@@ -86,10 +86,10 @@ TEST(mobilisation, is_by_the_limit_of_the_law) {
 TEST(mobilisation, of_damping_beyond_the_limit_says_so) {
   grainscope::Contact c = make_contact();
   c.friction_limit = 0.5;
-  c.damped = true;
+  c.motion->damped = true;
   EXPECT_DOUBLE_EQ(grainscope::mobilisation(c), 6.0);
   EXPECT_EQ(grainscope::friction_loss(c), 0.0);
-  c.damped = false;
+  c.motion->damped = false;
   EXPECT_DOUBLE_EQ(grainscope::friction_loss(c), 6.0);
 }
 

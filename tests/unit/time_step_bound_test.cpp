@@ -42,7 +42,7 @@ TEST(time_step_bound, tangential_damping_counts_where_the_contact_sticks) {
   GrainModes sliding, sticking;
   sliding.add(c, Vector3d(-1.0, 0.0, 0.0), sticking_hooke);
   c.sliding = false;
-  c.damped = true;
+  c.motion->damped = true;
   sticking.add(c, Vector3d(-1.0, 0.0, 0.0), sticking_hooke);
   const double difference = sticking.fastest(mass, inertia, dt).value - sliding.fastest(mass, inertia, dt).value;
   EXPECT_NEAR(difference, 2.0 * 2.0 * dt * 5.0 * 3.5 / mass, 1e-14);
