@@ -30,7 +30,6 @@ bool ContactObserver::begin(bool springs_move, bool repeats) {
   repeats_ = repeats;
   listening_.clear();
   next_ = batch_.data();
-  batch_.fill(Contact());
   bool images = false;
   for (ContactSink *sink : sinks_)
     if (sink->wants_contacts()) listening_.push_back(sink);
@@ -45,6 +44,7 @@ bool ContactObserver::begin(bool springs_move, bool repeats) {
     x_ = lmp->atom->x;
     n_local_ = lmp->atom->nlocal;
     dt_ = lmp->update->dt;
+    batch_.fill(Contact());
   }
   motion_ = keeps_past_;
   for (ContactSink *sink : listening_) {
