@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 """What the two methods of compute velocity/correlation cost and how far they lie apart, against the number of grains.
 
-Points at random in a sheared box (a cube, tilt 0.3), with velocities from a random field whose C(r) is known: close to exp(-r/0.08 L).
-Tables in Markdown, and a chart. Times are processor times of one rank, which other work on the machine hardly disturbs.
+Points at random in a sheared box (a cube, tilt 0.3), with velocities from a random field whose C(r) is known: close to
+exp(-r/0.08 L). Tables in Markdown, and a chart. Times are processor times of one rank, which other work on the machine
+hardly disturbs.
 """
 import argparse
 from dataclasses import dataclass
@@ -14,6 +15,7 @@ import sys
 import tempfile
 
 import matplotlib
+
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
@@ -34,9 +36,9 @@ class Field:
 
     def __init__(self, edges, length, random, waves=1000):
         n = np.array(list(np.ndindex(25, 25, 25))) - 12
-        n = n[len(n) // 2 + 1:]  # one of each wave and its opposite
+        n = n[len(n) // 2 + 1 :]  # one of each wave and its opposite
         k = 2.0 * np.pi * n @ np.linalg.inv(edges)
-        weight = (1.0 + length ** 2 * (k ** 2).sum(axis=1)) ** -2
+        weight = (1.0 + length**2 * (k**2).sum(axis=1)) ** -2
         longest = np.argsort(-weight)[:waves]
         self.k, self.weight = k[longest], weight[longest] / weight[longest].sum()
         self.phase = random.uniform(0.0, 2.0 * np.pi, waves)
@@ -55,6 +57,7 @@ class Field:
 @dataclass
 class Points:
     """In a box that grows with their number: 15 across for the first 2000."""
+
     count: int
     file: pathlib.Path
     size: float = 0.0
@@ -83,7 +86,7 @@ class Points:
         """Mean of the field's correlation over each bin."""
         inside = r[:, None] + width * (np.arange(41) - 20.0) / 41.0
         c = self.waves.correlation(inside.ravel()).reshape(inside.shape)
-        return (c * inside ** 2).sum(axis=1) / (inside ** 2).sum(axis=1)
+        return (c * inside**2).sum(axis=1) / (inside**2).sum(axis=1)
 
 
 @dataclass
@@ -98,18 +101,41 @@ class Measured:
 class Bench:
     def __init__(self, binary, folder):
         self.binary, self.folder = binary, folder
-        self.environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                                OMPI_MCA_btl_vader_single_copy_mechanism="none")
+        self.environment = dict(
+            os.environ,
+            OMPI_ALLOW_RUN_AS_ROOT="1",
+            OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+            OMPI_MCA_btl_vader_single_copy_mechanism="none",
+        )
 
     def run(self, points, correlation, columns=("c_c",), steps=0, ranks=1):
         """Processor seconds of the run, seconds of its quickest step, and the last row of the columns."""
         launch = [] if ranks == 1 else ["mpirun", "--oversubscribe", "-np", str(ranks)]
-        command = [*launch, str(self.binary), "-in", str(HERE / "in.correlation"), "-log", "none", "-var", "data", str(points.file),
-                   "-var", "correlation", correlation, "-var", "columns", " ".join(columns), "-var", "steps", str(steps)]
+        command = [
+            *launch,
+            str(self.binary),
+            "-in",
+            str(HERE / "in.correlation"),
+            "-log",
+            "none",
+            "-var",
+            "data",
+            str(points.file),
+            "-var",
+            "correlation",
+            correlation,
+            "-var",
+            "columns",
+            " ".join(columns),
+            "-var",
+            "steps",
+            str(steps),
+        ]
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         with session(self.environment) as environment:
-            done = subprocess.run(command, cwd=self.folder, env=environment, stdout=subprocess.PIPE,
-                                  stderr=subprocess.STDOUT, text=True)
+            done = subprocess.run(
+                command, cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+            )
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         rows = [line.split() for line in done.stdout.splitlines()]
         values = np.array([row for row in rows if len(row) == len(columns) + 2 and row[0].isdigit()], dtype=float)
@@ -119,7 +145,8 @@ class Bench:
         return processor, np.diff(values[:, 1]).min(initial=np.inf), values[-1, 2:]
 
     def measure(self, points, options, bins=BINS):
-        """On one rank, in processor time: over many steps, or once where it takes seconds. Bins are read when there are BINS of them."""
+        """On one rank, in processor time: over many steps, or once where it takes seconds. Bins are read when there are
+        BINS of them."""
         own = outputs("velocity/correlation")
         names = ("r", "C", "pairs")
         cells = [own.word("c", name, k) for k in range(1, BINS + 1) for name in names] if bins == BINS else []
@@ -134,13 +161,17 @@ class Bench:
 
     def gain(self, points, options, steps=400):
         """How many times as fast two ranks are as one, by the quickest step of each."""
-        one, two = (self.run(points, f"velocity/correlation {options}", steps=steps, ranks=ranks)[1] for ranks in (1, 2))
+        one, two = (
+            self.run(points, f"velocity/correlation {options}", steps=steps, ranks=ranks)[1] for ranks in (1, 2)
+        )
         print(f"  {points.count} {options or 'direct'}: {one:.4g} s, on two ranks {two:.4g} s", flush=True)
         return one / two
 
 
 def mesh_cells(mesh, bins=BINS):
-    """Of a cube sheared by TILT, whose x edge has the smallest height; lengths are rounded up to products of 2, 3, 5 and 7."""
+    """Of a cube sheared by TILT, whose x edge has the smallest height; lengths are rounded up to products of 2, 3, 5
+    and 7."""
+
     def fast(n):
         while True:
             rest = n
@@ -150,6 +181,7 @@ def mesh_cells(mesh, bins=BINS):
             if rest == 1:
                 return n
             n += 1
+
     across = fast(2 * bins * mesh)
     return across * fast(int(np.ceil(2 * bins * mesh * np.hypot(1.0, TILT) - 1e-6))) ** 2
 
@@ -163,9 +195,11 @@ def measure_all(bench, counts):
     results = {}
     for count in counts:
         points = Points(count, bench.folder / "points.data")
-        cases = {"direct": bench.measure(points, ""),
-                 "short": bench.measure(points, f"range {5.0 * points.diameter:.10g}"),
-                 "fine": bench.measure(points, "method mesh mesh 2", bins=bins_as_wide(count))}
+        cases = {
+            "direct": bench.measure(points, ""),
+            "short": bench.measure(points, f"range {5.0 * points.diameter:.10g}"),
+            "fine": bench.measure(points, "method mesh mesh 2", bins=bins_as_wide(count)),
+        }
         for mesh in MESHES:
             cases[f"mesh {mesh}"] = bench.measure(points, f"method mesh mesh {mesh}")
         reference = cases["direct"]
@@ -184,22 +218,37 @@ def tables(results):
     for count, (cases, _, _) in results.items():
         times = [cases[name] for name in ("direct", "short", f"mesh {DEFAULT_MESH}", "fine")]
         print(f"| {count} | " + " | ".join(f"{1e3 * m.seconds:.3g}" for m in times) + " |")
-    print("\n| mesh | cells | MB | ms | " + " | ".join(f"C, N = {count}" for count in results) + " | "
-          + " | ".join(f"l, N = {count}" for count in results) + " |\n|" + "---|" * (4 + 2 * len(results)))
+    print(
+        "\n| mesh | cells | MB | ms | "
+        + " | ".join(f"C, N = {count}" for count in results)
+        + " | "
+        + " | ".join(f"l, N = {count}" for count in results)
+        + " |\n|"
+        + "---|" * (4 + 2 * len(results))
+    )
     last = results[max(results)][0]
     for mesh in MESHES:
         row = [results[count][0] for count in results]
         c = " | ".join(f"{error(cases[f'mesh {mesh}'], cases['direct']):.1e}" for cases in row)
-        length = " | ".join(f"{100.0 * (cases[f'mesh {mesh}'].length / cases['direct'].length - 1.0):+.2f} %" for cases in row)
-        print(f"| {mesh} | {mesh_cells(mesh):.2g} | {8e-6 * mesh_cells(mesh):.2g} | {1e3 * last[f'mesh {mesh}'].seconds:.3g} | {c} | {length} |")
+        length = " | ".join(
+            f"{100.0 * (cases[f'mesh {mesh}'].length / cases['direct'].length - 1.0):+.2f} %" for cases in row
+        )
+        print(
+            f"| {mesh} | {mesh_cells(mesh):.2g} | {8e-6 * mesh_cells(mesh):.2g} | "
+            f"{1e3 * last[f'mesh {mesh}'].seconds:.3g} | {c} | {length} |"
+        )
     print("\n| N | direct from the field's own C(r) | l/L direct |\n|---|---|---|")
     for count, (cases, known, size) in results.items():
         used = cases["direct"].pairs > 0
-        print(f"| {count} | {np.abs(cases['direct'].c - known)[used].max():.1e} | {cases['direct'].length / size:.4f} |")
+        print(
+            f"| {count} | {np.abs(cases['direct'].c - known)[used].max():.1e} | {cases['direct'].length / size:.4f} |"
+        )
 
 
 def chart(results, file):
-    plt.rcParams.update({"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "axes.edgecolor": INK, "text.color": INK})
+    plt.rcParams.update(
+        {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "axes.edgecolor": INK, "text.color": INK}
+    )
     figure, (time, accuracy, curve) = plt.subplots(1, 3, figsize=(12.5, 4.2), layout="constrained")
     counts = np.array(list(results))
 
@@ -217,19 +266,49 @@ def chart(results, file):
     time.legend(frameon=False)
 
     for mesh, strength in zip(MESHES, np.linspace(0.3, 1.0, len(MESHES))):
-        series(accuracy, [error(results[count][0][f"mesh {mesh}"], results[count][0]["direct"]) for count in counts], f"mesh {mesh}",
-               COLOURS["mesh"], alpha=strength)
+        series(
+            accuracy,
+            [error(results[count][0][f"mesh {mesh}"], results[count][0]["direct"]) for count in counts],
+            f"mesh {mesh}",
+            COLOURS["mesh"],
+            alpha=strength,
+        )
         last = results[counts[-1]][0]
-        accuracy.annotate(f"mesh {mesh}", (counts[-1], error(last[f"mesh {mesh}"], last["direct"])), (6, -3), textcoords="offset points")
-    accuracy.set(xlabel="grains N", ylabel="largest |C of mesh - C of direct|", title="Accuracy of the mesh", xlim=(None, 2.5 * counts[-1]))
+        accuracy.annotate(
+            f"mesh {mesh}",
+            (counts[-1], error(last[f"mesh {mesh}"], last["direct"])),
+            (6, -3),
+            textcoords="offset points",
+        )
+    accuracy.set(
+        xlabel="grains N",
+        ylabel="largest |C of mesh - C of direct|",
+        title="Accuracy of the mesh",
+        xlim=(None, 2.5 * counts[-1]),
+    )
 
     shown = max(count for count in counts if count <= 64000)
     cases, known, size = results[shown]
     used = cases["direct"].pairs > 0
     r = cases["direct"].r / size
     curve.plot(r[used], known[used], color=INK, linewidth=1, label="the field's own")
-    curve.plot(r[used], cases["direct"].c[used], "o", color=COLOURS["direct"], markersize=6, markerfacecolor="white", label="direct")
-    curve.plot(r[used], cases[f"mesh {DEFAULT_MESH}"].c[used], "x", color=COLOURS["mesh"], markersize=5, label=f"mesh {DEFAULT_MESH}")
+    curve.plot(
+        r[used],
+        cases["direct"].c[used],
+        "o",
+        color=COLOURS["direct"],
+        markersize=6,
+        markerfacecolor="white",
+        label="direct",
+    )
+    curve.plot(
+        r[used],
+        cases[f"mesh {DEFAULT_MESH}"].c[used],
+        "x",
+        color=COLOURS["mesh"],
+        markersize=5,
+        label=f"mesh {DEFAULT_MESH}",
+    )
     curve.set(xlabel="r / L", ylabel="C(r)", title=f"C(r), N = {shown}")
     curve.legend(frameon=False)
     figure.savefig(file, dpi=150)
@@ -238,14 +317,20 @@ def chart(results, file):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("binary", type=pathlib.Path, help="the grainscope binary")
-    parser.add_argument("--counts", type=int, nargs="+", default=[2000, 8000, 32000, 64000, 128000, 256000], help="numbers of points")
-    parser.add_argument("--chart", type=pathlib.Path, default=HERE.parent / "doc" / "images" / "correlation_methods.png")
+    parser.add_argument(
+        "--counts", type=int, nargs="+", default=[2000, 8000, 32000, 64000, 128000, 256000], help="numbers of points"
+    )
+    parser.add_argument(
+        "--chart", type=pathlib.Path, default=HERE.parent / "doc" / "images" / "correlation_methods.png"
+    )
     parser.add_argument("--ranks", action="store_true", help="only how much faster two ranks are, in wall time")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         bench = Bench(arguments.binary.resolve(), pathlib.Path(name))
         if arguments.ranks:
-            points = Points(FIRST, bench.folder / "points.data")  # milliseconds, which other work leaves whole now and then
+            points = Points(
+                FIRST, bench.folder / "points.data"
+            )  # milliseconds, which other work leaves whole now and then
             for options in ("", "method mesh mesh 2"):
                 print(f"{options or 'direct'}: two ranks are {bench.gain(points, options):.2f} times as fast")
             return

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Errors of the ellipsoid kernel and of LIGGGHTS's superquadric routines against quadruple precision, as Markdown tables.
+// Errors of the ellipsoid kernel and of LIGGGHTS's superquadric routines against quadruple precision, as Markdown
+// tables.
 // Usage: ellipsoid_accuracy [pairs per line, default 20000] [overlap: a line for each]
 #include "superquadric_pair.h"
 #include <cmath>
@@ -28,7 +29,8 @@ struct Errors {
   }
   void print() const {
     const auto plain = [](double x) { return x < 1e-20 ? 0.0 : x; };  // exact in double precision
-    for (int q = 0; q < QUANTITIES; q++) std::printf(" %.0e, %.0e |", plain(largest[q]), plain(std::sqrt(squares[q] / count)));
+    for (int q = 0; q < QUANTITIES; q++)
+      std::printf(" %.0e, %.0e |", plain(largest[q]), plain(std::sqrt(squares[q] / count)));
   }
 };
 
@@ -91,7 +93,8 @@ void line(double alpha, double from, double to, long pairs, const std::string &f
     add_kernel<Triaxial>(pair, exact, start, triaxial);
     add_liggghts(pair, exact, motion, liggghts);
   }
-  for (const auto &[name, errors] : {std::pair<const char *, const Errors &>("spheroid form", spheroids), {"triaxial form", triaxial},
+  for (const auto &[name, errors] : {std::pair<const char *, const Errors &>("spheroid form", spheroids),
+                                     {"triaxial form", triaxial},
                                      {"LIGGGHTS", liggghts}}) {
     std::printf("| %s %s |", first.c_str(), name);
     errors.print();
@@ -110,11 +113,10 @@ std::string number(double x) {
 int main(int argc, char **argv) {
   const long pairs = argc > 1 ? std::atol(argv[1]) : 20000;
   const bool by_overlap = argc > 2;
-  std::printf("| alpha |%s by | point | normal | overlap | curvature |\n|---|---|---|---|---|---|%s\n", by_overlap ? " shift |" : "",
-              by_overlap ? "---|" : "");
+  std::printf("| alpha |%s by | point | normal | overlap | curvature |\n|---|---|---|---|---|---|%s\n",
+              by_overlap ? " shift |" : "", by_overlap ? "---|" : "");
   for (double alpha : {0.05, 0.33, 0.67, 1.0, 1.5, 3.0, 20.0}) {
-    if (!by_overlap)
-      line(alpha, 1e-6, 1e-2, pairs, number(alpha) + " |");
+    if (!by_overlap) line(alpha, 1e-6, 1e-2, pairs, number(alpha) + " |");
     else
       for (double shift : {1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1e-1})
         line(alpha, shift, shift, pairs, number(alpha) + " | " + number(shift) + " |");

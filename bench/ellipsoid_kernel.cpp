@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Nanoseconds per pair of the ellipsoid kernel and of LIGGGHTS's superquadric routines, on the same pairs. Drawn as a chart by
-// ellipsoid_chart.py; by hand: ellipsoid_kernel --benchmark_filter=warm --benchmark_repetitions=9 --benchmark_report_aggregates_only=true
+// Nanoseconds per pair of the ellipsoid kernel and of LIGGGHTS's superquadric routines, on the same pairs. Drawn as a
+// chart by ellipsoid_chart.py; by hand: ellipsoid_kernel --benchmark_filter=warm --benchmark_repetitions=9
+// --benchmark_report_aggregates_only=true
 #include "superquadric_pair.h"
 #include <benchmark/benchmark.h>
 #include <algorithm>
@@ -37,8 +38,9 @@ void remember(Case &c) {
   SuperquadricPair(before).contact(c.history);
 }
 
-/** Touching: centres 1e-5 to 1e-3 of their distance nearer than at tangency. The others: anywhere in the reach of a neighbour list, 1.05
- *  times the sum of the longest semi-axes; near miss where LIGGGHTS's boxes overlap, rejected where they do not. */
+/** Touching: centres 1e-5 to 1e-3 of their distance nearer than at tangency. The others: anywhere in the reach of a
+ *  neighbour list, 1.05 times the sum of the longest semi-axes; near miss where LIGGGHTS's boxes overlap, rejected
+ *  where they do not. */
 std::vector<Case> draw(Situation wanted, double alpha, bool triaxial) {
   RandomPairs random(static_cast<unsigned long>(1000 * alpha));
   std::vector<Case> cases;
@@ -49,8 +51,7 @@ std::vector<Case> draw(Situation wanted, double alpha, bool triaxial) {
       if (triaxial) pair.semi[k][1] *= 1.3;
     }
     const double longest = *std::max_element(pair.semi[0], pair.semi[0] + 3), smallest = pair.smallest();
-    if (wanted == Situation::touching)
-      random.place(pair, random.logarithmic(1e-5, 1e-3));
+    if (wanted == Situation::touching) random.place(pair, random.logarithmic(1e-5, 1e-3));
     else {
       random.direction(pair.d, 3);
       const double distance = 2.1 * longest * std::cbrt(random.uniform());
@@ -61,7 +62,11 @@ std::vector<Case> draw(Situation wanted, double alpha, bool triaxial) {
     const bool touching = host.contact(history), far = history.state == SuperquadricHistory::FAR;
     const Situation is = touching ? Situation::touching : far ? Situation::rejected : Situation::near_miss;
     if (is != wanted) continue;
-    cases.push_back({pair, PairMotion(random, DRIFT * smallest, DRIFT), 0.0, {}, reference::solve(pair.body(0), pair.body(1), pair.d)});
+    cases.push_back({pair,
+                     PairMotion(random, DRIFT * smallest, DRIFT),
+                     0.0,
+                     {},
+                     reference::solve(pair.body(0), pair.body(1), pair.d)});
     remember(cases.back());
   }
   return cases;
@@ -77,8 +82,10 @@ const std::vector<Case> &cases_of(Situation situation, double alpha, bool triaxi
 }
 
 /** Seconds per pair, and the error of the contact point in smallest semi-axes. */
-void report(benchmark::State &state, const std::vector<Case> &cases, const std::vector<std::array<double, 3>> &points, bool touching) {
-  state.counters["pair"] = benchmark::Counter(PAIRS, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+void report(benchmark::State &state, const std::vector<Case> &cases, const std::vector<std::array<double, 3>> &points,
+            bool touching) {
+  state.counters["pair"] =
+      benchmark::Counter(PAIRS, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
   if (!touching) return;
   double largest = 0.0, sum = 0.0;
   for (size_t n = 0; n < cases.size(); n++) {
@@ -107,7 +114,8 @@ void kernel(benchmark::State &state, Situation situation, double alpha, bool tri
     ready[n].start = warm ? cases[n].start : 0.0;
   }
   const auto run = [&](const Ready &r) {
-    return tolerance > 0.0 ? ellipsoid_contact(r.one, r.two, r.d, r.start, tolerance) : ellipsoid_contact(r.one, r.two, r.d, r.start);
+    return tolerance > 0.0 ? ellipsoid_contact(r.one, r.two, r.d, r.start, tolerance)
+                           : ellipsoid_contact(r.one, r.two, r.d, r.start);
   };
   for (auto _ : state)
     for (const Ready &r : ready) benchmark::DoNotOptimize(run(r));
@@ -170,11 +178,14 @@ std::string number(double x) {
 
 using Run = void (*)(benchmark::State &, Situation, double, bool, bool, double);
 
-void add(const std::string &who, Run run, Situation situation, double alpha, bool triaxial, bool warm, double tolerance = 0.0) {
-  std::string name = who + "/" + NAMES[static_cast<int>(situation)] + (warm ? "/warm" : "/cold") + "/alpha:" + number(alpha);
+void add(const std::string &who, Run run, Situation situation, double alpha, bool triaxial, bool warm,
+         double tolerance = 0.0) {
+  std::string name =
+      who + "/" + NAMES[static_cast<int>(situation)] + (warm ? "/warm" : "/cold") + "/alpha:" + number(alpha);
   if (tolerance > 0.0) name += "/tolerance:" + number(tolerance);
-  benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State &state) { run(state, situation, alpha, triaxial, warm, tolerance); })
-      ->MinTime(0.05);
+  benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State &state) {
+    run(state, situation, alpha, triaxial, warm, tolerance);
+  })->MinTime(0.05);
 }
 
 }

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""How the cost of each measurement grows with the number of grains N: instructions per sample and per grain, counted by callgrind in the
-functions of each compute, on a sheared lattice of spheroids in contact. A Markdown table. 256,000 grains take a quarter of an hour.
+"""How the cost of each measurement grows with the number of grains N: instructions per sample and per grain, counted by
+callgrind in the functions of each compute, on a sheared lattice of spheroids in contact. A Markdown table. 256,000
+grains take a quarter of an hour.
 """
 import argparse
 import pathlib
@@ -18,12 +19,24 @@ STEPS = 2
 # What each compute spends, as functions that do not call each other.
 PARTS = {
     "stress/contact": ("ComputeStressContact::add_contact", "ComputeStressContact::compute_vector"),
-    "dissipation": ("ComputeDissipation::begin_contacts", "ComputeDissipation::add_contact", "ComputeDissipation::compute_vector"),
+    "dissipation": (
+        "ComputeDissipation::begin_contacts",
+        "ComputeDissipation::add_contact",
+        "ComputeDissipation::compute_vector",
+    ),
     "nematic": ("ComputeNematic::compute_vector",),
     "fabric": ("ComputeFabric::add_contact", "ComputeFabric::compute_vector"),
-    "contact/surface": ("ComputeContactSurface::begin_contacts", "ComputeContactSurface::add_contact", "ComputeContactSurface::reduce"),
+    "contact/surface": (
+        "ComputeContactSurface::begin_contacts",
+        "ComputeContactSurface::add_contact",
+        "ComputeContactSurface::reduce",
+    ),
     "contact/direction": ("ComputeContactDirection::add_contact", "ComputeContactDirection::compute_array"),
-    "contact/grain": ("ComputeContactGrain::begin_contacts", "ComputeContactGrain::add_contact", "ComputeContactGrain::compute_peratom"),
+    "contact/grain": (
+        "ComputeContactGrain::begin_contacts",
+        "ComputeContactGrain::add_contact",
+        "ComputeContactGrain::compute_peratom",
+    ),
     "fluctuation": ("ComputeFluctuation::compute_vector",),
     "displacement/shear": ("ComputeDisplacementShear::compute_vector",),
     "velocity/memory": ("ComputeVelocityMemory::compute_array",),
@@ -31,7 +44,8 @@ PARTS = {
     "layering": ("ComputeLayering::compute_array",),
     "the whole step": ("Verlet::run",),
 }
-OBSERVERS = """variable strain equal 0.00977*0.009*step
+OBSERVERS = (
+    """variable strain equal 0.00977*0.009*step
 compute a all stress/contact
 compute b all dissipation
 compute c all nematic
@@ -44,12 +58,15 @@ compute i all displacement/shear strain v_strain
 compute j all velocity/memory strain v_strain every 8e-5
 compute k all velocity/correlation method mesh
 compute l all layering
-compute m all reduce max """ + outputs("contact/grain").word("g", "N_c") + """
+compute m all reduce max """
+    + outputs("contact/grain").word("g", "N_c")
+    + """
 fix scalars all ave/time 1 1 1 c_a c_b c_c c_d c_h c_i c_m c_k c_l file /dev/null
 fix surface all ave/time 1 1 1 c_e mode vector file /dev/null
 fix direction all ave/time 1 1 1 c_f mode vector file /dev/null
 fix memory all ave/time 1 1 1 c_j mode vector file /dev/null
 """
+)
 
 
 def costs(binary, cells):
@@ -58,14 +75,38 @@ def costs(binary, cells):
         folder = pathlib.Path(name)
         (folder / "observers").write_text(OBSERVERS)
         counts = folder / "callgrind.out"
-        command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={counts}", "--collect-atstart=no",
-                   "--toggle-collect=LAMMPS_NS::Verlet::run(int)", str(binary), "-in", str(HERE / "in.growth"), "-log", "none",
-                   "-var", "cells", str(cells), "-var", "steps", str(STEPS), "-var", "observers", str(folder / "observers")]
+        command = [
+            "valgrind",
+            "--tool=callgrind",
+            f"--callgrind-out-file={counts}",
+            "--collect-atstart=no",
+            "--toggle-collect=LAMMPS_NS::Verlet::run(int)",
+            str(binary),
+            "-in",
+            str(HERE / "in.growth"),
+            "-log",
+            "none",
+            "-var",
+            "cells",
+            str(cells),
+            "-var",
+            "steps",
+            str(STEPS),
+            "-var",
+            "observers",
+            str(folder / "observers"),
+        ]
         subprocess.run(command, cwd=folder, check=True, capture_output=True)
-        listing = subprocess.run(["callgrind_annotate", "--inclusive=yes", "--threshold=100", str(counts)], check=True,
-                                 capture_output=True, text=True).stdout
+        listing = subprocess.run(
+            ["callgrind_annotate", "--inclusive=yes", "--threshold=100", str(counts)],
+            check=True,
+            capture_output=True,
+            text=True,
+        ).stdout
     found = {}
-    for count, function in re.findall(r"^ *([\d,]+) \([ \d.]+%\)\s+\S*?:(?:non-virtual thunk to )?(?:LAMMPS_NS::)?(\w+::\w+)\(", listing, re.M):
+    for count, function in re.findall(
+        r"^ *([\d,]+) \([ \d.]+%\)\s+\S*?:(?:non-virtual thunk to )?(?:LAMMPS_NS::)?(\w+::\w+)\(", listing, re.M
+    ):
         found[function] = max(found.get(function, 0), int(count.replace(",", "")))
     return {name: sum(found.get(part, 0) for part in parts) / STEPS for name, parts in PARTS.items()}
 
@@ -73,11 +114,22 @@ def costs(binary, cells):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("binary", type=pathlib.Path, help="the grainscope binary")
-    parser.add_argument("--cells", type=int, nargs="+", default=[8, 16, 32, 40], help="lattice cells per edge, N = 4 cells^3 (default %(default)s)")
+    parser.add_argument(
+        "--cells",
+        type=int,
+        nargs="+",
+        default=[8, 16, 32, 40],
+        help="lattice cells per edge, N = 4 cells^3 (default %(default)s)",
+    )
     arguments = parser.parse_args()
     results = [costs(arguments.binary.resolve(), cells) for cells in arguments.cells]
-    grains = [4 * cells ** 3 for cells in arguments.cells]
-    print("Instructions per sample and grain\n\n| measurement | " + " | ".join(f"N = {n:,}" for n in grains) + " |\n|---|" + "---|" * len(grains))
+    grains = [4 * cells**3 for cells in arguments.cells]
+    print(
+        "Instructions per sample and grain\n\n| measurement | "
+        + " | ".join(f"N = {n:,}" for n in grains)
+        + " |\n|---|"
+        + "---|" * len(grains)
+    )
     for name in PARTS:
         print(f"| {name} | " + " | ".join(f"{result[name] / n:.0f}" for result, n in zip(results, grains)) + " |")
 

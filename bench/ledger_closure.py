@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Where the energy of sheared spheroids goes, and whether the ledger closes: bench/in.closure for every combination given, as a Markdown
-table in percent of D_n + D_t, for the stretch under pressure control and the one at constant volume. The last two columns are the error of
-the time step (G_dt) and the residual."""
+"""Where the energy of sheared spheroids goes, and whether the ledger closes: bench/in.closure for every combination
+given, as a Markdown table in percent of D_n + D_t, for the stretch under pressure control and the one at constant
+volume. The last two columns are the error of the time step (G_dt) and the residual."""
 import argparse
 import itertools
 import pathlib
@@ -13,7 +13,24 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools")
 from open_mpi import session  # noqa: E402
 
 DECK = pathlib.Path(__file__).resolve().parent / "in.closure"
-COLUMNS = ("W_shear", "W_box", "W_frame", "W_other", "D_n", "D_t", "G_k", "G_p", "G_n", "G_open", "G_dt", "U_n", "U_t", "K_tr", "K_rot", "residual")
+COLUMNS = (
+    "W_shear",
+    "W_box",
+    "W_frame",
+    "W_other",
+    "D_n",
+    "D_t",
+    "G_k",
+    "G_p",
+    "G_n",
+    "G_open",
+    "G_dt",
+    "U_n",
+    "U_t",
+    "K_tr",
+    "K_rot",
+    "residual",
+)
 SHOWN = ("W_shear", "W_box", "W_frame", "W_other", "D_n", "G_k", "G_p", "G_n", "G_open", "G_dt", "residual")
 
 
@@ -45,11 +62,17 @@ def main():
     print(f"| N | ranks | alpha | mu_p | stretch | {' | '.join(SHOWN)} |\n|" + "---|" * (len(SHOWN) + 5), flush=True)
     more = dict(item.split("=") for item in arguments.set)
     for alpha, mu in itertools.product(arguments.alpha, arguments.mu):
-        both = ledgers(arguments.binary.resolve(), {"N": arguments.grains, "alpha": alpha, "mu": mu, **more}, arguments.ranks)
+        both = ledgers(
+            arguments.binary.resolve(), {"N": arguments.grains, "alpha": alpha, "mu": mu, **more}, arguments.ranks
+        )
         for stretch, row in zip(("pressure", "volume"), both):
             unit = (row["D_n"] + row["D_t"]) / 100.0
-            print(f"| {arguments.grains} | {arguments.ranks} | {alpha:g} | {mu:g} | {stretch} | " +
-                  " | ".join(f"{row[name] / unit:.2g}" for name in SHOWN) + " |", flush=True)
+            print(
+                f"| {arguments.grains} | {arguments.ranks} | {alpha:g} | {mu:g} | {stretch} | "
+                + " | ".join(f"{row[name] / unit:.2g}" for name in SHOWN)
+                + " |",
+                flush=True,
+            )
 
 
 if __name__ == "__main__":

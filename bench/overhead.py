@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""What pair_style gran/insitu costs, idle, with each measurement in every step, and with all of them at the paper's sampling rate,
-over pair_style gran.
+"""What pair_style gran/insitu costs, idle, with each measurement in every step, and with all of them at the paper's
+sampling rate, over pair_style gran.
 
-On one dense sheared packing (N = 2000, alpha = 1.5, mu_p = 0.4, I = 0.1), in LIGGGHTS's time loop only, as a Markdown table:
-instructions per step counted by callgrind (repeatable, whatever else the machine does; needs valgrind), or with --time the wall time,
-also per contact, as medians of alternating runs (wants a quiet machine).
+On one dense sheared packing (N = 2000, alpha = 1.5, mu_p = 0.4, I = 0.1), in LIGGGHTS's time loop only, as a Markdown
+table: instructions per step counted by callgrind (repeatable, whatever else the machine does; needs valgrind), or with
+--time the wall time, also per contact, as medians of alternating runs (wants a quiet machine).
 """
 import argparse
 import pathlib
@@ -23,33 +23,46 @@ STRAIN = "variable strain equal 0.00977*0.009*step\n"
 OBSERVERS = {
     "gran/insitu, idle": "",
     "stress/contact": "compute observer all stress/contact\n"
-                      + EVERY_STEP.format(value=outputs("stress/contact").word("observer", "P")),
+    + EVERY_STEP.format(value=outputs("stress/contact").word("observer", "P")),
     "dissipation mode step": "compute observer all dissipation\n" + EVERY_STEP.format(value="c_observer"),
-    "dissipation mode instantaneous": "compute observer all dissipation mode instantaneous\n" + EVERY_STEP.format(value="c_observer"),
+    "dissipation mode instantaneous": "compute observer all dissipation mode instantaneous\n"
+    + EVERY_STEP.format(value="c_observer"),
     "contact/local overlap fn": "compute observer all contact/local overlap fn\ncompute largest all reduce max "
-                                + outputs("contact/local", ("overlap", "fn")).word("observer", "overlap") + "\n"
-                                + EVERY_STEP.format(value="c_largest"),
+    + outputs("contact/local", ("overlap", "fn")).word("observer", "overlap")
+    + "\n"
+    + EVERY_STEP.format(value="c_largest"),
     "nematic": "compute observer all nematic\n" + EVERY_STEP.format(value="c_observer"),
     "fabric": "compute observer all fabric\n" + EVERY_STEP.format(value="c_observer"),
-    "fabric with weighted tensors": "compute observer all fabric branch force/normal force/tangential\n" + EVERY_STEP.format(value="c_observer"),
+    "fabric with weighted tensors": "compute observer all fabric branch force/normal force/tangential\n"
+    + EVERY_STEP.format(value="c_observer"),
     "contact/surface": "compute observer all contact/surface\n" + EVERY_STEP.format(value="c_observer mode vector"),
     "contact/direction": "compute observer all contact/direction\n" + EVERY_STEP.format(value="c_observer mode vector"),
     "contact/grain": "compute observer all contact/grain\ncompute largest all reduce max "
-                     + outputs("contact/grain").word("observer", "N_c") + "\n" + EVERY_STEP.format(value="c_largest"),
+    + outputs("contact/grain").word("observer", "N_c")
+    + "\n"
+    + EVERY_STEP.format(value="c_largest"),
     "fluctuation": "compute observer all fluctuation\n" + EVERY_STEP.format(value="c_observer"),
-    "displacement/shear": STRAIN + "compute observer all displacement/shear strain v_strain\n" + EVERY_STEP.format(value="c_observer"),
-    "velocity/memory": STRAIN + "compute observer all velocity/memory strain v_strain every 8.8e-5\n" + EVERY_STEP.format(value="c_observer"),
-    "velocity/correlation, direct": "compute observer all velocity/correlation\n" + EVERY_STEP.format(value="c_observer"),
-    "velocity/correlation, mesh": "compute observer all velocity/correlation method mesh\n" + EVERY_STEP.format(value="c_observer"),
+    "displacement/shear": STRAIN
+    + "compute observer all displacement/shear strain v_strain\n"
+    + EVERY_STEP.format(value="c_observer"),
+    "velocity/memory": STRAIN
+    + "compute observer all velocity/memory strain v_strain every 8.8e-5\n"
+    + EVERY_STEP.format(value="c_observer"),
+    "velocity/correlation, direct": "compute observer all velocity/correlation\n"
+    + EVERY_STEP.format(value="c_observer"),
+    "velocity/correlation, mesh": "compute observer all velocity/correlation method mesh\n"
+    + EVERY_STEP.format(value="c_observer"),
     "layering": "compute observer all layering\n" + EVERY_STEP.format(value="c_observer"),
-    "stress/contact + dissipation + nematic": "compute a all stress/contact\ncompute b all dissipation\ncompute c all nematic\n"
-                                              + EVERY_STEP.format(value="c_a c_b c_c"),
+    "stress/contact + dissipation + nematic": "compute a all stress/contact\ncompute b all dissipation\ncompute "
+    "c all nematic\n" + EVERY_STEP.format(value="c_a c_b c_c"),
     "fix press/strain, gain auto": "fix press all press/strain axis y target 50 shear xy rate 0.00977 every 4.6e-4\n",
     "fix deform (the host's)": "fix press all deform 1 xy erate 0.00977 remap v\n",
 }
 # Everything that examples/simple_shear measures, 100 times per unit strain: once in this many steps.
 PAPER_INTERVAL = 114
-PAPER = STRAIN + """compute a all stress/contact
+PAPER = (
+    STRAIN
+    + """compute a all stress/contact
 compute b all dissipation
 compute c all nematic
 compute d all fabric
@@ -62,17 +75,30 @@ compute j all velocity/memory strain v_strain
 compute k all velocity/correlation component vy
 compute l all velocity/correlation component wz
 compute m all layering
-""" + f"compute n all reduce max {outputs('contact/grain').word('g', 'N_c')}\n" + "".join(f"fix {name} all ave/time {PAPER_INTERVAL} 1 {PAPER_INTERVAL} {value} file /dev/null\n" for name, value in (
-    ("scalars", "c_a c_b c_c c_d c_h c_i c_n"), ("surface", "c_e mode vector"), ("direction", "c_f mode vector"),
-    ("memory", "c_j mode vector"), ("linear", "c_k mode vector"), ("spin", "c_l mode vector"), ("layers", "c_m mode vector")))
+"""
+    + f"compute n all reduce max {outputs('contact/grain').word('g', 'N_c')}\n"
+    + "".join(
+        f"fix {name} all ave/time {PAPER_INTERVAL} 1 {PAPER_INTERVAL} {value} file /dev/null\n"
+        for name, value in (
+            ("scalars", "c_a c_b c_c c_d c_h c_i c_n"),
+            ("surface", "c_e mode vector"),
+            ("direction", "c_f mode vector"),
+            ("memory", "c_j mode vector"),
+            ("linear", "c_k mode vector"),
+            ("spin", "c_l mode vector"),
+            ("layers", "c_m mode vector"),
+        )
+    )
+)
 SETTINGS = "tangential_damping off gaussianCurvature yes curvatureLimitFactor 100"
 LEDGER = {  # with `ledger on`, which wants a restart file of its own
     "ledger on, idle": "",
     "ledger on, energy/ledger": "compute observer all energy/ledger\n"
-                                + EVERY_STEP.format(value=outputs("energy/ledger").word("observer", "residual")),
+    + EVERY_STEP.format(value=outputs("energy/ledger").word("observer", "residual")),
 }
-CONTACTS = ("compute count all stress/contact\n"
-            f"thermo_style custom step {outputs('stress/contact').word('count', 'N_c')}\n")
+CONTACTS = (
+    "compute count all stress/contact\n" f"thermo_style custom step {outputs('stress/contact').word('count', 'N_c')}\n"
+)
 
 
 class Bench:
@@ -87,8 +113,29 @@ class Bench:
     def run(self, pair, observers, steps, prefix=()):
         deck = self.folder / "observers"
         deck.write_text(observers)
-        command = [*prefix, str(self.binary), "-in", str(HERE / "in.overhead"), "-log", "none", "-var", "state", str(self.state),
-                   "-var", "pair", pair, "-var", "steps", str(steps), "-var", "observers", str(deck), "-var", "settings", self.settings]
+        command = [
+            *prefix,
+            str(self.binary),
+            "-in",
+            str(HERE / "in.overhead"),
+            "-log",
+            "none",
+            "-var",
+            "state",
+            str(self.state),
+            "-var",
+            "pair",
+            pair,
+            "-var",
+            "steps",
+            str(steps),
+            "-var",
+            "observers",
+            str(deck),
+            "-var",
+            "settings",
+            self.settings,
+        ]
         result = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, errors="replace")
         if result.returncode:
             raise SystemExit(f"the run failed: {' '.join(command)}\n{result.stdout}{result.stderr}")
@@ -96,8 +143,13 @@ class Bench:
 
     def instructions(self, pair, observers, steps):
         """Per step."""
-        valgrind = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={self.folder / 'callgrind.out'}", "--collect-atstart=no",
-                    "--toggle-collect=LAMMPS_NS::Verlet::run(int)"]
+        valgrind = [
+            "valgrind",
+            "--tool=callgrind",
+            f"--callgrind-out-file={self.folder / 'callgrind.out'}",
+            "--collect-atstart=no",
+            "--toggle-collect=LAMMPS_NS::Verlet::run(int)",
+        ]
         count = int(re.search(r"Collected : (\d+)", self.run(pair, observers, steps, valgrind).stderr)[1])
         if count == 0:
             raise SystemExit("callgrind counted nothing: is the binary stripped?")
@@ -108,20 +160,40 @@ class Bench:
         return float(re.search(r"Loop time of (\S+)", self.run(pair, observers, steps).stdout)[1]) / steps
 
     def contacts(self):
-        return float(re.search(r"^\s*0\s+(\S+)", self.run("gran/insitu", CONTACTS + "reset_timestep 0\n", 0).stdout, re.M)[1])
+        return float(
+            re.search(r"^\s*0\s+(\S+)", self.run("gran/insitu", CONTACTS + "reset_timestep 0\n", 0).stdout, re.M)[1]
+        )
 
 
 def prepare(binary, folder, settings=SETTINGS):
     """The dense packing's restart file."""
     state = folder / f"dense-{len(settings)}.restart"
-    subprocess.run([str(binary), "-in", str(HERE / "in.dense"), "-var", "out", str(state), "-var", "settings", settings, "-log", "none"],
-                   cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(
+        [
+            str(binary),
+            "-in",
+            str(HERE / "in.dense"),
+            "-var",
+            "out",
+            str(state),
+            "-var",
+            "settings",
+            settings,
+            "-log",
+            "none",
+        ],
+        cwd=folder,
+        check=True,
+        stdout=subprocess.DEVNULL,
+    )
     return state
 
 
 def count_instructions(bench, steps):
     base = bench.instructions("gran", "", steps)
-    print(f"| case | instructions per step | over gran |\n|---|---|---|\n| pair_style gran | {base:.4g} | |", flush=True)
+    print(
+        f"| case | instructions per step | over gran |\n|---|---|---|\n| pair_style gran | {base:.4g} | |", flush=True
+    )
     ledger = bench.with_ledger()
     for label, observers in {**OBSERVERS, **LEDGER}.items():
         count = (ledger if label in LEDGER else bench).instructions("gran/insitu", observers, steps)
@@ -133,9 +205,11 @@ def count_whole_set(bench):
     steps = 2 * PAPER_INTERVAL
     base, all_of_it = bench.instructions("gran", "", steps), bench.instructions("gran/insitu", PAPER, steps)
     idle = bench.instructions("gran/insitu", "", steps)
-    print(f"| case | instructions per step | over gran |\n|---|---|---|\n| pair_style gran | {base:.5g} | |\n"
-          f"| gran/insitu, idle | {idle:.5g} | {100 * (idle / base - 1):+.2f} % |\n"
-          f"| the whole set, once in {PAPER_INTERVAL} steps | {all_of_it:.5g} | {100 * (all_of_it / base - 1):+.2f} % |")
+    print(
+        f"| case | instructions per step | over gran |\n|---|---|---|\n| pair_style gran | {base:.5g} | |\n"
+        f"| gran/insitu, idle | {idle:.5g} | {100 * (idle / base - 1):+.2f} % |\n"
+        f"| the whole set, once in {PAPER_INTERVAL} steps | {all_of_it:.5g} | {100 * (all_of_it / base - 1):+.2f} % |"
+    )
 
 
 def take_time(bench, steps, repeats):
@@ -148,19 +222,30 @@ def take_time(bench, steps, repeats):
         for label, observers in cases.items():
             times[label].append((ledger if label in LEDGER else bench).seconds("gran/insitu", observers, steps))
     base = statistics.median(times["pair_style gran"])
-    print(f"{contacts:.0f} contacts, medians of {repeats} runs of {steps} steps\n\n| case | ms per step | over gran | ns per contact |\n|---|---|---|---|")
+    print(
+        f"{contacts:.0f} contacts, medians of {repeats} runs of {steps} steps\n\n| case | ms per step | over "
+        "gran | ns per contact |\n|---|---|---|---|"
+    )
     for label, values in times.items():
         time = statistics.median(values)
-        print(f"| {label} | {1e3 * time:.3f} | {100 * (time / base - 1):+.1f} % | {1e9 * (time - base) / contacts:.0f} |")
+        print(
+            f"| {label} | {1e3 * time:.3f} | {100 * (time / base - 1):+.1f} % | {1e9 * (time - base) / contacts:.0f} |"
+        )
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("binary", type=pathlib.Path, help="the grainscope binary")
     parser.add_argument("--time", action="store_true", help="wall time instead of instructions")
-    parser.add_argument("--paper", action="store_true", help="instructions of all measurements together at the paper's sampling rate (10 minutes)")
+    parser.add_argument(
+        "--paper",
+        action="store_true",
+        help="instructions of all measurements together at the paper's sampling rate (10 minutes)",
+    )
     parser.add_argument("--repeats", type=int, default=9, help="runs per case with --time (default %(default)s)")
-    parser.add_argument("--state", type=pathlib.Path, help="restart file of bench/in.dense (made when not given: a minute)")
+    parser.add_argument(
+        "--state", type=pathlib.Path, help="restart file of bench/in.dense (made when not given: a minute)"
+    )
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """How fast the same dense sheared packing runs with each surface model, pair style and integrator: a Markdown table.
 
-The packing of in.dense, tiled to the number of grains asked for, is sheared on at constant volume. Times are those of LIGGGHTS's time loop, of
-runs that alternate between the cases. On one rank: medians, of times multiplied by the share of a processor that the run had (other work on
-the machine then matters little); the gain is the median of the gains over the first case, round by round. On more ranks, which wait for each
-other: the quickest run; this wants a quiet machine. With --count instructions per step by callgrind instead (repeatable; needs valgrind).
+The packing of in.dense, tiled to the number of grains asked for, is sheared on at constant volume. Times are those of
+LIGGGHTS's time loop, of runs that alternate between the cases. On one rank: medians, of times multiplied by the share
+of a processor that the run had (other work on the machine then matters little); the gain is the median of the gains
+over the first case, round by round. On more ranks, which wait for each other: the quickest run; this wants a quiet
+machine. With --count instructions per step by callgrind instead (repeatable; needs valgrind).
 """
 import argparse
 from dataclasses import dataclass
@@ -35,14 +36,29 @@ CASES = {
     "gran+ellipsoid": ("superquadric", "gran", f"ellipsoid {LIMITS}", "nve/superquadric"),
     "spheres": ("sphere", "gran/insitu", "default tangential_damping off", "nve/sphere"),
 }
-COLUMNS = ("alpha", "N", "ranks", "skin", "case", "ms per step", "gain", "pair", "neighbour", "communication", "rest", "rebuilds",
-           "listed per grain", "MB")
+COLUMNS = (
+    "alpha",
+    "N",
+    "ranks",
+    "skin",
+    "case",
+    "ms per step",
+    "gain",
+    "pair",
+    "neighbour",
+    "communication",
+    "rest",
+    "rebuilds",
+    "listed per grain",
+    "MB",
+)
 PARTS = ("Pair", "Neigh", "Comm", "Other")
 
 
 @dataclass
 class Packing:
     """A tile of in.dense, as its dump tells it."""
+
     alpha: float
     box: np.ndarray  # lengths along x, y, z
     tilt: float
@@ -58,9 +74,10 @@ class Packing:
         return Packing(alpha, box, tilt, grains)
 
     def write(self, count, spheres, data, turn):
-        """`count` grains as a data file, and set commands for what a data file cannot hold. Copies of a grain have successive numbers."""
+        """`count` grains as a data file, and set commands for what a data file cannot hold. Copies of a grain have
+        successive numbers."""
         copies = round((count / len(self.grains)) ** (1.0 / 3.0))
-        total = copies ** 3
+        total = copies**3
         if total * len(self.grains) != count:
             raise SystemExit(f"{count} grains are not a cube of tiles of {len(self.grains)}")
         rate = 0.1 * math.sqrt(0.05 * min(self.alpha, 1.0)) / (2.0 * self.alpha ** (1.0 / 3.0))
@@ -85,8 +102,11 @@ class Packing:
             np.savetxt(out, np.vstack(velocities), "%d" + " %.8g" * 6)
         with turn.open("w") as out:
             for number, grain in zip(first, self.grains) if not spheres else ():
-                out.write(f"set atom {number}*{number + total - 1} quat_direct " + " ".join(repr(float(q)) for q in grain[9:13])
-                          + " omegax {:.8g} omegay {:.8g} omegaz {:.8g}\n".format(*grain[6:9]))
+                out.write(
+                    f"set atom {number}*{number + total - 1} quat_direct "
+                    + " ".join(repr(float(q)) for q in grain[9:13])
+                    + " omegax {:.8g} omegay {:.8g} omegaz {:.8g}\n".format(*grain[6:9])
+                )
 
 
 @dataclass
@@ -101,11 +121,17 @@ class Result:
 class Bench:
     def __init__(self, binary, folder, states):
         self.binary, self.folder, self.states = binary, folder, states
-        self.environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                                OMPI_MCA_btl_vader_single_copy_mechanism="none", OMPI_MCA_hwloc_base_binding_policy="none")
+        self.environment = dict(
+            os.environ,
+            OMPI_ALLOW_RUN_AS_ROOT="1",
+            OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+            OMPI_MCA_btl_vader_single_copy_mechanism="none",
+            OMPI_MCA_hwloc_base_binding_policy="none",
+        )
 
     def execute(self, command):
-        """Standard output and error together, the memory of the largest process in bytes, and the share of a processor that it had."""
+        """Standard output and error together, the memory of the largest process in bytes, and the share of a processor
+        that it had."""
         with tempfile.TemporaryFile("w+") as text, session(self.environment) as environment:
             start = time.monotonic()
             process = subprocess.Popen(command, cwd=self.folder, env=environment, stdout=text, stderr=subprocess.STDOUT)
@@ -121,8 +147,24 @@ class Bench:
     def packing(self, alpha):
         dump = self.states / f"dense_{alpha:g}.restart.dump"
         if not dump.exists():
-            self.execute([str(self.binary), "-in", str(HERE / "in.dense"), "-log", "none", "-var", "alpha", f"{alpha:g}",
-                          "-var", "strain", "2", "-var", "out", str(dump.with_suffix(""))])
+            self.execute(
+                [
+                    str(self.binary),
+                    "-in",
+                    str(HERE / "in.dense"),
+                    "-log",
+                    "none",
+                    "-var",
+                    "alpha",
+                    f"{alpha:g}",
+                    "-var",
+                    "strain",
+                    "2",
+                    "-var",
+                    "out",
+                    str(dump.with_suffix("")),
+                ]
+            )
         return Packing.read(dump, alpha)
 
     def prepare(self, packing, count, case):
@@ -136,28 +178,52 @@ class Bench:
     def deck(self, packing, count, case, settle, steps, reach):
         data, turn = self.prepare(packing, count, case)
         grains, pair, surface, move = CASES[case]
-        values = {"grains": grains, "data": data, "turn": turn, "alpha": packing.alpha, "pair": pair, "surface": surface, "move": move,
-                  "reach": reach, "settle": settle, "steps": steps}
+        values = {
+            "grains": grains,
+            "data": data,
+            "turn": turn,
+            "alpha": packing.alpha,
+            "pair": pair,
+            "surface": surface,
+            "move": move,
+            "reach": reach,
+            "settle": settle,
+            "steps": steps,
+        }
         return [str(self.binary), "-in", str(HERE / "in.speed"), "-log", "none"] + [
-            str(word) for name, value in values.items() for word in ("-var", name, value)]
+            str(word) for name, value in values.items() for word in ("-var", name, value)
+        ]
 
     def run(self, packing, count, case, ranks, steps, reach):
         launch = [] if ranks == 1 else ["mpirun", "--oversubscribe", "-np", str(ranks)]
-        output, memory, share = self.execute([*launch, *self.deck(packing, count, case, max(20, steps // 5), steps, reach)])
-        output = output[output.rindex("Setting up run"):]
+        output, memory, share = self.execute(
+            [*launch, *self.deck(packing, count, case, max(20, steps // 5), steps, reach)]
+        )
+        output = output[output.rindex("Setting up run") :]
         scale = (share if ranks == 1 else 1.0) / steps
         parts = {part: float(re.search(rf"^{part} *time \(%\) = (\S+)", output, re.M)[1]) * scale for part in PARTS}
-        return Result(float(re.search(r"^Loop time of (\S+)", output, re.M)[1]) * scale, parts,
-                      int(re.search(r"^Neighbor list builds = (\d+)", output, re.M)[1]),
-                      float(re.search(r"^Ave neighs/atom = (\S+)", output, re.M)[1]), memory)
+        return Result(
+            float(re.search(r"^Loop time of (\S+)", output, re.M)[1]) * scale,
+            parts,
+            int(re.search(r"^Neighbor list builds = (\d+)", output, re.M)[1]),
+            float(re.search(r"^Ave neighs/atom = (\S+)", output, re.M)[1]),
+            memory,
+        )
 
     def count(self, packing, count, case, steps, reach):
         """Instructions per step, of steps that follow as many others."""
+
         def collected(steps_after):
-            valgrind = ["valgrind", "--tool=callgrind", "--callgrind-out-file=callgrind.out", "--collect-atstart=no",
-                        "--toggle-collect=LAMMPS_NS::Verlet::run(int)"]
+            valgrind = [
+                "valgrind",
+                "--tool=callgrind",
+                "--callgrind-out-file=callgrind.out",
+                "--collect-atstart=no",
+                "--toggle-collect=LAMMPS_NS::Verlet::run(int)",
+            ]
             output, _, _ = self.execute([*valgrind, *self.deck(packing, count, case, steps, steps_after, reach)])
             return int(re.search(r"Collected : (\d+)", output)[1])
+
         return (collected(steps) - collected(0)) / steps
 
 
@@ -187,10 +253,15 @@ def take_time(bench, arguments):
                 for (reach, case), result in results.items():
                     gain = statistics.median(first.step / one.step for first, one in zip(results[runs[0]], result))
                     whole = 1e3 * statistics.median(one.step for one in result)
-                    parts = " | ".join(f"{1e3 * statistics.median(one.parts[part] for one in result):.3f}" for part in PARTS)
-                    print(f"| {alpha:g} | {count:,} | {ranks} | {reach:g} | {case} | {whole:.3f} | {gain:.2f} | {parts} "
-                          f"| {result[0].rebuilds} in {steps} | {result[0].neighbours:.2f} "
-                          f"| {1e-6 * result[0].memory:.0f} |", flush=True)
+                    parts = " | ".join(
+                        f"{1e3 * statistics.median(one.parts[part] for one in result):.3f}" for part in PARTS
+                    )
+                    print(
+                        f"| {alpha:g} | {count:,} | {ranks} | {reach:g} | {case} | {whole:.3f} | {gain:.2f} | {parts} "
+                        f"| {result[0].rebuilds} in {steps} | {result[0].neighbours:.2f} "
+                        f"| {1e-6 * result[0].memory:.0f} |",
+                        flush=True,
+                    )
 
 
 def count_instructions(bench, arguments):
@@ -208,16 +279,34 @@ def count_instructions(bench, arguments):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("binary", type=pathlib.Path, help="the grainscope binary")
-    parser.add_argument("--alpha", type=float, nargs="+", default=[0.33, 0.67, 1.0, 1.5, 3.0], help="aspect ratios (default %(default)s)")
-    parser.add_argument("--grains", type=int, nargs="+", default=[TILE], help="2000, 16000, 128000, ... (default %(default)s)")
+    parser.add_argument(
+        "--alpha",
+        type=float,
+        nargs="+",
+        default=[0.33, 0.67, 1.0, 1.5, 3.0],
+        help="aspect ratios (default %(default)s)",
+    )
+    parser.add_argument(
+        "--grains", type=int, nargs="+", default=[TILE], help="2000, 16000, 128000, ... (default %(default)s)"
+    )
     parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2], help="MPI ranks (default %(default)s)")
-    parser.add_argument("--skin", type=float, nargs="+", default=[0.2], help="skin over the longest semi-axis (default %(default)s)")
-    parser.add_argument("--cases", nargs="+", choices=CASES, default=list(CASES), metavar="case",
-                        help="of %(choices)s; gains are told against the first (default: all)")
+    parser.add_argument(
+        "--skin", type=float, nargs="+", default=[0.2], help="skin over the longest semi-axis (default %(default)s)"
+    )
+    parser.add_argument(
+        "--cases",
+        nargs="+",
+        choices=CASES,
+        default=list(CASES),
+        metavar="case",
+        help="of %(choices)s; gains are told against the first (default: all)",
+    )
     parser.add_argument("--repeats", type=int, default=5, help="rounds (default %(default)s)")
     parser.add_argument("--steps", type=int, help="steps of each run (default: 1000 for 2000 grains, fewer for more)")
     parser.add_argument("--count", action="store_true", help="instructions per step instead of time, on one rank")
-    parser.add_argument("--states", type=pathlib.Path, help="folder that keeps the packings (a new one takes 2 to 15 minutes)")
+    parser.add_argument(
+        "--states", type=pathlib.Path, help="folder that keeps the packings (a new one takes 2 to 15 minutes)"
+    )
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)

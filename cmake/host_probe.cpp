@@ -4,7 +4,9 @@
 #include "mpi.h"
 #include <type_traits>
 
-namespace LIGGGHTS { namespace ContactModels { struct SurfacesIntersectData; } }  // a fork may not define it
+namespace LIGGGHTS { namespace ContactModels {
+struct SurfacesIntersectData;
+}}  // a fork may not define it
 #include "contact_interface.h"
 #include "fix.h"
 #include "force.h"
@@ -21,15 +23,19 @@ using LIGGGHTS::PairStyles::IGranularPairStyle;
 extern int argc;
 extern char **argv;
 
-template <class Object> using Class = std::decay_t<Object>;
-template <class Object, class Use> constexpr bool allows(Use) { return std::is_invocable_v<Use, Object &>; }
+template <class Object>
+using Class = std::decay_t<Object>;
+template <class Object, class Use>
+constexpr bool allows(Use) {
+  return std::is_invocable_v<Use, Object &>;
+}
 
 // `use` is an expression in `x`, an object of `type`.
 #define NEED(type, use, words) \
   static_assert(allows<type>([](auto &x) -> decltype(void(use)) {}), "host probe: " words "|")
 // Exactly this signature, as an overriding member wants it.
 #define NEED_MEMBER(type, name, returns, arguments, words) \
-  NEED(type, static_cast<returns (Class<decltype(x)>::*) arguments>(&Class<decltype(x)>::name), words)
+  NEED(type, static_cast<returns(Class<decltype(x)>::*) arguments>(&Class<decltype(x)>::name), words)
 
 NEED(SurfacesIntersectData, (x.contact_history, x.delta[0], x.Fn), "contact_interface.h has no SurfacesIntersectData");
 NEED_MEMBER(PairGran, compute_pgl, void, (int, int), "pair_gran.h has no compute_pgl");

@@ -455,3 +455,7 @@ add_cases(outputs-variables cases/outputs.py LABEL case STYLES outputs stress/co
   prefixes)
 add_cases(outputs-variables cases/outputs.py LABEL case
   STYLES outputs fabric contact/local property/atom contact/direction stress/contact CASES chosen listed-only users-own)
+
+# Format of the files, and what the tools that look for faults say of them
+add_cases(suite-style cases/style.py LABEL case STYLES suite style CASES clang-format black flake8 citation)
+add_cases(suite-style cases/style.py LABEL long STYLES suite style CASES clang-tidy)

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""Compares a study's table with what the paper published: comparison.csv and comparison.md, a row for each published number. A number agrees
-when it is within the tolerance (how well the paper's own can be read) and twice the standard error, a bound when it holds by more than twice the
-error; undecided where the error is too large to tell. Nothing is fitted to agree."""
+"""Compares a study's table with what the paper published: comparison.csv and comparison.md, a row for each published
+number. A number agrees when it is within the tolerance (how well the paper's own can be read) and twice the standard
+error, a bound when it holds by more than twice the error; undecided where the error is too large to tell. Nothing is
+fitted to agree."""
 import sys
 
 import numpy as np
@@ -14,7 +15,8 @@ NAMES = ["quantity", "value", "error", "published", "tolerance", "agrees", "sour
 
 
 def verdict(published, value, error):
-    """yes, NO, or undecided: a bound within twice the error, a number whose doubled error is beyond its tolerance and a quarter of it."""
+    """yes, NO, or undecided: a bound within twice the error, a number whose doubled error is beyond its tolerance and a
+    quarter of it."""
     away = value - published.value
     if not np.isfinite([value, error]).all():
         return "undecided"
@@ -27,7 +29,8 @@ def verdict(published, value, error):
 
 
 def compare(runs):
-    """Rows of NAMES for the published numbers that the runs can tell, and the names of the others; of several systems the largest counts."""
+    """Rows of NAMES for the published numbers that the runs can tell, and the names of the others; of several systems
+    the largest counts."""
     rows, untold = [], []
     for published in PUBLISHED:
         found = published.measure(runs if published.all_sizes else largest(runs))
@@ -36,15 +39,27 @@ def compare(runs):
             continue
         value, error = found
         sign = "" if published.relation == "=" else f"{published.relation} "
-        rows.append([published.quantity, f"{value:.4g}", f"{error:.2g}", f"{sign}{published.value:g}",
-                     text(published.tolerance), verdict(published, value, error), published.source])
+        rows.append(
+            [
+                published.quantity,
+                f"{value:.4g}",
+                f"{error:.2g}",
+                f"{sign}{published.value:g}",
+                text(published.tolerance),
+                verdict(published, value, error),
+                published.source,
+            ]
+        )
     return rows, untold
 
 
 def markdown(rows, untold):
     lines = ["| " + " | ".join(row) + " |" for row in [NAMES, ["---"] * len(NAMES), *rows]]
     counted = {word: sum(row[5] == word for row in rows) for word in ("yes", "NO", "undecided")}
-    lines += ["", f"{counted['yes']} of {len(rows)} agree, {counted['NO']} do not, {counted['undecided']} are undecided."]
+    lines += [
+        "",
+        f"{counted['yes']} of {len(rows)} agree, {counted['NO']} do not, {counted['undecided']} are undecided.",
+    ]
     if untold:
         lines.append(f"These runs do not tell: {'; '.join(untold)}.")
     return "\n".join(lines) + "\n"

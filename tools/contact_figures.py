@@ -1,11 +1,21 @@
-"""Figures of the paper about correlations and contacts: 9, 10, 11, 12 and 17, and two it tells in words: layering and memory. Each takes
-the steady runs and a path."""
+"""Figures of the paper about correlations and contacts: 9, 10, 11, 12 and 17, and two it tells in words: layering and
+memory. Each takes the steady runs and a path."""
+
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.ticker import NullFormatter
 import matplotlib.pyplot as plt
 import numpy as np
 
-from figure_style import (curves_by_shape, friction_grid, legible, save, shape_colour, shape_legend, shape_marker, values_of, with_value)
+from figure_style import (
+    curves_by_shape,
+    friction_grid,
+    legible,
+    save,
+    shape_colour,
+    shape_legend,
+    shape_marker,
+    values_of,
+)
 from fits import fit_decay
 
 
@@ -26,14 +36,22 @@ def line_style(m, measures):
 
 
 def correlations(measures, path):
-    """Fig. 9: C(r) of the velocity along the gradient with its exponential, and the correlation length against the shape."""
+    """Fig. 9: C(r) of the velocity along the gradient with its exponential, and the correlation length against the
+    shape."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.2, 3.3), constrained_layout=True)
     shown = legible(measures, inertial=0.1, mu=0.4)
     for m in shown:
         r, c = m.curves["correlation"]["r"], m.curves["correlation"]["vy"]
         style = line_style(m, shown)
-        left.plot(r, c, color=style["color"], marker=shape_marker(m.alpha), markersize=4, linestyle="none",
-                  label=label_of(m, shown))
+        left.plot(
+            r,
+            c,
+            color=style["color"],
+            marker=shape_marker(m.alpha),
+            markersize=4,
+            linestyle="none",
+            label=label_of(m, shown),
+        )
         length = m.means.get("l_vy", (0.0, 0.0))[0]
         if length > 0:
             line = np.linspace(0, r.max(), 100)
@@ -59,8 +77,14 @@ def fabric(measures, path):
         for m in runs:
             values, vectors = m.fabric_axes()
             for value, (x, y), width in zip(values, vectors, (2.0, 1.2)):
-                axis.plot([-value * x, value * x], [-value * y, value * y], linewidth=width, marker=shape_marker(m.alpha), markersize=4,
-                          **line_style(m, runs))
+                axis.plot(
+                    [-value * x, value * x],
+                    [-value * y, value * y],
+                    linewidth=width,
+                    marker=shape_marker(m.alpha),
+                    markersize=4,
+                    **line_style(m, runs),
+                )
         axis.set(xlim=(-limit, limit), ylim=(-limit, limit), aspect="equal", xlabel=r"flow $x$")
         add_reciprocals(axis, runs)
     axes[0, 0].set_ylabel(r"gradient $y$")
@@ -69,23 +93,26 @@ def fabric(measures, path):
 
 
 def add_reciprocals(axis, runs):
-    """Below the axis, for shapes alpha and 1/alpha: the angle between their largest eigenvectors, and the ratio of the eigenvalues, long
-    over flat."""
+    """Below the axis, for shapes alpha and 1/alpha: the angle between their largest eigenvectors, and the ratio of the
+    eigenvalues, long over flat."""
     texts = []
     for prolate in (m for m in runs if m.alpha > 1):
         for oblate in (m for m in runs if m.alpha < 1 and m.I == prolate.I and abs(m.alpha * prolate.alpha - 1) < 0.02):
             (long, *_), (first, _) = prolate.fabric_axes()
             (flat, *_), (second, _) = oblate.fabric_axes()
             angle = np.degrees(np.arccos(min(1.0, abs(first @ second))))
-            texts.append(rf"$\alpha$ = {prolate.alpha:g}, {oblate.alpha:g}: $\eta$ = {angle:.1f}°, "
-                         rf"$\lambda^p/\lambda^o$ = {long / flat:.2f}")
+            texts.append(
+                rf"$\alpha$ = {prolate.alpha:g}, {oblate.alpha:g}: $\eta$ = {angle:.1f}°, "
+                rf"$\lambda^p/\lambda^o$ = {long / flat:.2f}"
+            )
     axis.set_xlabel("\n".join([axis.get_xlabel(), *texts]))
 
 
 def polar_panels(titles, measures, height=3.6):
     """A row of polar axes and their runs' legend on the right."""
-    figure, axes = plt.subplots(1, len(titles), figsize=(3.7 * len(titles), height), subplot_kw={"projection": "polar"},
-                                constrained_layout=True)
+    figure, axes = plt.subplots(
+        1, len(titles), figsize=(3.7 * len(titles), height), subplot_kw={"projection": "polar"}, constrained_layout=True
+    )
     for axis, title in zip(axes, titles):
         axis.set_title(title, pad=18, loc="center")
         axis.grid(color="0.85", linewidth=0.6)
@@ -95,7 +122,8 @@ def polar_panels(titles, measures, height=3.6):
 
 
 def mirrored(psi, values, left, right):
-    """Steps over the bins of psi in (0, pi/2), mirrored to -psi and pi - psi: angles and radii of the right half, the left half, or both."""
+    """Steps over the bins of psi in (0, pi/2), mirrored to -psi and pi - psi: angles and radii of the right half, the
+    left half, or both."""
     edges = np.linspace(0, np.pi, 2 * len(psi) + 1)
     both = np.concatenate([values, values[::-1]])
     angles = np.linspace(edges[:-1], edges[1:], 9, axis=1).ravel()
@@ -106,10 +134,15 @@ def mirrored(psi, values, left, right):
 
 
 def surface(measures, path):
-    """Fig. 11: contact density, normal and tangential force on the grain by the angle to its symmetry axis (upward). With flat and long
-    grains together, flat ones are drawn on the left, long ones on the right, spheres on both sides. The density is drawn twice, over the
-    exact areas of the bins and over the area element that the paper prints."""
-    titles = [r"$\rho_s A_p$", r"$\rho_s A_p$, area as printed", r"$\overline{F}_n\,/\,PA_p$", r"$\overline{F}_t\,/\,PA_p$"]
+    """Fig. 11: contact density, normal and tangential force on the grain by the angle to its symmetry axis (upward).
+    With flat and long grains together, flat ones are drawn on the left, long ones on the right, spheres on both sides.
+    The density is drawn twice, over the exact areas of the bins and over the area element that the paper prints."""
+    titles = [
+        r"$\rho_s A_p$",
+        r"$\rho_s A_p$, area as printed",
+        r"$\overline{F}_n\,/\,PA_p$",
+        r"$\overline{F}_t\,/\,PA_p$",
+    ]
     measures = legible(measures, mu=0.4)
     figure, axes = polar_panels(titles, measures)
     kinds = {np.sign(m.r_g) for m in measures}
@@ -117,7 +150,9 @@ def surface(measures, path):
     for m in measures:
         table = m.curves["surface"]
         for axis, name in zip(axes, ("density", "printed density", "F_n", "F_t")):
-            angles, radii = mirrored(table["psi"], table[name], left=not split or m.alpha <= 1, right=not split or m.alpha >= 1)
+            angles, radii = mirrored(
+                table["psi"], table[name], left=not split or m.alpha <= 1, right=not split or m.alpha >= 1
+            )
             axis.plot(angles, radii, linewidth=1.4, label=label_of(m, measures), **line_style(m, measures))
     for axis in axes:
         axis.set_theta_zero_location("N")
@@ -138,7 +173,8 @@ def few_circles(axis):
 
 
 def directions(measures, path):
-    """Fig. 17: contact normals by their angle to the flow in the plane of shear; density, normal and tangential force."""
+    """Fig. 17: contact normals by their angle to the flow in the plane of shear; density, normal and tangential
+    force."""
     titles = [r"density $\rho(\beta)$", r"$\overline{F}_n\,/\,PA_p$", r"$\overline{F}_t\,/\,PA_p$"]
     measures = legible(measures, mu=0.4)
     figure, axes = polar_panels(titles, measures)
@@ -146,7 +182,13 @@ def directions(measures, path):
         table = m.curves["direction"]
         around = np.append(table["beta"], table["beta"][0] + 2 * np.pi)
         for axis, name in zip(axes, ("density", "F_n", "F_t")):
-            axis.plot(around, np.append(table[name], table[name][0]), linewidth=1.2, label=label_of(m, measures), **line_style(m, measures))
+            axis.plot(
+                around,
+                np.append(table[name], table[name][0]),
+                linewidth=1.2,
+                label=label_of(m, measures),
+                **line_style(m, measures),
+            )
     for axis in axes:
         axis.set_ylim(bottom=0)
         few_circles(axis)
@@ -155,8 +197,9 @@ def directions(measures, path):
 
 
 def grain_picture(alpha, values, pixels=360, tilt=25.0):
-    """The value at the grain's surface by the polar angle to its axis, as an image (nan outside the grain), its extent over d_eq. The view is
-    along the plane of shear's normal, tilted; the axis is upright in flat grains and lies in long ones."""
+    """The value at the grain's surface by the polar angle to its axis, as an image (nan outside the grain), its extent
+    over d_eq. The view is along the plane of shear's normal, tilted; the axis is upright in flat grains and lies in
+    long ones."""
     a, c = alpha ** (-1 / 3) / 2, alpha ** (2 / 3) / 2
     reach = 1.02 * max(a, c)
     u, v = np.meshgrid(np.linspace(-reach, reach, pixels), np.linspace(-reach, reach, pixels))
@@ -177,24 +220,37 @@ def grain_picture(alpha, values, pixels=360, tilt=25.0):
 
 
 def surface_maps(measures, path):
-    """Fig. 12: friction mobilisation, and inhomogeneity of the dissipated power, on the grains; the latter over the exact areas and over
-    those of the area element that the paper prints."""
+    """Fig. 12: friction mobilisation, and inhomogeneity of the dissipated power, on the grains; the latter over the
+    exact areas and over those of the area element that the paper prints."""
     measures = legible(measures, mu=0.4)
-    figure, axes = plt.subplots(3, len(measures), figsize=(1.7 * len(measures) + 1.6, 4.4), squeeze=False, constrained_layout=True)
+    figure, axes = plt.subplots(
+        3, len(measures), figsize=(1.7 * len(measures) + 1.6, 4.4), squeeze=False, constrained_layout=True
+    )
     tables = [m.curves["surface"] for m in measures]
     shares = np.concatenate([table[name] for table in tables for name in ("inhomogeneity", "printed inhomogeneity")])
     limit = max(2.0, shares.max(), 1 / max(shares[shares > 0].min(initial=1.0), 0.05))
-    mobilised = 0.95 * min(table["mobilisation"].min() for table in tables), max(table["mobilisation"].max() for table in tables) or 1
-    rows = [("mobilisation", r"mobilisation $\mathcal{M}$", Normalize(*mobilised), "viridis"),
-            ("inhomogeneity", r"inhomogeneity $\mathcal{I}$", LogNorm(1 / limit, limit), "RdBu_r"),
-            ("printed inhomogeneity", "$\\mathcal{I}$, area as printed", LogNorm(1 / limit, limit), "RdBu_r")]
+    mobilised = (
+        0.95 * min(table["mobilisation"].min() for table in tables),
+        max(table["mobilisation"].max() for table in tables) or 1,
+    )
+    rows = [
+        ("mobilisation", r"mobilisation $\mathcal{M}$", Normalize(*mobilised), "viridis"),
+        ("inhomogeneity", r"inhomogeneity $\mathcal{I}$", LogNorm(1 / limit, limit), "RdBu_r"),
+        ("printed inhomogeneity", "$\\mathcal{I}$, area as printed", LogNorm(1 / limit, limit), "RdBu_r"),
+    ]
     widest = max(1.05 * max(m.alpha ** (-1 / 3), m.alpha ** (2 / 3)) / 2 for m in measures)
     for row, (name, label, norm, colours) in zip(axes, rows):
         for axis, m, table in zip(row, measures, tables):
             values = np.maximum(table[name], norm.vmin)
             picture, reach = grain_picture(m.alpha, values)
-            image = axis.imshow(picture, norm=norm, cmap=colours, extent=[-reach, reach, -reach, reach], origin="lower",
-                                interpolation="nearest")
+            image = axis.imshow(
+                picture,
+                norm=norm,
+                cmap=colours,
+                extent=[-reach, reach, -reach, reach],
+                origin="lower",
+                interpolation="nearest",
+            )
             axis.set(xlim=(-widest, widest), ylim=(-0.56, 0.56))
             axis.axis("off")
         bar = figure.colorbar(image, ax=list(row), label=label, shrink=0.85)
@@ -214,14 +270,24 @@ def memory(measures, path):
     figure, axis = plt.subplots(figsize=(4.6, 3.3), constrained_layout=True)
     for m in measures:
         strain, c = m.curves["memory"]["lag"], m.curves["memory"]["vy"]
-        axis.plot(strain, c, marker=shape_marker(m.alpha), markersize=3, linewidth=1.0, label=label_of(m, measures),
-                  **line_style(m, measures))
+        axis.plot(
+            strain,
+            c,
+            marker=shape_marker(m.alpha),
+            markersize=3,
+            linewidth=1.0,
+            label=label_of(m, measures),
+            **line_style(m, measures),
+        )
         length = fit_decay(strain[1:], c[1:])[0]
         if length > 0:
             axis.plot(strain, np.exp(-strain / length), color=shape_colour(m.alpha), linewidth=0.8, linestyle="--")
     axis.axhline(0, color="0.6", linewidth=0.8)
-    axis.set(xlim=(0, None), xlabel=r"strain difference",
-             ylabel=r"$\langle\delta v_y(0)\,\delta v_y(\gamma)\rangle\,/\,\langle\delta v_y^2\rangle$")
+    axis.set(
+        xlim=(0, None),
+        xlabel=r"strain difference",
+        ylabel=r"$\langle\delta v_y(0)\,\delta v_y(\gamma)\rangle\,/\,\langle\delta v_y^2\rangle$",
+    )
     figure.legend(*axis.get_legend_handles_labels(), loc="center left", bbox_to_anchor=(1.0, 0.5))
     save(figure, path)
 
@@ -231,8 +297,15 @@ def layering(measures, path):
     measures = legible(measures, mu=0.4)
     figure, axis = plt.subplots(figsize=(4.6, 3.3), constrained_layout=True)
     for m in measures:
-        axis.plot(m.curves["layering"]["y"], m.curves["layering"]["C"], marker=shape_marker(m.alpha), markersize=3, linewidth=1.0,
-                  label=label_of(m, measures), **line_style(m, measures))
+        axis.plot(
+            m.curves["layering"]["y"],
+            m.curves["layering"]["C"],
+            marker=shape_marker(m.alpha),
+            markersize=3,
+            linewidth=1.0,
+            label=label_of(m, measures),
+            **line_style(m, measures),
+        )
     axis.axhline(0, color="0.6", linewidth=0.8)
     axis.set(xlabel=r"$y\,/\,d_{eq}$", ylabel=r"$C(y)\,/\,C(0)$", xlim=(0, None))
     figure.legend(*axis.get_legend_handles_labels(), loc="center left", bbox_to_anchor=(1.0, 0.5))

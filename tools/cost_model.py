@@ -1,21 +1,32 @@
-"""What a run of examples/simple_shear costs: steps, core time, memory and bytes. The numbers are measured (doc/cost.md)."""
+"""What a run of examples/simple_shear costs: steps, core time, memory and bytes. The numbers are measured
+(doc/cost.md)."""
+
 from dataclasses import dataclass
 import math
 
-YOUNG, POISSON, DENSITY, SMALLEST = 5.0e6, 0.3, 1000.0, 0.8     # of the deck
+YOUNG, POISSON, DENSITY, SMALLEST = 5.0e6, 0.3, 1000.0, 0.8  # of the deck
 # Core time of a grain for a step [s] by aspect ratio, with everything measured, N = 2000, dense flow
 GRAIN_STEP = {0.33: 1.25e-6, 0.5: 1.5e-6, 0.67: 1.3e-6, 1: 0.65e-6, 1.5: 1.45e-6, 2: 1.75e-6, 3: 2.05e-6}
 # The same over that of N = 2000, by grains of a rank: grains and springs of larger systems are fetched from memory
 GROWTH = {2000: 1.0, 16000: 1.3, 128000: 2.2, 1024000: 2.6}
-# Of several ranks: time for grains of neighbouring ranks over that for a rank's own, times the cube root of the number of these; and wait [s]
+# Of several ranks: time for grains of neighbouring ranks over that for a rank's own, times the cube root of the number
+# of these; and wait [s]
 SURFACE, LATENCY = 0.9, 0.3e-3
 MEMORY_OF_RANK, MEMORY_OF_GRAIN = 25e6, 7e3
 # Files of a run: three restart files and the final grains; series.txt and displacement.txt; tables of a part
 BYTES_OF_GRAIN, BYTES_OF_STRAIN, BYTES_OF_PART = 4.3e3, 8e3, 11e3
 
-PAPER = {"alphas": (0.33, 0.4, 0.5, 0.56, 0.67, 0.83, 1, 1.2, 1.5, 1.8, 2, 2.5, 3), "frictions": 7,
-         "inertias": (0.1, 0.046, 0.022, 0.01, 0.0046, 0.0022, 0.001), "grains": 2000, "strain": 16, "steady": 6, "part": 0.125}
-# LIGGGHTS itself on the same flow and machine, core time of a grain for a step [s]; dumps of 1600 snapshots of each run, and what reads them
+PAPER = {
+    "alphas": (0.33, 0.4, 0.5, 0.56, 0.67, 0.83, 1, 1.2, 1.5, 1.8, 2, 2.5, 3),
+    "frictions": 7,
+    "inertias": (0.1, 0.046, 0.022, 0.01, 0.0046, 0.0022, 0.001),
+    "grains": 2000,
+    "strain": 16,
+    "steady": 6,
+    "part": 0.125,
+}
+# LIGGGHTS itself on the same flow and machine, core time of a grain for a step [s]; dumps of 1600 snapshots of each
+# run, and what reads them
 CLASSICAL_GRAIN_STEP = {0.33: 5.9e-6, 0.67: 4.4e-6, 1: 1.75e-6, 1.5: 5.7e-6, 3: 10.2e-6}
 SNAPSHOTS, SNAPSHOT_BYTES_OF_GRAIN, SNAPSHOT_SECONDS_OF_GRAIN = 1600, 600.0, 4.5e-4
 
@@ -45,15 +56,23 @@ def steps_per_strain(alpha, inertial):
     target = thin * YOUNG / 1e5
     diameter = 2 * alpha ** (1 / 3)
     rate = inertial * math.sqrt(target / DENSITY) / diameter
-    rayleigh = math.pi * SMALLEST * thin / (0.8766 + 0.163 * POISSON) * math.sqrt(DENSITY / (YOUNG / (2 * (1 + POISSON))))
+    rayleigh = (
+        math.pi * SMALLEST * thin / (0.8766 + 0.163 * POISSON) * math.sqrt(DENSITY / (YOUNG / (2 * (1 + POISSON))))
+    )
     stiffness = YOUNG / (2 * (1 - POISSON**2))
-    hertz = 2.94 * (5 * math.sqrt(2) * math.pi * DENSITY / (8 * stiffness)) ** 0.4 * SMALLEST * thin / (rate * diameter) ** 0.2
+    hertz = (
+        2.94
+        * (5 * math.sqrt(2) * math.pi * DENSITY / (8 * stiffness)) ** 0.4
+        * SMALLEST
+        * thin
+        / (rate * diameter) ** 0.2
+    )
     return 1 / (rate * 0.15 * min(hertz, rayleigh))
 
 
 def step_seconds(alpha, grains, ranks=1):
-    """Wall time of a step [s]: that of a rank's grains, and with several ranks of their neighbours on others, by the surface of its share of
-    the box."""
+    """Wall time of a step [s]: that of a rank's grains, and with several ranks of their neighbours on others, by the
+    surface of its share of the box."""
     share = grains / ranks
     own = between(GRAIN_STEP, alpha) * between(GROWTH, share) * share
     return own * (1 + SURFACE / share ** (1 / 3)) + LATENCY if ranks > 1 else own
@@ -84,6 +103,12 @@ def cost_of_grid(alphas, frictions, inertias, grains, strain, steady, part):
 def classical_cost_of_grid(alphas, frictions, inertias, grains, strain, **_):
     """The same runs by LIGGGHTS itself, with dumps of contacts and grains that are read afterwards."""
     runs = len(alphas) * frictions * len(inertias)
-    steps = frictions * sum(between(CLASSICAL_GRAIN_STEP, alpha) * steps_per_strain(alpha, inertial) for alpha in alphas for inertial in inertias)
+    steps = frictions * sum(
+        between(CLASSICAL_GRAIN_STEP, alpha) * steps_per_strain(alpha, inertial)
+        for alpha in alphas
+        for inertial in inertias
+    )
     reading = runs * SNAPSHOTS * SNAPSHOT_SECONDS_OF_GRAIN * grains
-    return Cost(runs, (steps * strain * grains + reading) / 3600, runs * SNAPSHOTS * SNAPSHOT_BYTES_OF_GRAIN * grains / 1e9)
+    return Cost(
+        runs, (steps * strain * grains + reading) / 3600, runs * SNAPSHOTS * SNAPSHOT_BYTES_OF_GRAIN * grains / 1e9
+    )

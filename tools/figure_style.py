@@ -1,5 +1,7 @@
 """Colours, markers and layouts that the figures share."""
+
 import matplotlib
+
 matplotlib.use("Agg")
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.lines import Line2D
@@ -12,8 +14,18 @@ LONG = LinearSegmentedColormap.from_list("long", ["#FDAE61", "#A50026"])
 SPHERE = "#333333"
 MANY = 8
 
-plt.rcParams.update({"font.size": 10, "axes.spines.top": False, "axes.spines.right": False, "axes.linewidth": 0.8,
-                     "axes.titlelocation": "left", "legend.frameon": False, "savefig.dpi": 160, "savefig.bbox": "tight"})
+plt.rcParams.update(
+    {
+        "font.size": 10,
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "axes.linewidth": 0.8,
+        "axes.titlelocation": "left",
+        "legend.frameon": False,
+        "savefig.dpi": 160,
+        "savefig.bbox": "tight",
+    }
+)
 
 
 def shape_ratio(alpha):
@@ -53,7 +65,8 @@ def nearest(measures, name, value):
 
 
 def legible(measures, inertial=0.01, mu=None):
-    """All runs, or of more than MANY those nearest to the inertial number (and the friction coefficient) that the paper's figure shows."""
+    """All runs, or of more than MANY those nearest to the inertial number (and the friction coefficient) that the
+    paper's figure shows."""
     if len(measures) <= MANY:
         return measures
     kept = [m for m in measures if m.I == nearest(measures, "I", inertial)]
@@ -65,13 +78,18 @@ def friction_label(mu):
 
 
 def shape_handle(alpha):
-    return Line2D([], [], color=shape_colour(alpha), marker=shape_marker(alpha), markersize=5, label=rf"$\alpha = {alpha:g}$")
+    return Line2D(
+        [], [], color=shape_colour(alpha), marker=shape_marker(alpha), markersize=5, label=rf"$\alpha = {alpha:g}$"
+    )
 
 
 def shape_legend(figure, measures):
     """Legend of the shapes at the right of the figure."""
-    figure.legend(handles=[shape_handle(alpha) for alpha in reversed(values_of(measures, "alpha"))], loc="center left",
-                  bbox_to_anchor=(1.0, 0.5))
+    figure.legend(
+        handles=[shape_handle(alpha) for alpha in reversed(values_of(measures, "alpha"))],
+        loc="center left",
+        bbox_to_anchor=(1.0, 0.5),
+    )
 
 
 def points(axis, x, pairs, **style):
@@ -82,8 +100,8 @@ def points(axis, x, pairs, **style):
 
 
 def curves_by_shape(axis, measures, value):
-    """`value` of each run that has it (not None) against the shape ratio, a curve per friction coefficient (and inertial number, where
-    there are several)."""
+    """`value` of each run that has it (not None) against the shape ratio, a curve per friction coefficient (and
+    inertial number, where there are several)."""
     several = len(values_of(measures, "I")) > 1
     for mu in values_of(measures, "mu"):
         for number, inertial in enumerate(values_of(measures, "I")):
@@ -92,7 +110,14 @@ def curves_by_shape(axis, measures, value):
             if not found:
                 continue
             label = friction_label(mu) + (rf", $I = {inertial:g}$" if several else "")
-            points(axis, *zip(*found), color=friction_colour(mu), marker="o", linestyle=["-", "--", ":", "-."][number % 4], label=label)
+            points(
+                axis,
+                *zip(*found),
+                color=friction_colour(mu),
+                marker="o",
+                linestyle=["-", "--", ":", "-."][number % 4],
+                label=label,
+            )
     axis.axvline(0, color="0.85", linewidth=0.8, zorder=0)
     axis.set_xlim(-0.55, 0.55)
 
@@ -106,7 +131,9 @@ def log_scale(axis):
         low, high = np.sqrt(low * high) * np.array([0.5, 2.0])
     getattr(axis.axes, f"set_{which}lim")(low, high)
     for digits in ((1, 2, 3, 5), (1, 2, 5), (1, 3), (1,)):
-        ticks = [digit * 10.0**power for power in range(-9, 10) for digit in digits if low <= digit * 10.0**power <= high]
+        ticks = [
+            digit * 10.0**power for power in range(-9, 10) for digit in digits if low <= digit * 10.0**power <= high
+        ]
         if len(ticks) <= 6:
             break
     axis.set_ticks(ticks, labels=[f"{tick:g}" for tick in ticks])
@@ -117,7 +144,13 @@ def curves_by_inertia(axis, measures, value):
     """`value` of each run against the inertial number reached, a curve per shape."""
     for alpha in values_of(measures, "alpha"):
         runs = with_value(measures, alpha=alpha)
-        points(axis, [m.inertial for m in runs], [value(m) for m in runs], color=shape_colour(alpha), marker=shape_marker(alpha))
+        points(
+            axis,
+            [m.inertial for m in runs],
+            [value(m) for m in runs],
+            color=shape_colour(alpha),
+            marker=shape_marker(alpha),
+        )
     reached = [m.inertial for m in measures]
     axis.set_xlim(0.6 * min(reached), 1.7 * max(reached))
     log_scale(axis.xaxis)
@@ -126,8 +159,16 @@ def curves_by_inertia(axis, measures, value):
 def friction_grid(measures, rows, width=3.2, height=2.6, **options):
     """Figure and axes (rows, columns): one column per friction coefficient, titled; and the runs of each column."""
     frictions = values_of(measures, "mu")
-    figure, axes = plt.subplots(rows, len(frictions), figsize=(width * len(frictions) + 1.2, height * rows), squeeze=False,
-                                constrained_layout=True, sharex="row", sharey="row", **options)
+    figure, axes = plt.subplots(
+        rows,
+        len(frictions),
+        figsize=(width * len(frictions) + 1.2, height * rows),
+        squeeze=False,
+        constrained_layout=True,
+        sharex="row",
+        sharey="row",
+        **options,
+    )
     for axis, mu in zip(axes[0], frictions):
         axis.set_title(friction_label(mu))
     return figure, axes, [with_value(measures, mu=mu) for mu in frictions]

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Fits to a study's table: fits.csv (Eqs. 5 and 6, power laws of Figs. 4 and 6 and of the diffusion, I_c ~ mu^p), each parameter with its
-standard error, and crossovers.csv (the points with P_t = P_n, Fig. 3)."""
+"""Fits to a study's table: fits.csv (Eqs. 5 and 6, power laws of Figs. 4 and 6 and of the diffusion, I_c ~ mu^p), each
+parameter with its standard error, and crossovers.csv (the points with P_t = P_n, Fig. 3)."""
 from dataclasses import asdict, fields
 import sys
 
@@ -14,7 +14,10 @@ def names_of(record):
 
 
 def cells(record):
-    return ["" if value != value else int(value) if isinstance(value, bool) else text(value) for value in asdict(record).values()]
+    return [
+        "" if value != value else int(value) if isinstance(value, bool) else text(value)
+        for value in asdict(record).values()
+    ]
 
 
 def main():
@@ -23,8 +26,11 @@ def main():
         runs = largest(over_seeds(read_study(arguments.study)))
         arguments.output.mkdir(parents=True, exist_ok=True)
         write_csv(arguments.output / "fits.csv", names_of(Fitted), map(cells, all_fits(runs)))
-        write_csv(arguments.output / "crossovers.csv", ["powers", *names_of(Crossover)],
-                  [[kind, *cells(point)] for kind in kinds(runs) for point in crossovers(runs, kind)])
+        write_csv(
+            arguments.output / "crossovers.csv",
+            ["powers", *names_of(Crossover)],
+            [[kind, *cells(point)] for kind in kinds(runs) for point in crossovers(runs, kind)],
+        )
     except (InputError, OSError) as error:
         sys.exit(f"fit_study.py: {error}")
 

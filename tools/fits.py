@@ -1,4 +1,6 @@
-"""Fits to measured points, with their errors: least squares by scipy, weighted by the points' own errors where all of them have one."""
+"""Fits to measured points, with their errors: least squares by scipy, weighted by the points' own errors where all of
+them have one."""
+
 import warnings
 
 import numpy as np
@@ -15,8 +17,10 @@ class LimitError(FitError):
 
 
 def fit(model, x, y, errors, starts, low, high):
-    """Parameters of y = model(x, *parameters) within (low, high), and their standard errors: those that the points' errors make, larger
-    where the points scatter about the curve by more than that. The best of the fits from several starts counts; one at a limit does not."""
+    """Parameters of y = model(x, *parameters) within (low, high), and their standard errors: those that the points'
+    errors make, larger where the points scatter about the curve by more than that. The best of the fits from several
+    starts counts; one at a limit does not.
+    """
     x, y, errors = (np.asarray(values, dtype=float) for values in (x, y, errors))
     if not all(np.isfinite(values).all() for values in (x, y, errors)):
         raise FitError("a point is not finite")
@@ -30,7 +34,9 @@ def fit(model, x, y, errors, starts, low, high):
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("error", OptimizeWarning)
-                parameters, covariance = curve_fit(model, x, y, start, errors, absolute_sigma=True, bounds=(low, high), method="trf")
+                parameters, covariance = curve_fit(
+                    model, x, y, start, errors, absolute_sigma=True, bounds=(low, high), method="trf"
+                )
         except (RuntimeError, OptimizeWarning):
             continue
         misfit = (((model(x, *parameters) - y) / errors) ** 2).sum()
@@ -59,7 +65,8 @@ def power_law(x, y, errors):
 
 
 def fit_or_line(*arguments):
-    """fit(), or where the points do not tell how the curve bends, the value at 0 of a straight line; the other parameters are nan then."""
+    """fit(), or where the points do not tell how the curve bends, the value at 0 of a straight line; the other
+    parameters are nan then."""
     try:
         return fit(*arguments)
     except LimitError:
@@ -91,23 +98,32 @@ def fit_fraction_law(inertial, phi, errors):
 
 
 def fit_decay(distance, correlation):
-    """Length l of exp(-x/l) over the points above 0.05, and its error: 0 and 0 when there are none; nan where they determine no length."""
+    """Length l of exp(-x/l) over the points above 0.05, and its error: 0 and 0 when there are none; nan where they
+    determine no length."""
     distance, correlation = np.asarray(distance), np.asarray(correlation)
     above = correlation > 0.05
     if not above.any():
         return 0.0, 0.0
     x = distance[above]
     try:
-        (length,), (error,) = fit(lambda x, length: np.exp(-x / length), x, correlation[above], np.zeros(len(x)),
-                                  [[factor * x.max()] for factor in (0.03, 0.3, 3.0)], [1e-3 * x.max()], [1e3 * x.max()])
+        (length,), (error,) = fit(
+            lambda x, length: np.exp(-x / length),
+            x,
+            correlation[above],
+            np.zeros(len(x)),
+            [[factor * x.max()] for factor in (0.03, 0.3, 3.0)],
+            [1e-3 * x.max()],
+            [1e3 * x.max()],
+        )
     except FitError:
         return np.nan, np.nan
     return length, error
 
 
 def crossing(x, ratios, errors):
-    """Where ln(ratio) changes sign along x, by a monotone cubic through all points: list of (x, its error, +1 where the ratio rises). The error is
-    what the points' errors make, and how far a straight line between the two neighbours would put it, in quadrature."""
+    """Where ln(ratio) changes sign along x, by a monotone cubic through all points: list of (x, its error, +1 where the
+    ratio rises). The error is what the points' errors make, and how far a straight line between the two neighbours
+    would put it, in quadrature."""
     x, y, dy = np.asarray(x), np.log(ratios), np.asarray(errors) / np.asarray(ratios)
     found = []
     for k in np.flatnonzero((y[:-1] > 0) != (y[1:] > 0)):

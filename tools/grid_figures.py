@@ -1,10 +1,21 @@
-"""Figures of the paper that need a grid of runs: 3 (regimes), 8 (critical friction and solid fraction) and 14 (finite size). Each takes the
-steady runs and a path."""
+"""Figures of the paper that need a grid of runs: 3 (regimes), 8 (critical friction and solid fraction) and 14 (finite
+size). Each takes the steady runs and a path."""
+
 import matplotlib.pyplot as plt
 import numpy as np
 
-from figure_style import (friction_colour, friction_label, log_scale, points, save, shape_colour, shape_legend, shape_marker, shape_ratio,
-                          values_of)
+from figure_style import (
+    friction_colour,
+    friction_label,
+    log_scale,
+    points,
+    save,
+    shape_colour,
+    shape_legend,
+    shape_marker,
+    shape_ratio,
+    values_of,
+)
 from grid_fits import critical_values, crossovers, kinds, sizes
 
 
@@ -18,12 +29,20 @@ def draw_branches(axis, found, alpha, **style):
         branch = sorted((c for c in found if c.alpha == alpha and c.sliding_above == rise), key=lambda c: (c.I, c.mu))
         if branch:
             error = np.array([(c.mu_error, c.I_error) for c in branch]).T
-            axis.errorbar([c.mu for c in branch], [c.I for c in branch], xerr=error[0], yerr=error[1], color=shape_colour(alpha), **style)
+            axis.errorbar(
+                [c.mu for c in branch],
+                [c.I for c in branch],
+                xerr=error[0],
+                yerr=error[1],
+                color=shape_colour(alpha),
+                **style,
+            )
 
 
 def regimes(measures, path):
-    """Fig. 3: where friction and normal damping dissipate equally, over friction and inertial number, a curve per shape; dotted: by the powers of
-    Eq. 4, which lose part of the friction at high mu; dashed: I ~ mu^2. Inset: I_c at mu = 0.01 over the shape."""
+    """Fig. 3: where friction and normal damping dissipate equally, over friction and inertial number, a curve per
+    shape; dotted: by the powers of Eq. 4, which lose part of the friction at high mu; dashed: I ~ mu^2. Inset: I_c at
+    mu = 0.01 over the shape."""
     figure, axis = plt.subplots(figsize=(6.2, 4.6), constrained_layout=True)
     found = {kind: crossovers(measures, kind) for kind in kinds(measures)}
     for alpha in values_of(measures, "alpha"):
@@ -40,8 +59,12 @@ def regimes(measures, path):
             line = np.array([min(c.mu for c in middle), max(c.mu for c in middle)])
             axis.plot(line, factor * line**2, color="black", linestyle="--", linewidth=0.9)
         frictions = [mu for mu in values_of(measures, "mu") if mu > 0]
-        axis.set(xscale="log", yscale="log", xlim=(0.7 * min(frictions), 1.4 * max(frictions)),
-                 ylim=(0.7 * min(m.inertial for m in measures), 1.6 * max(m.inertial for m in measures)))
+        axis.set(
+            xscale="log",
+            yscale="log",
+            xlim=(0.7 * min(frictions), 1.4 * max(frictions)),
+            ylim=(0.7 * min(m.inertial for m in measures), 1.6 * max(m.inertial for m in measures)),
+        )
         if len({c.sliding_above for c in found["W"]}) == 2:
             for place, regime in ((0.08, "normal\ndissipation"), (0.56, "sliding"), (0.95, "rolling")):
                 axis.text(place, 0.97, regime, transform=axis.transAxes, ha="center", va="top", fontsize=9, color="0.4")
@@ -55,15 +78,22 @@ def inset(axis, slice_of):
     if len(slice_of) < 2:
         return
     small = axis.inset_axes([0.44, 0.16, 0.24, 0.27])
-    points(small, [shape_ratio(c.alpha) for c in slice_of], [(c.I, c.I_error) for c in slice_of], color="0.3", marker="o", markersize=3)
+    points(
+        small,
+        [shape_ratio(c.alpha) for c in slice_of],
+        [(c.I, c.I_error) for c in slice_of],
+        color="0.3",
+        marker="o",
+        markersize=3,
+    )
     small.set_xlabel(r"$r_g$", fontsize=8, labelpad=1)
     small.set_title(r"$I_c$ at $\mu_p = 0.01$", fontsize=8)
     small.tick_params(labelsize=7)
 
 
 def critical(measures, path):
-    """Fig. 8: critical friction and solid fraction of the fits of Eqs. 5 and 6, over the aspect ratio; fits that tell mu_c within a
-    fifth, phi_c within a twentieth of it."""
+    """Fig. 8: critical friction and solid fraction of the fits of Eqs. 5 and 6, over the aspect ratio; fits that tell
+    mu_c within a fifth, phi_c within a twentieth of it."""
     figure, axes = plt.subplots(1, 2, figsize=(8.2, 3.4), constrained_layout=True)
     drawn = False
     panels = (("mu_c", r"critical friction $\mu_c$", 0.2), ("phi_c", r"critical solid fraction $\phi_c$", 0.05))
@@ -90,8 +120,15 @@ def finite_size(measures, path):
     for number, ((alpha, mu, grains), runs) in enumerate(sorted(groups.items())):
         dashes = ["-", "--", ":", "-."][sorted({key[2] for key in groups if key[:2] == (alpha, mu)}).index(grains) % 4]
         for axis, name in zip(axes, ("mu_eff", "phi")):
-            points(axis, [m.inertial for m in runs], [m[name] for m in runs], color=shape_colour(alpha), marker=shape_marker(alpha),
-                   linestyle=dashes, label=rf"$\alpha = {alpha:g}$, $\mu_p = {mu:g}$, $N = {grains:g}$")
+            points(
+                axis,
+                [m.inertial for m in runs],
+                [m[name] for m in runs],
+                color=shape_colour(alpha),
+                marker=shape_marker(alpha),
+                linestyle=dashes,
+                label=rf"$\alpha = {alpha:g}$, $\mu_p = {mu:g}$, $N = {grains:g}$",
+            )
     for axis, label in zip(axes, (r"$\mu = \sigma_{xy}/P$", r"$\phi$")):
         axis.set(xlabel=r"inertial number $I$", ylabel=label)
         if groups:

@@ -1,6 +1,7 @@
-"""Runs of Open MPI side by side on one machine. Processes that start and end at the same moment share a session directory
-in /tmp, and one can remove it under another: "mkdir: File exists", exit code 1. Here each mpirun gets directories of its
-own."""
+"""Runs of Open MPI side by side on one machine. Processes that start and end at the same moment share a session
+directory in /tmp, and one can remove it under another: "mkdir: File exists", exit code 1. Here each mpirun gets
+directories of its own."""
+
 from contextlib import contextmanager
 import os
 from pathlib import Path
@@ -19,8 +20,9 @@ def _base():
 
 def _several_nodes(environment):
     """A directory in the shared memory of this node is none on another."""
-    return (environment.get("SLURM_JOB_NUM_NODES", "1") != "1" or
-            any(name in environment for name in ("PBS_NODEFILE", "PE_HOSTFILE", "LSB_HOSTS")))
+    return environment.get("SLURM_JOB_NUM_NODES", "1") != "1" or any(
+        name in environment for name in ("PBS_NODEFILE", "PE_HOSTFILE", "LSB_HOSTS")
+    )
 
 
 class Session:

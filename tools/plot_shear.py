@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""Pictures of simple-shear runs: series.png (what the flow does over strain) and dissipation.png (where its energy goes); of runs with
-`-var measure all` also the figures of the paper, fig02.png to fig18.png, and memory.png and layering.png."""
+"""Pictures of simple-shear runs: series.png (what the flow does over strain) and dissipation.png (where its energy
+goes); of runs with `-var measure all` also the figures of the paper, fig02.png to fig18.png, and memory.png and
+layering.png."""
 import argparse
 from pathlib import Path
 import sys
@@ -13,8 +14,14 @@ from paper_figures import draw_figures
 from shear_output import InputError, read_run
 
 NORMAL, FRICTION, INPUT = "#4477AA", "#EE9966", "#222222"
-PANELS = [("P", "pressure / target"), ("mu_eff", r"effective friction $\mu$"), ("phi", r"solid fraction $\phi$"),
-          ("Z", "coordination $Z$"), ("S2", "nematic order $S_2$"), ("spin", r"$-2\,\langle\omega_z\rangle/\dot\gamma$")]
+PANELS = [
+    ("P", "pressure / target"),
+    ("mu_eff", r"effective friction $\mu$"),
+    ("phi", r"solid fraction $\phi$"),
+    ("Z", "coordination $Z$"),
+    ("S2", "nematic order $S_2$"),
+    ("spin", r"$-2\,\langle\omega_z\rangle/\dot\gamma$"),
+]
 
 
 def running_mean(strain, values, width=0.25):
@@ -34,7 +41,9 @@ def plot_series(runs, start, path):
             rows, strain = run.steady(start), run["strain"]
             axis.plot(strain, run[name], color=colour, alpha=0.25, linewidth=0.7)
             axis.plot(strain, running_mean(strain, run[name]), color=colour, linewidth=1.6, label=run.name)
-            axis.hlines(run[name][rows].mean(), strain[rows][0], strain[-1], color=colour, linewidth=1.0, linestyle=(0, (5, 3)))
+            axis.hlines(
+                run[name][rows].mean(), strain[rows][0], strain[-1], color=colour, linewidth=1.0, linestyle=(0, (5, 3))
+            )
         smooth = np.concatenate([run[name][run.steady(start)] for run in runs])
         spread = np.ptp(smooth)
         axis.set_ylim(max(0.0, smooth.min() - 0.6 * spread), smooth.max() + 0.3 * spread)
@@ -42,21 +51,38 @@ def plot_series(runs, start, path):
         axis.set_xlim(0, max(run["strain"][-1] for run in runs))
     for axis in axes[-1]:
         axis.set_xlabel(r"shear strain $\gamma$")
-    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=len(runs))
+    figure.legend(
+        *axes[0, 0].get_legend_handles_labels(), loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=len(runs)
+    )
     figure.savefig(path)
     plt.close(figure)
 
 
 def plot_dissipation(runs, start, path):
     """Per run the two losses stacked over strain under the power put in; on the right their steady means."""
-    figure, axes = plt.subplots(1, len(runs) + 1, figsize=(4.2 * len(runs) + 2.2, 3.8), constrained_layout=True, sharey=True,
-                                gridspec_kw={"width_ratios": [3] * len(runs) + [0.9 + 0.4 * len(runs)]})
+    figure, axes = plt.subplots(
+        1,
+        len(runs) + 1,
+        figsize=(4.2 * len(runs) + 2.2, 3.8),
+        constrained_layout=True,
+        sharey=True,
+        gridspec_kw={"width_ratios": [3] * len(runs) + [0.9 + 0.4 * len(runs)]},
+    )
     highest = 0.0
     for axis, run in zip(axes, runs):
         strain = run["strain"]
-        smooth = {name: running_mean(strain, values) for name, values in
-                  (("n", run["W_n"]), ("t", run["W_t"]), ("in", run.injected))}
-        axis.stackplot(strain, smooth["n"], smooth["t"], colors=[NORMAL, FRICTION], labels=["normal damping", "friction"], linewidth=0)
+        smooth = {
+            name: running_mean(strain, values)
+            for name, values in (("n", run["W_n"]), ("t", run["W_t"]), ("in", run.injected))
+        }
+        axis.stackplot(
+            strain,
+            smooth["n"],
+            smooth["t"],
+            colors=[NORMAL, FRICTION],
+            labels=["normal damping", "friction"],
+            linewidth=0,
+        )
         axis.plot(strain, smooth["in"], color=INPUT, linewidth=1.2, label="put in (shear and box)")
         axis.set_title(run.name)
         axis.set_xlabel(r"shear strain $\gamma$")
@@ -73,7 +99,9 @@ def plot_dissipation(runs, start, path):
         axes[-1].bar(place, friction, bottom=normal, color=FRICTION, width=0.6)
         axes[-1].hlines(put_in, place - 0.4, place + 0.4, color=INPUT, linewidth=1.2)
         for middle, part in ((0.5 * normal, normal), (normal + 0.5 * friction, friction)):
-            axes[-1].text(place, middle, f"{100 * part / (normal + friction):.0f} %", ha="center", va="center", fontsize=9)
+            axes[-1].text(
+                place, middle, f"{100 * part / (normal + friction):.0f} %", ha="center", va="center", fontsize=9
+            )
     axes[-1].set_xticks(range(len(runs)), [run.name for run in runs])
     axes[-1].set_xlim(-0.6, len(runs) - 0.4)
     axes[-1].set_title("steady mean")
@@ -84,7 +112,10 @@ def plot_dissipation(runs, start, path):
 def draw_over_strain(runs, start, output):
     """series.png and dissipation.png, and their paths; neither when there are too many runs to tell apart."""
     if len(runs) > len(RUN_COLOURS):
-        print(f"plot_shear.py: {len(runs)} runs; series.png and dissipation.png are drawn for up to {len(RUN_COLOURS)}", file=sys.stderr)
+        print(
+            f"plot_shear.py: {len(runs)} runs; series.png and dissipation.png are drawn for up to {len(RUN_COLOURS)}",
+            file=sys.stderr,
+        )
         return []
     plot_series(runs, start, output / "series.png")
     plot_dissipation(runs, start, output / "dissipation.png")
@@ -95,8 +126,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("run", nargs="+", help="output folder of a run (it holds series.txt and parameters.txt)")
     parser.add_argument("--output", default=".", metavar="FOLDER", help="where the pictures go (default: here)")
-    parser.add_argument("--from", dest="start", type=float, metavar="STRAIN",
-                        help="where the steady state starts (default: 6, or 4 below I = 0.01, at most half the run)")
+    parser.add_argument(
+        "--from",
+        dest="start",
+        type=float,
+        metavar="STRAIN",
+        help="where the steady state starts (default: 6, or 4 below I = 0.01, at most half the run)",
+    )
     arguments = parser.parse_args()
     output = Path(arguments.output)
     try:

@@ -18,7 +18,9 @@ def draw(runs, name, path):
 
 def main():
     parser = study_parser(__doc__)
-    parser.add_argument("figure", nargs="*", help=f"which: {', '.join(sorted(ALL))} (default: all that the runs can give)")
+    parser.add_argument(
+        "figure", nargs="*", help=f"which: {', '.join(sorted(ALL))} (default: all that the runs can give)"
+    )
     arguments = parser.parse_args()
     unknown = [name for name in arguments.figure if name not in ALL]
     if unknown:

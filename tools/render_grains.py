@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""Picture of the grains of a dump by POV-Ray: true ellipsoids in the sheared box, coloured by how far each is turned out of the flow
-(the x axis). The angle is that of the long axis of a prolate grain, of the flat plane of an oblate one."""
+"""Picture of the grains of a dump by POV-Ray: true ellipsoids in the sheared box, coloured by how far each is turned
+out of the flow (the x axis). The angle is that of the long axis of a prolate grain, of the flat plane of an oblate
+one."""
 import argparse
 from pathlib import Path
 import subprocess
@@ -8,6 +9,7 @@ import sys
 import tempfile
 
 import matplotlib
+
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
@@ -32,7 +34,8 @@ plane {{ y, {floor} pigment {{ color rgb 1 }} finish {{ ambient 0 emission 0.06 
 
 
 def angle_to_flow(grains):
-    """Angle [deg] in (0, 90) between the flow and each grain's long axis (prolate) or flat plane (oblate); None for spheres."""
+    """Angle [deg] in (0, 90) between the flow and each grain's long axis (prolate) or flat plane (oblate); None for
+    spheres."""
     sizes = np.sort(grains.semi_axes, axis=1)
     if np.all(sizes[:, 2] - sizes[:, 0] < 1e-9 * sizes[:, 2]):
         return None
@@ -59,7 +62,10 @@ def describe_grains(grains, colours):
     for position, rotation, axes, colour in zip(wrapped(grains), grains.rotations, grains.semi_axes, colours):
         rows = np.vstack([rotation.T * axes[:, None], position])
         numbers = ", ".join(f"{x:.6g}" for x in rows.ravel())
-        lines.append(f"sphere {{ 0, 1 matrix <{numbers}> pigment {{ color srgb {vector(colour[:3])} }} finish {{ grain_finish }} }}")
+        lines.append(
+            f"sphere "
+            f"{{ 0, 1 matrix <{numbers}> pigment {{ color srgb {vector(colour[:3])} }} finish {{ grain_finish }} }}"
+        )
     return "\n".join(lines)
 
 
@@ -71,12 +77,15 @@ def describe_box(grains, radius):
         for k in range(3):
             if start[k] == 0:
                 end = tuple(1 if n == k else start[n] for n in range(3))
-                lines.append(f"cylinder {{ {vector(corner[start])}, {vector(corner[end])}, {radius:.6g} texture {{ edge }} }}")
+                lines.append(
+                    f"cylinder {{ {vector(corner[start])}, {vector(corner[end])}, {radius:.6g} texture {{ edge }} }}"
+                )
     return "\n".join(lines)
 
 
 def camera_distance(points, direction, angle, aspect):
-    """How far back along `direction` (unit, from the target at the origin) a camera of horizontal opening `angle` [deg] sees all points."""
+    """How far back along `direction` (unit, from the target at the origin) a camera of horizontal opening `angle` [deg]
+    sees all points."""
     right = np.cross([0.0, 1.0, 0.0], direction)
     right /= np.linalg.norm(right)
     up = np.cross(direction, right)
@@ -91,7 +100,8 @@ def box_corners(grains):
 
 
 def flow_arrows(grains):
-    """Ends (tail, tip) of two arrows: along +x above the upper back edge of the box, along -x below its lower front edge."""
+    """Ends (tail, tip) of two arrows: along +x above the upper back edge of the box, along -x below its lower front
+    edge."""
     gap = np.array([0, 1.6 * grains.semi_axes.max(), 0])
     corner = box_corners(grains)
     length = 0.3 * grains.edges[0]
@@ -110,26 +120,45 @@ def describe_arrows(arrows, radius):
 
 
 def describe_scene(grains, colours, aspect):
-    """The scene around a box centred at the origin: camera in front (+z), above and to the right, a white floor, a soft light."""
+    """The scene around a box centred at the origin: camera in front (+z), above and to the right, a white floor, a soft
+    light."""
     size = np.linalg.norm(np.diag(grains.edges))
     arrows = flow_arrows(grains)
     seen = np.array(list(box_corners(grains).values()) + [end for arrow in arrows for end in arrow])
     direction = np.array([0.30, 0.27, 0.91]) / np.linalg.norm([0.30, 0.27, 0.91])
     angle, margin = 24, 1.12
-    return SCENE.format(aspect=aspect, angle=angle, target=vector([0, 0, 0]),
-                        camera=vector(camera_distance(margin * seen, direction, angle, aspect) * direction),
-                        key_light=vector(size * np.array([-5, 11, 6])), across=3.8 * size,
-                        fill_light=vector(size * np.array([2.5, 1.0, 2.5])), floor=seen[:, 1].min() - 0.02 * size,
-                        box=describe_box(grains, 0.003 * size), arrows=describe_arrows(arrows, 0.005 * size),
-                        grains=describe_grains(grains, colours))
+    return SCENE.format(
+        aspect=aspect,
+        angle=angle,
+        target=vector([0, 0, 0]),
+        camera=vector(camera_distance(margin * seen, direction, angle, aspect) * direction),
+        key_light=vector(size * np.array([-5, 11, 6])),
+        across=3.8 * size,
+        fill_light=vector(size * np.array([2.5, 1.0, 2.5])),
+        floor=seen[:, 1].min() - 0.02 * size,
+        box=describe_box(grains, 0.003 * size),
+        arrows=describe_arrows(arrows, 0.005 * size),
+        grains=describe_grains(grains, colours),
+    )
 
 
 def run_povray(scene, width, height, threads):
     """The rendered scene as an array of pixels."""
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "scene.pov").write_text(scene)
-        command = ["povray", "+Iscene.pov", "+Oscene.png", f"+W{width}", f"+H{height}", "+A0.1", "+AM2", "+R3", "-D", "-GA",
-                   f"+WT{threads}"]
+        command = [
+            "povray",
+            "+Iscene.pov",
+            "+Oscene.png",
+            f"+W{width}",
+            f"+H{height}",
+            "+A0.1",
+            "+AM2",
+            "+R3",
+            "-D",
+            "-GA",
+            f"+WT{threads}",
+        ]
         try:
             done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
         except FileNotFoundError:
@@ -177,7 +206,9 @@ def main():
         scene = describe_scene(grains, colours, 4 / 3)
         if arguments.scene:
             Path(arguments.scene).write_text(scene)
-        save_with_legend(run_povray(scene, arguments.width, arguments.width * 3 // 4, arguments.threads), colormap, arguments.output)
+        save_with_legend(
+            run_povray(scene, arguments.width, arguments.width * 3 // 4, arguments.threads), colormap, arguments.output
+        )
     except (InputError, OSError) as error:
         sys.exit(f"render_grains.py: {error}")
     print(arguments.output)

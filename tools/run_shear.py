@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""Runs examples/simple_shear, or takes up what an earlier attempt left in the output folder: one that was killed, or one that ended at a
-smaller strain. Screen output goes to screen.txt there, one attempt after the other, the variables to variables.txt, and what each attempt
-that ended cost to cost.txt. Ends with an error, and the reason that the run gave, if the run failed."""
+"""Runs examples/simple_shear, or takes up what an earlier attempt left in the output folder: one that was killed, or
+one that ended at a smaller strain. Screen output goes to screen.txt there, one attempt after the other, the variables
+to variables.txt, and what each attempt that ended cost to cost.txt. Ends with an error, and the reason that the run
+gave, if the run failed."""
 import argparse
 import fcntl
 import os
@@ -21,8 +22,8 @@ COST = "# from[step] to[step] ranks wall[s] cpu[s] memory[B]\n"
 
 
 def grid(ranks):
-    """The grid of ranks that cuts a cube into the most compact parts. It is named since LIGGGHTS would choose one for the box that it finds:
-    another for the flat box of a resumed run, and with it other bits."""
+    """The grid of ranks that cuts a cube into the most compact parts. It is named since LIGGGHTS would choose one for
+    the box that it finds: another for the flat box of a resumed run, and with it other bits."""
     grids = [(x, y, ranks // (x * y)) for x in range(1, ranks + 1) for y in range(1, ranks + 1) if ranks % (x * y) == 0]
     return " ".join(map(str, min(grids, key=sum)))
 
@@ -44,18 +45,25 @@ def plain(value):
 
 
 def check_variables(arguments):
-    """Refuses to take up a run with other variables than it began with; only the strain and the start of the averages may change."""
+    """Refuses to take up a run with other variables than it began with; only the strain and the start of the averages
+    may change."""
     path = arguments.out / "variables.txt"
-    if not path.exists():   # begun by hand
+    if not path.exists():  # begun by hand
         return
     begun, asked = dict(line.split("=", 1) for line in path.read_text().splitlines()), dict(arguments.variables)
     if "part" not in asked and plain(begun.get("strain")) != plain(asked.get("strain")):
-        sys.exit(f"run_shear.py: {arguments.out}: part must be named from the first attempt on for strain to change, from "
-                 f"{begun.get('strain', 'the default')} to {asked.get('strain', 'the default')} here: its default depends on strain")
+        sys.exit(
+            f"run_shear.py: {arguments.out}: part must be named from the first attempt on for strain to change, from "
+            f"{begun.get('strain', 'the default')} to {asked.get('strain', 'the default')} here: its default "
+            "depends on strain"
+        )
     for name in sorted((begun.keys() | asked.keys()) - set(MAY_CHANGE)):
         if plain(begun.get(name)) != plain(asked.get(name)):
-            sys.exit(f"run_shear.py: {arguments.out}: {name} must stay what the run began with, {begun.get(name, 'the default')}, "
-                     f"got {asked.get(name, 'the default')}; use another folder, or remove this one to start again")
+            sys.exit(
+                f"run_shear.py: {arguments.out}: {name} must stay what the run began with, "
+                f"{begun.get(name, 'the default')}, "
+                f"got {asked.get(name, 'the default')}; use another folder, or remove this one to start again"
+            )
 
 
 def write_variables(arguments):
@@ -93,27 +101,38 @@ def write_cost(arguments, wall, usage):
 
 
 def lock(out):
-    """A file that is locked for as long as this process, or the run that it begins, is there. Waits for an earlier attempt that still runs,
-    as one does whose Snakemake was killed."""
+    """A file that is locked for as long as this process, or the run that it begins, is there. Waits for an earlier
+    attempt that still runs, as one does whose Snakemake was killed."""
     file = (out / "lock").open("w")
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
-        print(f"run_shear.py: {out}: another attempt writes to this folder, waiting for its end", file=sys.stderr, flush=True)
+        print(
+            f"run_shear.py: {out}: another attempt writes to this folder, waiting for its end",
+            file=sys.stderr,
+            flush=True,
+        )
         fcntl.flock(file, fcntl.LOCK_EX)
     return file
 
 
 def attempt(arguments, resume, locked):
-    """Exit status of one attempt, and what it printed. A run that a signal ends is content with itself, but writes no final.restart."""
+    """Exit status of one attempt, and what it printed. A run that a signal ends is content with itself, but writes no
+    final.restart."""
     screen, final = arguments.out / "screen.txt", arguments.out / "final.restart"
     earlier = time_of(final)
     begin = time.monotonic()
     with screen.open("ab") as output:
         end_of_earlier = output.tell()
         with session(note=arguments.out / "session.txt") as environment:
-            run = subprocess.Popen(command(arguments, resume), stdin=subprocess.DEVNULL, stdout=output,
-                                   stderr=subprocess.STDOUT, pass_fds=[locked.fileno()], env=environment)
+            run = subprocess.Popen(
+                command(arguments, resume),
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                pass_fds=[locked.fileno()],
+                env=environment,
+            )
             _, status, usage = os.wait4(run.pid, 0)
             run.returncode = os.waitstatus_to_exitcode(status)
     if run.returncode == 0 and time_of(final) == earlier:
@@ -135,8 +154,12 @@ def variable(text):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("out", type=Path, help="output folder of the run")
-    parser.add_argument("variables", nargs="+", type=variable, metavar="name=value", help="variables of the deck, such as alpha=1.5")
-    parser.add_argument("--binary", help="the program (default: grainscope of this source tree, beside the installed tools, or on PATH)")
+    parser.add_argument(
+        "variables", nargs="+", type=variable, metavar="name=value", help="variables of the deck, such as alpha=1.5"
+    )
+    parser.add_argument(
+        "--binary", help="the program (default: grainscope of this source tree, beside the installed tools, or on PATH)"
+    )
     parser.add_argument("--ranks", type=int, default=1, help="MPI ranks (default: 1, without mpirun)")
     arguments = parser.parse_args()
     try:
@@ -153,7 +176,10 @@ def main():
         write_variables(arguments)
         status, output = attempt(arguments, bool(files), locked)
         if status and len(files) == 1 and NONE_WHOLE in output:
-            print(f"run_shear.py: {arguments.out}: the first restart file was not whole yet, starting again", file=sys.stderr)
+            print(
+                f"run_shear.py: {arguments.out}: the first restart file was not whole yet, starting again",
+                file=sys.stderr,
+            )
             status, output = attempt(arguments, False, locked)
     except (OSError, ValueError, NoProgram) as error:
         sys.exit(f"run_shear.py: {arguments.out}: {error}")

@@ -1,5 +1,6 @@
-"""Steady state of a run of examples/simple_shear, in the units and normalisations of the paper: means with errors, and curves. Used by the
-figures, the summary and the tables of a study."""
+"""Steady state of a run of examples/simple_shear, in the units and normalisations of the paper: means with errors, and
+curves. Used by the figures, the summary and the tables of a study."""
+
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,46 +9,101 @@ from fits import fit_decay
 from shear_output import InputError, mean_and_error, read_blocks, read_grains, read_table
 
 # Name of each mean, its unit, and what it is. Powers are over W0 = rate x target pressure x volume.
-SERIES = {"P": ("P_target", "pressure -sigma_yy"), "mu_eff": ("-", "sigma_xy/P"), "phi": ("-", "solid fraction"),
-          "Z": ("-", "coordination, 2 contacts/grains"), "sliding": ("-", "share of sliding contacts"),
-          "W_shear": ("W0", "power put in by shear"), "W_box": ("W0", "power put in by the moving box"),
-          "W_n": ("W0", "power lost to normal damping, from the velocities at the ends of steps"),
-          "W_t": ("W0", "power lost to friction, from the slip of the springs"), "W_rest": ("W0", "power put in less power lost"),
-          "S2": ("-", "nematic order"), "theta_x": ("deg", "mean angle of the long axes to the flow"),
-          "spin": ("-", "-2 <omega_z>/rate"), "overlap_mean": ("d_eq", "mean overlap"), "overlap_max": ("d_eq", "largest overlap"),
-          "kappa": ("-", "stiffness number")}
+SERIES = {
+    "P": ("P_target", "pressure -sigma_yy"),
+    "mu_eff": ("-", "sigma_xy/P"),
+    "phi": ("-", "solid fraction"),
+    "Z": ("-", "coordination, 2 contacts/grains"),
+    "sliding": ("-", "share of sliding contacts"),
+    "W_shear": ("W0", "power put in by shear"),
+    "W_box": ("W0", "power put in by the moving box"),
+    "W_n": ("W0", "power lost to normal damping, from the velocities at the ends of steps"),
+    "W_t": ("W0", "power lost to friction, from the slip of the springs"),
+    "W_rest": ("W0", "power put in less power lost"),
+    "S2": ("-", "nematic order"),
+    "theta_x": ("deg", "mean angle of the long axes to the flow"),
+    "spin": ("-", "-2 <omega_z>/rate"),
+    "overlap_mean": ("d_eq", "mean overlap"),
+    "overlap_max": ("d_eq", "largest overlap"),
+    "kappa": ("-", "stiffness number"),
+}
 ALWAYS = {"I_reached": ("-", "inertial number of the mean pressure"), "L_y": ("d_eq", "mean height of the box")}
-MEASURED = {"instant_n": ("W0", "power lost to normal damping, sum of damping force x velocity at the force evaluation (Eq. 4)"),
-            "instant_t": ("W0", "power lost to friction, sum over sliding contacts of force x velocity at the force evaluation (Eq. 4)"),
-            **{f"{part}_{c}": ("P", f"sigma_{c} of the {kind} contact forces, tension positive")
-               for part, kind in (("n", "normal"), ("t", "tangential")) for c in ("xx", "yy", "zz", "xy")},
-            "N1": ("P", "sigma_xx - sigma_yy"), "N2": ("P", "sigma_yy - sigma_zz"),
-            **{f"F_{c}": ("-", f"fabric, component {c}") for c in ("xx", "yy", "zz", "xy", "xz", "yz")},
-            "fabric_deviator": ("-", "sqrt(3/2 F':F') of the mean fabric"),
-            "dv_x/dv_y": ("-", "velocity fluctuations, flow over gradient"), "dv_x/dv_z": ("-", "flow over vorticity"),
-            "E_rot/E_tr": ("-", "fluctuating energy, rotation over translation"),
-            "lever": ("-", "velocity fluctuation over rate x d_eq"), "spin_fluctuation": ("-", "fluctuation of the angular velocity over the rate"),
-            "idle": ("%", "grains with fewer than two contacts"), "layering": ("-", "largest correlation of the density beyond half a diameter"),
-            "l_vy": ("d_eq", "correlation length of dv_y"), "l_wz": ("d_eq", "correlation length of dw_z"),
-            "D_y": ("rate d_eq2", "diffusion coefficient along the gradient"), "D_z": ("rate d_eq2", "diffusion coefficient along the vorticity")}
-FILES = ["micro.txt", "displacement.txt", "surface.txt", "direction.txt", "correlation.txt", "layering.txt", "memory.txt"]
+MEASURED = {
+    "instant_n": (
+        "W0",
+        "power lost to normal damping, sum of damping force x velocity at the force evaluation (Eq. 4)",
+    ),
+    "instant_t": (
+        "W0",
+        "power lost to friction, sum over sliding contacts of force x velocity at the force evaluation (Eq. 4)",
+    ),
+    **{
+        f"{part}_{c}": ("P", f"sigma_{c} of the {kind} contact forces, tension positive")
+        for part, kind in (("n", "normal"), ("t", "tangential"))
+        for c in ("xx", "yy", "zz", "xy")
+    },
+    "N1": ("P", "sigma_xx - sigma_yy"),
+    "N2": ("P", "sigma_yy - sigma_zz"),
+    **{f"F_{c}": ("-", f"fabric, component {c}") for c in ("xx", "yy", "zz", "xy", "xz", "yz")},
+    "fabric_deviator": ("-", "sqrt(3/2 F':F') of the mean fabric"),
+    "dv_x/dv_y": ("-", "velocity fluctuations, flow over gradient"),
+    "dv_x/dv_z": ("-", "flow over vorticity"),
+    "E_rot/E_tr": ("-", "fluctuating energy, rotation over translation"),
+    "lever": ("-", "velocity fluctuation over rate x d_eq"),
+    "spin_fluctuation": ("-", "fluctuation of the angular velocity over the rate"),
+    "idle": ("%", "grains with fewer than two contacts"),
+    "layering": ("-", "largest correlation of the density beyond half a diameter"),
+    "l_vy": ("d_eq", "correlation length of dv_y"),
+    "l_wz": ("d_eq", "correlation length of dw_z"),
+    "D_y": ("rate d_eq2", "diffusion coefficient along the gradient"),
+    "D_z": ("rate d_eq2", "diffusion coefficient along the vorticity"),
+}
+FILES = [
+    "micro.txt",
+    "displacement.txt",
+    "surface.txt",
+    "direction.txt",
+    "correlation.txt",
+    "layering.txt",
+    "memory.txt",
+]
 FORCES = {"F_n": ("P A_p", "mean normal force"), "F_t": ("P A_p", "mean tangential force")}
 # Name of each curve: its columns as above, the first of them what it runs over
-CURVES = {"correlation": {"r": ("d_eq", "distance"), "vy": ("-", "correlation of dv_y"), "wz": ("-", "correlation of dw_z")},
-          "memory": {"lag": ("-", "strain between"), "vy": ("-", "correlation of a grain's dv_y with itself")},
-          "layering": {"y": ("d_eq", "distance along the gradient"), "C": ("-", "correlation of the density of centres over that at 0")},
-          "surface": {"psi": ("rad", "angle between a contact and the grain's symmetry axis"), "density": ("-", "contacts rho_s A_p"),
-                      "inhomogeneity": ("-", "of the dissipated power"), "printed density": ("-", "over the area element that the paper prints"),
-                      "printed inhomogeneity": ("-", "over the area element that the paper prints"), **FORCES,
-                      "mobilisation": ("-", "mean |F_t|/(mu F_n)"), "sliding": ("-", "share of sliding contacts")},
-          "direction": {"beta": ("rad", "angle of a contact normal to the flow"), "density": ("1/rad", "of contact normals"), **FORCES},
-          "displacement": {"strain": ("-", "since the run's averages began"), "y2": ("d_eq2", "mean square displacement along the gradient"),
-                           "z2": ("d_eq2", "mean square displacement along the vorticity")}}
+CURVES = {
+    "correlation": {"r": ("d_eq", "distance"), "vy": ("-", "correlation of dv_y"), "wz": ("-", "correlation of dw_z")},
+    "memory": {"lag": ("-", "strain between"), "vy": ("-", "correlation of a grain's dv_y with itself")},
+    "layering": {
+        "y": ("d_eq", "distance along the gradient"),
+        "C": ("-", "correlation of the density of centres over that at 0"),
+    },
+    "surface": {
+        "psi": ("rad", "angle between a contact and the grain's symmetry axis"),
+        "density": ("-", "contacts rho_s A_p"),
+        "inhomogeneity": ("-", "of the dissipated power"),
+        "printed density": ("-", "over the area element that the paper prints"),
+        "printed inhomogeneity": ("-", "over the area element that the paper prints"),
+        **FORCES,
+        "mobilisation": ("-", "mean |F_t|/(mu F_n)"),
+        "sliding": ("-", "share of sliding contacts"),
+    },
+    "direction": {
+        "beta": ("rad", "angle of a contact normal to the flow"),
+        "density": ("1/rad", "of contact normals"),
+        **FORCES,
+    },
+    "displacement": {
+        "strain": ("-", "since the run's averages began"),
+        "y2": ("d_eq2", "mean square displacement along the gradient"),
+        "z2": ("d_eq2", "mean square displacement along the vorticity"),
+    },
+}
 
 
 def printed_shares(alpha, bins):
-    """Shares of the surface in `bins` equal bins of psi by the area element that the paper prints, a sin(psi) sqrt(a^2 cos^2 + c^2 sin^2).
-    It is that of the parametric angle; psi is the polar angle, so for alpha other than 1 these are not the areas of the bins."""
+    """Shares of the surface in `bins` equal bins of psi by the area element that the paper prints, a sin(psi) sqrt(a^2
+    cos^2 + c^2 sin^2). It is that of the parametric angle; psi is the polar angle, so for alpha other than 1 these are
+    not the areas of the bins.
+    """
     psi = (np.arange(200 * bins) + 0.5) * np.pi / (400 * bins)
     element = np.sin(psi) * np.sqrt(np.cos(psi) ** 2 + (alpha * np.sin(psi)) ** 2)
     return element.reshape(bins, -1).sum(axis=1) / element.sum()
@@ -55,7 +111,9 @@ def printed_shares(alpha, bins):
 
 @dataclass
 class SteadyRun:
-    """Steady state of a run: its parameters, its means as (mean, standard error) by name, and its curves as arrays by name and column."""
+    """Steady state of a run: its parameters, its means as (mean, standard error) by name, and its curves as arrays by
+    name and column."""
+
     name: str
     parameters: dict
     means: dict
@@ -92,7 +150,8 @@ class SteadyRun:
         return self["I_reached"][0]
 
     def fabric_axes(self):
-        """The two eigenvalues whose axes lie in the xy plane, the larger first, and these axes (x, y), pointing to x > 0."""
+        """The two eigenvalues whose axes lie in the xy plane, the larger first, and these axes (x, y), pointing to x >
+        0."""
         xx, yy, zz, xy, xz, yz = (self[f"F_{c}"][0] for c in ("xx", "yy", "zz", "xy", "xz", "yz"))
         values, vectors = np.linalg.eigh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
         in_plane = np.argsort(np.abs(vectors[2]))[:2]
@@ -121,7 +180,10 @@ class Blocks:
         begins = ends - (np.diff(ends).mean() if len(ends) > 1 else ends[-1] / 16)
         self.kept = np.ones(len(ends), dtype=bool) if start is None else begins > start - 1e-3
         if not self.kept.any():
-            raise InputError(f"{run.folder}: no part of micro.txt begins after strain {start:g}; the last one begins at {begins[-1]:.2f}")
+            raise InputError(
+                f"{run.folder}: no part of micro.txt begins after strain {start:g}; the last one begins at "
+                f"{begins[-1]:.2f}"
+            )
         self.micro = {name: values[self.kept] for name, values in micro.items()}
         self.pressure = -(self.micro["n_yy"] + self.micro["t_yy"])
 
@@ -129,8 +191,10 @@ class Blocks:
         """Columns of a file of tables, one table per part of the run, as arrays (parts, rows)."""
         columns = read_blocks(self.run.folder, name)
         if len(columns["bin"]) != len(self.kept):
-            raise InputError(f"{self.run.folder}: {name} has {len(columns['bin'])} tables, micro.txt {len(self.kept)} rows; "
-                             "they must be of one run")
+            raise InputError(
+                f"{self.run.folder}: {name} has {len(columns['bin'])} tables, micro.txt {len(self.kept)} rows; "
+                "they must be of one run"
+            )
         return {column: values[self.kept] for column, values in columns.items()}
 
     def micro_means(self):
@@ -138,19 +202,32 @@ class Blocks:
         stress = {name: micro[name] / pressure for name in MEASURED if name[:2] in ("n_", "t_")}
         total = {c: stress[f"n_{c}"] + stress[f"t_{c}"] for c in ("xx", "yy", "zz")}
         fabric = {name: micro[name] for name in MEASURED if name.startswith("F_")}
-        rows = {**stress, **fabric, "N1": total["xx"] - total["yy"], "N2": total["yy"] - total["zz"],
-                "instant_n": micro["instant_n"], "instant_t": micro["instant_t"],
-                "dv_x/dv_y": micro["dv_x"] / micro["dv_y"], "dv_x/dv_z": micro["dv_x"] / micro["dv_z"],
-                "E_rot/E_tr": micro["E_rot"] / micro["E_tr"], "lever": micro["lever"],
-                "spin_fluctuation": np.sqrt(sum(micro[f"dw_{axis}"] ** 2 for axis in "xyz")) / self.rate,
-                "idle": 100 * micro["idle"], "layering": micro["layering"]}
-        return {name: mean_and_error(values) for name, values in rows.items()} | {"fabric_deviator": self.fabric_deviator()}
+        rows = {
+            **stress,
+            **fabric,
+            "N1": total["xx"] - total["yy"],
+            "N2": total["yy"] - total["zz"],
+            "instant_n": micro["instant_n"],
+            "instant_t": micro["instant_t"],
+            "dv_x/dv_y": micro["dv_x"] / micro["dv_y"],
+            "dv_x/dv_z": micro["dv_x"] / micro["dv_z"],
+            "E_rot/E_tr": micro["E_rot"] / micro["E_tr"],
+            "lever": micro["lever"],
+            "spin_fluctuation": np.sqrt(sum(micro[f"dw_{axis}"] ** 2 for axis in "xyz")) / self.rate,
+            "idle": 100 * micro["idle"],
+            "layering": micro["layering"],
+        }
+        return {name: mean_and_error(values) for name, values in rows.items()} | {
+            "fabric_deviator": self.fabric_deviator()
+        }
 
     def fabric_deviator(self):
         """sqrt(3/2 F':F') of the mean tensor, its error from the parts."""
+
         def deviator(fabric):
             diagonal = sum((fabric[f"F_{c}"] - 1 / 3) ** 2 for c in ("xx", "yy", "zz"))
             return np.sqrt(1.5 * (diagonal + 2 * sum(fabric[f"F_{c}"] ** 2 for c in ("xy", "xz", "yz"))))
+
         mean = {name: values.mean() for name, values in self.micro.items() if name.startswith("F_")}
         return deviator(mean), mean_and_error(deviator(self.micro))[1]
 
@@ -158,10 +235,14 @@ class Blocks:
         """C(r) of vy or wz: ratio of sums over the steady state. Bins without pairs are left out."""
         pairs, sums = table["pairs"].sum(axis=0), table[component].sum(axis=0)
         filled = pairs > 0
-        return table["r"].mean(axis=0)[filled] / self.diameter, sums[filled] / pairs[filled] / self.micro[f"{component}2"].mean()
+        return (
+            table["r"].mean(axis=0)[filled] / self.diameter,
+            sums[filled] / pairs[filled] / self.micro[f"{component}2"].mean(),
+        )
 
     def correlation_length(self, component, table):
-        """l of exp(-r/l), and its error: that of the fit, or from the spread over the parts that tell a length, if that is larger."""
+        """l of exp(-r/l), and its error: that of the fit, or from the spread over the parts that tell a length, if that
+        is larger."""
         length, error = fit_decay(*self.correlation(component, table))
         single = []
         for r, sums, pairs, square in zip(table["r"], table[component], table["pairs"], self.micro[f"{component}2"]):
@@ -181,23 +262,33 @@ class Blocks:
         return {"y": table["lag"].mean(axis=0) / self.diameter, "C": density / density[0]}
 
     def surface(self):
-        """Contacts on the grain by psi: ratios of sums over all contacts of the steady state. Densities are over the exact areas; the
-        `printed` ones over those of printed_shares."""
+        """Contacts on the grain by psi: ratios of sums over all contacts of the steady state. Densities are over the
+        exact areas; the `printed` ones over those of printed_shares."""
         table = self.tables("surface.txt")
         contacts, area = table["contacts"].sum(axis=0), table["A"].mean(axis=0)
         power = (table["P_n"] + table["P_t"]).sum(axis=0)
         share, printed = area / area.sum(), printed_shares(self.run.parameters["alpha"], len(area))
-        columns = {name: table[f"sum_{name}"].sum(axis=0) / np.maximum(contacts, 1e-300)
-                   for name in ("F_n", "F_t", "mobilisation", "sliding")}
-        return {"psi": table["psi"][0], "density": contacts / contacts.sum() / share, "inhomogeneity": power / power.sum() / share,
-                "printed density": contacts / contacts.sum() / printed, "printed inhomogeneity": power / power.sum() / printed, **columns}
+        columns = {
+            name: table[f"sum_{name}"].sum(axis=0) / np.maximum(contacts, 1e-300)
+            for name in ("F_n", "F_t", "mobilisation", "sliding")
+        }
+        return {
+            "psi": table["psi"][0],
+            "density": contacts / contacts.sum() / share,
+            "inhomogeneity": power / power.sum() / share,
+            "printed density": contacts / contacts.sum() / printed,
+            "printed inhomogeneity": power / power.sum() / printed,
+            **columns,
+        }
 
     def directions(self):
         table = self.tables("direction.txt")
         contacts = table["contacts"].sum(axis=0)
         width = 2 * np.pi / contacts.size
         scale = self.pressure.mean() * self.micro["A_p"].mean()
-        forces = {name: table[f"sum_{name}"].sum(axis=0) / np.maximum(contacts, 1e-300) / scale for name in ("F_n", "F_t")}
+        forces = {
+            name: table[f"sum_{name}"].sum(axis=0) / np.maximum(contacts, 1e-300) / scale for name in ("F_n", "F_t")
+        }
         return {"beta": table["beta"][0], "density": contacts / contacts.sum() / width, **forces}
 
     def displacement(self):
@@ -209,7 +300,11 @@ class Blocks:
         curves, slopes = {"strain": strain}, {}
         for axis in ("y", "z"):
             squares = curves[f"{axis}2"] = table[f"{axis}2"][rows] / self.diameter**2
-            quarters = [np.polyfit(x, y, 1)[0] / 2 for x, y in zip(np.array_split(strain, 4), np.array_split(squares, 4)) if len(x) > 2]
+            quarters = [
+                np.polyfit(x, y, 1)[0] / 2
+                for x, y in zip(np.array_split(strain, 4), np.array_split(squares, 4))
+                if len(x) > 2
+            ]
             error = np.std(quarters, ddof=1) / np.sqrt(len(quarters)) if len(quarters) > 1 else 0.0
             slopes[f"D_{axis}"] = (np.polyfit(strain, squares, 1)[0] / 2 if len(strain) > 1 else 0.0, error)
         return curves, slopes
@@ -221,9 +316,17 @@ def measured_all(run, start):
     correlation = blocks.tables("correlation.txt")
     r, vy = blocks.correlation("vy", correlation)
     displacement, diffusion = blocks.displacement()
-    means = blocks.micro_means() | {f"l_{c}": blocks.correlation_length(c, correlation) for c in ("vy", "wz")} | diffusion
-    curves = {"correlation": {"r": r, "vy": vy, "wz": blocks.correlation("wz", correlation)[1]}, "memory": blocks.memory(),
-              "layering": blocks.layering(), "surface": blocks.surface(), "direction": blocks.directions(), "displacement": displacement}
+    means = (
+        blocks.micro_means() | {f"l_{c}": blocks.correlation_length(c, correlation) for c in ("vy", "wz")} | diffusion
+    )
+    curves = {
+        "correlation": {"r": r, "vy": vy, "wz": blocks.correlation("wz", correlation)[1]},
+        "memory": blocks.memory(),
+        "layering": blocks.layering(),
+        "surface": blocks.surface(),
+        "direction": blocks.directions(),
+        "displacement": displacement,
+    }
     return means, curves
 
 

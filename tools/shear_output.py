@@ -1,5 +1,6 @@
-"""Reads what examples/simple_shear writes: series.txt, parameters.txt, grains.dump, and the files of `measure all`. Used by the other
-tools of this folder."""
+"""Reads what examples/simple_shear writes: series.txt, parameters.txt, grains.dump, and the files of `measure all`.
+Used by the other tools of this folder."""
+
 from dataclasses import dataclass, field
 from pathlib import Path
 import re
@@ -25,6 +26,7 @@ class Columns(dict):
 @dataclass
 class Run:
     """One run: its name, its parameters by name, its columns by name (arrays over rows) and their units."""
+
     name: str
     parameters: dict
     columns: dict
@@ -36,7 +38,8 @@ class Run:
 
     @property
     def measured_all(self):
-        """Whether the run has steady means of `-var measure all`; files that an earlier run left in its folder do not count."""
+        """Whether the run has steady means of `-var measure all`; files that an earlier run left in its folder do not
+        count."""
         try:
             steps = read_table(self.folder, "micro.txt")[0]["step"]
         except InputError:
@@ -54,19 +57,23 @@ class Run:
         return self["W_n"] + self["W_t"]
 
     def steady(self, start=None):
-        """Mask of the rows of the steady state, from strain `start`. Default: 6 (4 below I = 0.01), at most half the run."""
+        """Mask of the rows of the steady state, from strain `start`. Default: 6 (4 below I = 0.01), at most half the
+        run."""
         strain = self["strain"]
         if start is None:
             start = min(6.0 if self.parameters["I"] >= 0.01 else 4.0, 0.5 * strain[-1])
         rows = strain > start + 1e-3
         if rows.sum() < 16:
-            raise InputError(f"{self.name}: {rows.sum()} rows beyond strain {start:g}, at least 16 are needed; "
-                             f"the run ends at {strain[-1]:g}")
+            raise InputError(
+                f"{self.name}: {rows.sum()} rows beyond strain {start:g}, at least 16 are needed; "
+                f"the run ends at {strain[-1]:g}"
+            )
         return rows
 
 
 def read_rows(path):
-    """Names of the columns and their units, as the last '#' line gives them in the form name[unit], and the rows as lists of words."""
+    """Names of the columns and their units, as the last '#' line gives them in the form name[unit], and the rows as
+    lists of words."""
     try:
         lines = Path(path).read_text().splitlines()
     except OSError as error:
@@ -102,16 +109,17 @@ def read_parameters(folder):
 
 
 def attempts(folder):
-    """Of each attempt at the run: the folder of its tables, the step at which it began, and the step up to which its rows count, since a
-    later attempt began there. A run that was never taken up again has one."""
+    """Of each attempt at the run: the folder of its tables, the step at which it began, and the step up to which its
+    rows count, since a later attempt began there. A run that was never taken up again has one."""
     begins = read_parameters(folder)["from"].astype(int)
     for number, begin in enumerate(begins):
-        yield Path(folder) / (f"from_{begin}" if begin else ""), begin, min(begins[number + 1:], default=np.inf)
+        yield Path(folder) / (f"from_{begin}" if begin else ""), begin, min(begins[number + 1 :], default=np.inf)
 
 
 def joined(folder, name, length_of):
-    """A file of the run's tables: names and units of its columns, and of all its attempts the tables that count, as lists of rows; a table
-    begins with a row whose first word is the step, and length_of tells of this row how many rows the table has."""
+    """A file of the run's tables: names and units of its columns, and of all its attempts the tables that count, as
+    lists of rows; a table begins with a row whose first word is the step, and length_of tells of this row how many rows
+    the table has."""
     found, names, units, missing = [], [], {}, None
     for part, begin, end in attempts(folder):
         try:
@@ -127,11 +135,13 @@ def joined(folder, name, length_of):
                     break
                 length = length_of(rows[place])
             except (IndexError, ValueError):
-                raise InputError(f"{part / name}: row {place + 1} must begin with a step, got '{' '.join(rows[place])}'") from None
+                raise InputError(
+                    f"{part / name}: row {place + 1} must begin with a step, got '{' '.join(rows[place])}'"
+                ) from None
             if place + length > len(rows):
                 raise InputError(f"{part / name}: the table of step {step} is incomplete, {length - 1} rows are needed")
             if step > begin or begin == 0:
-                found.append(rows[place:place + length])
+                found.append(rows[place : place + length])
             place += length
     if not found:
         raise missing or InputError(f"{Path(folder) / name}: none of its rows belongs to the run")
@@ -139,7 +149,8 @@ def joined(folder, name, length_of):
 
 
 def read_table(folder, name):
-    """Columns and units of a file of the run with one row per step, whose last '#' line names its columns as name[unit]."""
+    """Columns and units of a file of the run with one row per step, whose last '#' line names its columns as
+    name[unit]."""
     path = Path(folder) / name
     names, units, rows = joined(folder, name, lambda row: 1)
     return Columns(path, zip(names, numbers(path, [row for row, in rows], names).T)), units
@@ -163,8 +174,8 @@ def read_run(folder):
 
 
 def mean_and_error(values):
-    """Mean and its standard error by blocking: blocks of 1, 2, 4 ... rows, at least 8 of them where there are so many rows; the largest error
-    counts. One row has no error: 0."""
+    """Mean and its standard error by blocking: blocks of 1, 2, 4 ... rows, at least 8 of them where there are so many
+    rows; the largest error counts. One row has no error: 0."""
     error, blocks = 0.0, np.asarray(values)
     while len(blocks) >= min(8, max(2, len(values))):
         error = max(error, blocks.std(ddof=1) / np.sqrt(len(blocks)))
@@ -174,8 +185,9 @@ def mean_and_error(values):
 
 @dataclass
 class Grains:
-    """A dump: positions (N,3), rotation matrices (N,3,3) from the body to the laboratory, semi-axes (N,3); box origin and edge vectors
-    (rows of a 3x3 matrix)."""
+    """A dump: positions (N,3), rotation matrices (N,3,3) from the body to the laboratory, semi-axes (N,3); box origin
+    and edge vectors (rows of a 3x3 matrix)."""
+
     positions: np.ndarray
     rotations: np.ndarray
     semi_axes: np.ndarray
@@ -186,9 +198,13 @@ class Grains:
 def rotation_matrices(quaternions):
     """Rotation matrices (N,3,3) of unit quaternions (N,4), scalar part first."""
     w, x, y, z = (quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True)).T
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]).transpose(2, 0, 1)
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    ).transpose(2, 0, 1)
 
 
 def read_grains(path):

@@ -1,4 +1,6 @@
-"""The runs of a study: reads its configuration (examples/study/config.yaml) and tells every run's name, variables and cost."""
+"""The runs of a study: reads its configuration (examples/study/config.yaml) and tells every run's name, variables and
+cost."""
+
 from dataclasses import dataclass
 from itertools import product
 
@@ -19,16 +21,30 @@ class PlanError(Exception):
 @dataclass
 class PlannedRun:
     name: str
-    variables: dict     # of the deck
+    variables: dict  # of the deck
     ranks: int
-    seconds: float      # wall time that the cost model expects, on all ranks
-    memory: float       # bytes, all ranks
+    seconds: float  # wall time that the cost model expects, on all ranks
+    memory: float  # bytes, all ranks
 
 
 def figures_of(measure):
-    """File names of the figures that runs with this `measure` can give: the paper's numbers, and two that it tells in words."""
+    """File names of the figures that runs with this `measure` can give: the paper's numbers, and two that it tells in
+    words."""
     basic = ["fig02", "fig03", "fig04", "fig07", "fig08", "fig14"]
-    more = ["fig05", "fig06", "fig09", "fig10", "fig11", "fig12", "fig15", "fig16", "fig17", "fig18", "memory", "layering"]
+    more = [
+        "fig05",
+        "fig06",
+        "fig09",
+        "fig10",
+        "fig11",
+        "fig12",
+        "fig15",
+        "fig16",
+        "fig17",
+        "fig18",
+        "memory",
+        "layering",
+    ]
     return [f"{name}.png" for name in basic + (more if measure == "all" else [])]
 
 
@@ -39,9 +55,18 @@ def checked(name, value):
             value = float(value)
         except ValueError:
             pass
-    requirement = ("a whole number" if name in WHOLE else "a number") + (" of at least 0" if name in MAY_BE_ZERO else " above 0")
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or value < 0 or (value == 0 and name not in MAY_BE_ZERO) \
-            or (name in WHOLE and value != int(value)) or value != value or value == float("inf"):
+    requirement = ("a whole number" if name in WHOLE else "a number") + (
+        " of at least 0" if name in MAY_BE_ZERO else " above 0"
+    )
+    if (
+        isinstance(value, bool)
+        or not isinstance(value, (int, float))
+        or value < 0
+        or (value == 0 and name not in MAY_BE_ZERO)
+        or (name in WHOLE and value != int(value))
+        or value != value
+        or value == float("inf")
+    ):
         raise PlanError(f"{name} must be {requirement}, got {value!r}")
     return int(value) if name in WHOLE else value
 
@@ -57,7 +82,11 @@ def checked_list(name, values):
 
 def checked_exception(number, exception):
     """The conditions and the values of an entry of `exceptions`."""
-    if not isinstance(exception, dict) or set(exception) != {"where", "use"} or not all(isinstance(part, dict) for part in exception.values()):
+    if (
+        not isinstance(exception, dict)
+        or set(exception) != {"where", "use"}
+        or not all(isinstance(part, dict) for part in exception.values())
+    ):
         raise PlanError(f"exceptions: entry {number} must be {{where: {{...}}, use: {{...}}}}, got {exception!r}")
     for name in exception["where"]:
         if name not in LISTS:
@@ -71,12 +100,18 @@ def checked_exception(number, exception):
 
 def planned_run(values, measure):
     if values["steady"] >= values["strain"]:
-        raise PlanError(f"steady must be less than strain = {values['strain']:g}, got {values['steady']:g}, for "
-                        + ", ".join(f"{name} = {values[name]:g}" for name in LISTS))
-    name = "_".join(f"{name}{values[name]:.10g}" for name in LISTS) + (f"_e{values['e']:g}" if values["e"] != 0.1 else "")
+        raise PlanError(
+            f"steady must be less than strain = {values['strain']:g}, got {values['steady']:g}, for "
+            + ", ".join(f"{name} = {values[name]:g}" for name in LISTS)
+        )
+    name = "_".join(f"{name}{values[name]:.10g}" for name in LISTS) + (
+        f"_e{values['e']:g}" if values["e"] != 0.1 else ""
+    )
     variables = {name: f"{values[name]:.10g}" for name in (*LISTS, "e", "strain", "steady", "part")}
     seconds = seconds_of(values["alpha"], values["I"], values["N"], values["strain"], values["ranks"], values["speed"])
-    return PlannedRun(name, {**variables, "measure": measure}, values["ranks"], seconds, memory_of(values["N"], values["ranks"]))
+    return PlannedRun(
+        name, {**variables, "measure": measure}, values["ranks"], seconds, memory_of(values["N"], values["ranks"])
+    )
 
 
 def plan(config):

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""Collects runs of examples/simple_shear into tables: table.csv has a row for each run, the files in curves/ their profiles, and
-columns.csv tells the unit and meaning of every column. The figures, the fits and the comparison of a study are made from these alone."""
+"""Collects runs of examples/simple_shear into tables: table.csv has a row for each run, the files in curves/ their
+profiles, and columns.csv tells the unit and meaning of every column. The figures, the fits and the comparison of a
+study are made from these alone."""
 import argparse
 import csv
 from pathlib import Path
@@ -11,23 +12,37 @@ import numpy as np
 from shear_measures import ALWAYS, CURVES, MEASURED, SERIES, SteadyRun, steady_run
 from shear_output import InputError, read_run, read_rows
 
-LONGEST = 40        # points of a curve that are kept, up to twice as many
-TOLERANCE = 0.1     # of the inertial number reached, over its target; runs beyond it are flagged
-PARAMETERS = {"run": ("", "name of the run"), "alpha": ("-", "aspect ratio c/a"), "mu": ("-", "coefficient of friction"),
-              "I": ("-", "inertial number of the target pressure"), "N": ("-", "grains"), "seed": ("-", "of the initial places"),
-              "e": ("-", "coefficient of restitution"), "strain": ("-", "final shear strain"),
-              "steady": ("-", "strain from which averages are taken"), "d_eq": ("m", "diameter of the sphere of the nominal volume"),
-              "flagged": ("-", f"1 where I_reached is off I by more than {100 * TOLERANCE:g} %, else 0")}
-COST = {"steps": ("-", "time steps, without the 3000 that push the random start apart"),
-        "grain_step": ("s", "core time of one grain for one step, of the attempts that ended"),
-        "core_time": ("s", "core time of the attempts that ended"), "memory": ("B", "largest memory of a rank"),
-        "bytes": ("B", "size of all files of the run")}
+LONGEST = 40  # points of a curve that are kept, up to twice as many
+TOLERANCE = 0.1  # of the inertial number reached, over its target; runs beyond it are flagged
+PARAMETERS = {
+    "run": ("", "name of the run"),
+    "alpha": ("-", "aspect ratio c/a"),
+    "mu": ("-", "coefficient of friction"),
+    "I": ("-", "inertial number of the target pressure"),
+    "N": ("-", "grains"),
+    "seed": ("-", "of the initial places"),
+    "e": ("-", "coefficient of restitution"),
+    "strain": ("-", "final shear strain"),
+    "steady": ("-", "strain from which averages are taken"),
+    "d_eq": ("m", "diameter of the sphere of the nominal volume"),
+    "flagged": ("-", f"1 where I_reached is off I by more than {100 * TOLERANCE:g} %, else 0"),
+}
+COST = {
+    "steps": ("-", "time steps, without the 3000 that push the random start apart"),
+    "grain_step": ("s", "core time of one grain for one step, of the attempts that ended"),
+    "core_time": ("s", "core time of the attempts that ended"),
+    "memory": ("B", "largest memory of a rank"),
+    "bytes": ("B", "size of all files of the run"),
+}
 MEANS = {**SERIES, **ALWAYS, **MEASURED}
 
 
 def cost_of(run):
     """Columns of COST; those of the core time are missing if tools/run_shear.py did not write them."""
-    costs = {"steps": run.parameters["steps"], "bytes": sum(path.stat().st_size for path in run.folder.rglob("*") if path.is_file())}
+    costs = {
+        "steps": run.parameters["steps"],
+        "bytes": sum(path.stat().st_size for path in run.folder.rglob("*") if path.is_file()),
+    }
     try:
         _, _, rows = read_rows(run.folder / "cost.txt")
     except InputError:
@@ -41,7 +56,10 @@ def cost_of(run):
 
 def row_of(run, steady, start):
     reached = steady["I_reached"][0]
-    row = {"run": run.name, **{name: run.parameters[name] for name in ("alpha", "mu", "I", "N", "seed", "e", "strain", "d_eq")}}
+    row = {
+        "run": run.name,
+        **{name: run.parameters[name] for name in ("alpha", "mu", "I", "N", "seed", "e", "strain", "d_eq")},
+    }
     row["steady"] = run["strain"][run.steady(start)][0] if start is None else start
     row["flagged"] = int(not abs(reached / run.parameters["I"] - 1) <= TOLERANCE)
     for name, (mean, error) in steady.means.items():
@@ -84,14 +102,17 @@ def write_tables(runs, output):
         rows.append(row_of(run, steady, start))
         for curve, columns in steady.curves.items():
             points = np.array([columns[name] for name in CURVES[curve]]).T
-            thin = points[::max(1, len(points) // LONGEST)]
+            thin = points[:: max(1, len(points) // LONGEST)]
             curves[curve] += [(run.name, *(f"{value:.4g}" for value in point)) for point in thin]
         if sys.stderr.isatty():
             print(f"\r{number} of {len(runs)} runs", end="" if number < len(runs) else "\n", file=sys.stderr)
     for row in rows:
         if row["flagged"]:
-            print(f"study_table.py: {row['run']}: the inertial number is {row['I_reached']:.4g}, more than {100 * TOLERANCE:g} % off its target",
-                  file=sys.stderr)
+            print(
+                f"study_table.py: {row['run']}: the inertial number is {row['I_reached']:.4g}, more than "
+                f"{100 * TOLERANCE:g} % off its target",
+                file=sys.stderr,
+            )
     names = [name for name, _, _ in header()]
     (output / "curves").mkdir(parents=True, exist_ok=True)
     write_csv(output / "table.csv", names, [[text(row.get(name, "")) for name in names] for row in rows])
@@ -125,7 +146,9 @@ def steady_runs(folder):
     curves = read_curves(folder / "curves")
     for row in read_csv(folder / "table.csv"):
         values = {name: float(value) for name, value in row.items() if name != "run" and value}
-        parameters = {name: values[name] for name in PARAMETERS if name != "run"} | {name: values[name] for name in COST if name in values}
+        parameters = {name: values[name] for name in PARAMETERS if name != "run"} | {
+            name: values[name] for name in COST if name in values
+        }
         means = {name: (values[name], values[f"{name}_error"]) for name in MEANS if name in values}
         yield SteadyRun(row["run"], parameters, means, curves.get(row["run"], {}))
 
@@ -145,22 +168,35 @@ def read_study(folder):
 def mean_curve(runs, name, column):
     """Mean over the runs of a column of a curve, at the places of the first run's."""
     over = next(iter(CURVES[name]))
-    return np.mean([np.interp(runs[0].curves[name][over], run.curves[name][over], run.curves[name][column]) for run in runs], axis=0)
+    return np.mean(
+        [np.interp(runs[0].curves[name][over], run.curves[name][over], run.curves[name][column]) for run in runs],
+        axis=0,
+    )
 
 
 def mean_over(runs):
-    """One run in place of several that differ in their seeds: means of the means and curves; the error from the runs' own, or from their
-    spread where that is larger."""
+    """One run in place of several that differ in their seeds: means of the means and curves; the error from the runs'
+    own, or from their spread where that is larger."""
     if len(runs) == 1:
         return runs[0]
     means = {}
     for name in runs[0].means:
         values, errors = np.array([run.means[name] for run in runs if name in run.means]).T
-        means[name] = values.mean(), max(np.sqrt((errors**2).sum()) / len(values), values.std(ddof=1) / np.sqrt(len(values)))
-    curves = {name: {column: mean_curve(runs, name, column) for column in columns} for name, columns in runs[0].curves.items()
-              if all(name in run.curves for run in runs)}
+        means[name] = values.mean(), max(
+            np.sqrt((errors**2).sum()) / len(values), values.std(ddof=1) / np.sqrt(len(values))
+        )
+    curves = {
+        name: {column: mean_curve(runs, name, column) for column in columns}
+        for name, columns in runs[0].curves.items()
+        if all(name in run.curves for run in runs)
+    }
     flagged = max(run.parameters.get("flagged", 0) for run in runs)
-    return SteadyRun(f"{runs[0].name} and {len(runs) - 1} more", {**runs[0].parameters, "seeds": len(runs), "flagged": flagged}, means, curves)
+    return SteadyRun(
+        f"{runs[0].name} and {len(runs) - 1} more",
+        {**runs[0].parameters, "seeds": len(runs), "flagged": flagged},
+        means,
+        curves,
+    )
 
 
 def over_seeds(runs):
@@ -191,12 +227,21 @@ def study_parser(description):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("run", nargs="+", help="output folder of a run, or folder:strain with the strain from which averages are taken "
-                                               "(default: 6, or 4 below I = 0.01, at most half the run)")
-    parser.add_argument("--output", default=".", type=Path, metavar="FOLDER", help="where the tables go (default: here)")
+    parser.add_argument(
+        "run",
+        nargs="+",
+        help="output folder of a run, or folder:strain with the strain from which averages are taken "
+        "(default: 6, or 4 below I = 0.01, at most half the run)",
+    )
+    parser.add_argument(
+        "--output", default=".", type=Path, metavar="FOLDER", help="where the tables go (default: here)"
+    )
     arguments = parser.parse_args()
     try:
-        pairs = [(folder, float(start) if start else None) for folder, _, start in (word.partition(":") for word in arguments.run)]
+        pairs = [
+            (folder, float(start) if start else None)
+            for folder, _, start in (word.partition(":") for word in arguments.run)
+        ]
         write_tables([(read_run(folder), start) for folder, start in pairs], arguments.output)
     except (InputError, OSError, ValueError) as error:
         sys.exit(f"study_table.py: {error}")

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Summary of simple-shear runs: steady means with statistical errors, the inertial number reached, energy in against energy out."""
+"""Summary of simple-shear runs: steady means with statistical errors, the inertial number reached, energy in against
+energy out."""
 import argparse
 import sys
 
@@ -9,20 +10,35 @@ from shear_measures import steady_run
 from shear_output import InputError, mean_and_error, read_run
 
 # Column, title, factor
-ROWS = [("P", "pressure / target", 1), ("mu_eff", "effective friction", 1), ("phi", "solid fraction", 1), ("Z", "coordination", 1),
-        ("sliding", "sliding contacts", 1), ("S2", "nematic order S2", 1), ("theta_x", "angle to the flow [deg]", 1),
-        ("spin", "-2 omega_z / rate", 1), ("overlap_mean", "mean overlap / d [%]", 100),
-        ("overlap_max", "largest overlap / d [%]", 100), ("kappa", "stiffness number", 1)]
+ROWS = [
+    ("P", "pressure / target", 1),
+    ("mu_eff", "effective friction", 1),
+    ("phi", "solid fraction", 1),
+    ("Z", "coordination", 1),
+    ("sliding", "sliding contacts", 1),
+    ("S2", "nematic order S2", 1),
+    ("theta_x", "angle to the flow [deg]", 1),
+    ("spin", "-2 omega_z / rate", 1),
+    ("overlap_mean", "mean overlap / d [%]", 100),
+    ("overlap_max", "largest overlap / d [%]", 100),
+    ("kappa", "stiffness number", 1),
+]
 
 
 # Title and (mean, error) of what `measure all` adds
-MEASURED = [("velocity fluctuation / rate d", lambda m: m["lever"]), ("spin fluctuation / rate", lambda m: m["spin_fluctuation"]),
-            ("rotational / transl. energy", lambda m: m["E_rot/E_tr"]), ("N1 / P", lambda m: m["N1"]),
-            ("N2 / P", lambda m: m["N2"]),
-            ("shear stress / P, tangential", lambda m: m["t_xy"]), ("fabric deviator", lambda m: m["fabric_deviator"]),
-            ("correlation length / d", lambda m: m.means.get("l_vy", (np.nan, 0.0))),
-            ("diffusion / rate d2, gradient", lambda m: m["D_y"]), ("diffusion / rate d2, vorticity", lambda m: m["D_z"]),
-            ("grains with < 2 contacts [%]", lambda m: m["idle"])]
+MEASURED = [
+    ("velocity fluctuation / rate d", lambda m: m["lever"]),
+    ("spin fluctuation / rate", lambda m: m["spin_fluctuation"]),
+    ("rotational / transl. energy", lambda m: m["E_rot/E_tr"]),
+    ("N1 / P", lambda m: m["N1"]),
+    ("N2 / P", lambda m: m["N2"]),
+    ("shear stress / P, tangential", lambda m: m["t_xy"]),
+    ("fabric deviator", lambda m: m["fabric_deviator"]),
+    ("correlation length / d", lambda m: m.means.get("l_vy", (np.nan, 0.0))),
+    ("diffusion / rate d2, gradient", lambda m: m["D_y"]),
+    ("diffusion / rate d2, vorticity", lambda m: m["D_z"]),
+    ("grains with < 2 contacts [%]", lambda m: m["idle"]),
+]
 
 
 def text_of(mean, error):
@@ -47,26 +63,41 @@ def summary(run, start=None):
     target = run.parameters["I"]
     reached = target / np.sqrt(run["P"][rows].mean())
     off = reached / target - 1
-    cells = [("grains", f"{run.parameters['N']:.0f}"), ("aspect ratio", f"{run.parameters['alpha']:g}"),
-             ("friction coefficient", f"{run.parameters['mu']:g}"),
-             ("steady state, strain", f"{run['strain'][rows][0]:.1f} to {run['strain'][-1]:.1f}"),
-             ("inertial number", f"{reached:.4f} ({100 * off:+.1f} %)"),
-             ("within 5 % of target", "yes" if abs(off) <= 0.05 else f"NO, target {target:g}")]
+    cells = [
+        ("grains", f"{run.parameters['N']:.0f}"),
+        ("aspect ratio", f"{run.parameters['alpha']:g}"),
+        ("friction coefficient", f"{run.parameters['mu']:g}"),
+        ("steady state, strain", f"{run['strain'][rows][0]:.1f} to {run['strain'][-1]:.1f}"),
+        ("inertial number", f"{reached:.4f} ({100 * off:+.1f} %)"),
+        ("within 5 % of target", "yes" if abs(off) <= 0.05 else f"NO, target {target:g}"),
+    ]
     cells += [(title, with_error(factor * run[name][rows])) for name, title, factor in ROWS]
     put_in, lost = run.injected[rows], run.dissipated[rows]
-    cells += [("power in: shear", with_error(run["W_shear"][rows])), ("power in: box", with_error(run["W_box"][rows])),
-              ("power out: normal damping", with_error(run["W_n"][rows])), ("power out: friction", with_error(run["W_t"][rows])),
-              ("friction's share of the loss", f"{100 * run['W_t'][rows].mean() / lost.mean():.1f} %"),
-              ("energy out / energy in", f"{100 * lost.mean() / put_in.mean():.1f} %")]
+    cells += [
+        ("power in: shear", with_error(run["W_shear"][rows])),
+        ("power in: box", with_error(run["W_box"][rows])),
+        ("power out: normal damping", with_error(run["W_n"][rows])),
+        ("power out: friction", with_error(run["W_t"][rows])),
+        ("friction's share of the loss", f"{100 * run['W_t'][rows].mean() / lost.mean():.1f} %"),
+        ("energy out / energy in", f"{100 * lost.mean() / put_in.mean():.1f} %"),
+    ]
     return cells
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, epilog="Powers are over rate x target pressure x volume. The inertial number "
-                                     "is that of the mean pressure. Errors: one standard deviation, by blocking.")
+    parser = argparse.ArgumentParser(
+        description=__doc__,
+        epilog="Powers are over rate x target pressure x volume. The inertial number "
+        "is that of the mean pressure. Errors: one standard deviation, by blocking.",
+    )
     parser.add_argument("run", nargs="+", help="output folder of a run (it holds series.txt and parameters.txt)")
-    parser.add_argument("--from", dest="start", type=float, metavar="STRAIN",
-                        help="where the steady state starts (default: 6, or 4 below I = 0.01, at most half the run)")
+    parser.add_argument(
+        "--from",
+        dest="start",
+        type=float,
+        metavar="STRAIN",
+        help="where the steady state starts (default: 6, or 4 below I = 0.01, at most half the run)",
+    )
     arguments = parser.parse_args()
     try:
         runs = [read_run(folder) for folder in arguments.run]

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Draws the figures of doc/accuracy.md and doc/compute_dissipation.md, and prints the tables of doc/accuracy.md, from results.csv alone."""
+"""Draws the figures of doc/accuracy.md and doc/compute_dissipation.md, and prints the tables of doc/accuracy.md, from
+results.csv alone."""
 import argparse
 from collections import namedtuple
 import csv
@@ -21,7 +22,10 @@ COLOURS = dict(zip(MEASURES, RUN_COLOURS))
 MODES = ("instantaneous", "step", "ledger")
 LEAKS = ("G_k", "G_p", "G_n", "G_open", "G_dt")
 MISSED = [f"{mode}_{part} - ledger_{part}" for mode in ("instantaneous", "step") for part in "nt"]
-PAIRS = (((0.0, 0.4), "0.04"), ((10.0,), "0.01"))  # frictions, and a strain over which chaos has not yet parted the runs
+PAIRS = (
+    ((0.0, 0.4), "0.04"),
+    ((10.0,), "0.01"),
+)  # frictions, and a strain over which chaos has not yet parted the runs
 FINEST_LONG = "fraction 0.1"
 Flow = namedtuple("Flow", "alpha mu I e")
 
@@ -35,8 +39,13 @@ class Results:
                 row[name] = float(row[name] or "nan")
 
     def pick(self, study, quantity, **wanted):
-        return [row for row in self.rows if row["study"] == study and row["quantity"] == quantity
-                and all(row[name] == value for name, value in wanted.items())]
+        return [
+            row
+            for row in self.rows
+            if row["study"] == study
+            and row["quantity"] == quantity
+            and all(row[name] == value for name, value in wanted.items())
+        ]
 
     def pair(self, study, quantity, **wanted):
         """Value and error of the only such row."""
@@ -44,34 +53,54 @@ class Results:
         return row["value"], row["error"]
 
     def flows(self, study, **wanted):
-        found = dict.fromkeys((row["alpha"], row["mu"], row["I"], row["e"]) for row in self.rows if row["study"] == study
-                              and all(row[name] == value for name, value in wanted.items()))
-        return [dict(zip(("alpha", "mu", "I", "e"), flow)) for flow in sorted(found, key=lambda f: (-f[2], f[3], f[1], f[0]))]
+        found = dict.fromkeys(
+            (row["alpha"], row["mu"], row["I"], row["e"])
+            for row in self.rows
+            if row["study"] == study and all(row[name] == value for name, value in wanted.items())
+        )
+        return [
+            dict(zip(("alpha", "mu", "I", "e"), flow))
+            for flow in sorted(found, key=lambda f: (-f[2], f[3], f[1], f[0]))
+        ]
 
     def steps(self, study, **wanted):
         """Fraction of the shorter time, and the setting's name."""
-        found = {row["setting"] for row in self.rows if row["study"] == study and all(row[name] == value for name, value in wanted.items())}
-        return sorted((0.15 if name == "default" else float(name.split()[1]), name) for name in found
-                      if name == "default" or name.startswith("fraction"))
+        found = {
+            row["setting"]
+            for row in self.rows
+            if row["study"] == study and all(row[name] == value for name, value in wanted.items())
+        }
+        return sorted(
+            (0.15 if name == "default" else float(name.split()[1]), name)
+            for name in found
+            if name == "default" or name.startswith("fraction")
+        )
 
 
 def pooled(results, quantity, setting, frictions, window):
     """Mean over the flows of a paired error, and its standard error from those of the flows."""
     if quantity == "ledger_t":
         frictions = [mu for mu in frictions if mu > 0]
-    rows = [row for mu in frictions for row in results.pick("paired", quantity, setting=setting, I=0.1, mu=mu, at=window)]
+    rows = [
+        row for mu in frictions for row in results.pick("paired", quantity, setting=setting, I=0.1, mu=mu, at=window)
+    ]
     return np.mean([row["value"] for row in rows]), math.sqrt(sum(row["error"] ** 2 for row in rows)) / len(rows)
 
 
 def worst(results, setting, frictions, window, inertial=0.1):
     """The largest paired error of any measure in any flow."""
-    rows = [row for quantity in MEASURES for mu in frictions
-            for row in results.pick("paired", quantity, setting=setting, I=inertial, mu=mu, at=window)]
+    rows = [
+        row
+        for quantity in MEASURES
+        for mu in frictions
+        for row in results.pick("paired", quantity, setting=setting, I=inertial, mu=mu, at=window)
+    ]
     return max(rows, key=lambda row: abs(row["value"]))
 
 
 def long_errors(results, quantity, setting):
-    """Relative difference from the finest long run, pooled over the flows by the weight of their errors; powers over the power dissipated."""
+    """Relative difference from the finest long run, pooled over the flows by the weight of their errors; powers over
+    the power dissipated."""
     differences, errors = [], []
     for flow in results.flows("long"):
         value, error = results.pair("long", quantity, setting=setting, **flow)
@@ -96,8 +125,14 @@ def relative_time(results, alpha, setting):
 
 def guide(axis, x, y, order):
     axis.plot(x, y * (np.array(x) / x[-1]) ** order, color="0.7", linewidth=0.8, zorder=0)
-    axis.annotate(rf"$\Delta t^{order}$" if order > 1 else r"$\Delta t$", (x[0], y * (x[0] / x[-1]) ** order), color="0.5", fontsize=8,
-                  ha="right", va="center")
+    axis.annotate(
+        rf"$\Delta t^{order}$" if order > 1 else r"$\Delta t$",
+        (x[0], y * (x[0] / x[-1]) ** order),
+        color="0.5",
+        fontsize=8,
+        ha="right",
+        va="center",
+    )
 
 
 def step_axis(axis, ticks):
@@ -109,7 +144,9 @@ def step_axis(axis, ticks):
 
 def floor_label(axis, value, text):
     axis.axhline(value, color="0.6", linestyle=":", linewidth=1)
-    axis.annotate(text, (1.0, value), xycoords=("axes fraction", "data"), ha="left", va="center", fontsize=8, color="0.4")
+    axis.annotate(
+        text, (1.0, value), xycoords=("axes fraction", "data"), ha="left", va="center", fontsize=8, color="0.4"
+    )
 
 
 def draw_step(results, path):
@@ -119,24 +156,54 @@ def draw_step(results, path):
     for alpha in ALPHAS:
         for inertial, line in ((0.1, "-"), (0.01, "--")):
             fractions, names = zip(*results.steps("account", alpha=alpha, mu=0.4, I=inertial))
-            energy.plot(fractions, [energy_error(results, alpha, name, inertial) for name in names], line, color=shape_colour(alpha),
-                        marker=shape_marker(alpha), markersize=4, linewidth=1.2)
+            energy.plot(
+                fractions,
+                [energy_error(results, alpha, name, inertial) for name in names],
+                line,
+                color=shape_colour(alpha),
+                marker=shape_marker(alpha),
+                markersize=4,
+                linewidth=1.2,
+            )
     guide(energy, [0.01, 0.6], 0.01, 2)
-    energy.legend(handles=[shape_handle(alpha) for alpha in ALPHAS] + [Line2D([], [], color="k", label="$I = 0.1$"),
-                  Line2D([], [], color="k", linestyle="--", label="$I = 0.01$")], fontsize=8)
+    energy.legend(
+        handles=[shape_handle(alpha) for alpha in ALPHAS]
+        + [Line2D([], [], color="k", label="$I = 0.1$"), Line2D([], [], color="k", linestyle="--", label="$I = 0.01$")],
+        fontsize=8,
+    )
     energy.set_title("energy error of the time step, |G_dt|/(D_n + D_t)", fontsize=9)
     steps = results.steps("paired", I=0.1)
     for axis, (frictions, window) in zip(pairs, PAIRS):
         for quantity, label in MEASURES.items():
             found = [pooled(results, quantity, name, frictions, window) for _, name in steps]
-            points(axis, [fraction for fraction, _ in steps], [(abs(value), error) for value, error in found], color=COLOURS[quantity],
-                   marker="o", label=label)
+            points(
+                axis,
+                [fraction for fraction, _ in steps],
+                [(abs(value), error) for value, error in found],
+                color=COLOURS[quantity],
+                marker="o",
+                label=label,
+            )
         guide(axis, [0.02, 0.6], 0.03, 1)
-        axis.set_title(f"runs from the same states, mean over strain {window}, $\\mu_p$ = {' and '.join(f'{mu:g}' for mu in frictions)}", fontsize=9)
+        axis.set_title(
+            f"runs from the same states, mean over strain {window}, $\\mu_p$ = "
+            f"{' and '.join(f'{mu:g}' for mu in frictions)}",
+            fontsize=9,
+        )
     for quantity, label in MEASURES.items():
-        found = [(fraction, *long_errors(results, quantity.replace("ledger", "step"), name)) for fraction, name in results.steps("long")
-                 if name != FINEST_LONG]
-        points(long, [one[0] for one in found], [(abs(one[1]), one[2]) for one in found], color=COLOURS[quantity], marker="o", label=label)
+        found = [
+            (fraction, *long_errors(results, quantity.replace("ledger", "step"), name))
+            for fraction, name in results.steps("long")
+            if name != FINEST_LONG
+        ]
+        points(
+            long,
+            [one[0] for one in found],
+            [(abs(one[1]), one[2]) for one in found],
+            color=COLOURS[quantity],
+            marker="o",
+            label=label,
+        )
     long.set_title("long runs against those of step 0.1, all $\\mu_p$; powers by mode step", fontsize=9)
     long.legend(fontsize=8, loc="lower left")
     for axis in axes.flat:
@@ -155,23 +222,49 @@ def draw_cost(results, path):
     others = {"superquadric": "*", "nve/superquadric": "P", "superquadric and nve/superquadric": "X"}
     for alpha in ALPHAS:
         names = [name for _, name in results.steps("account", alpha=alpha, mu=0.4, I=0.1)]
-        axes[0].plot([relative_time(results, alpha, name) for name in names], [energy_error(results, alpha, name) for name in names], "-",
-                     color=shape_colour(alpha), marker=shape_marker(alpha), markersize=4, linewidth=1.2)
+        axes[0].plot(
+            [relative_time(results, alpha, name) for name in names],
+            [energy_error(results, alpha, name) for name in names],
+            "-",
+            color=shape_colour(alpha),
+            marker=shape_marker(alpha),
+            markersize=4,
+            linewidth=1.2,
+        )
         for name, marker in others.items():
             if results.pick("account", "G_dt", alpha=alpha, mu=0.4, setting=name):
-                axes[0].plot(relative_time(results, alpha, name), energy_error(results, alpha, name), marker, color=shape_colour(alpha),
-                             markersize=9, markerfacecolor="none")
+                axes[0].plot(
+                    relative_time(results, alpha, name),
+                    energy_error(results, alpha, name),
+                    marker,
+                    color=shape_colour(alpha),
+                    markersize=9,
+                    markerfacecolor="none",
+                )
     axes[0].set_title("energy of the time step, |G_dt|/(D_n + D_t)", fontsize=9)
-    axes[0].legend(handles=[shape_handle(alpha) for alpha in ALPHAS] + [
-        Line2D([], [], color="k", linestyle="", marker=marker, markerfacecolor="none", label=name) for name, marker in others.items()
-        if results.pick("account", "G_dt", setting=name)], fontsize=8)
+    axes[0].legend(
+        handles=[shape_handle(alpha) for alpha in ALPHAS]
+        + [
+            Line2D([], [], color="k", linestyle="", marker=marker, markerfacecolor="none", label=name)
+            for name, marker in others.items()
+            if results.pick("account", "G_dt", setting=name)
+        ],
+        fontsize=8,
+    )
     names = [name for _, name in results.steps("paired", I=0.1)]
     times = [np.mean([relative_time(results, alpha, name) for alpha in ALPHAS]) for name in names]
     for quantity, label in MEASURES.items():
         for (frictions, window), line in zip(PAIRS, ("-", "--")):
             pairs = [pooled(results, quantity, name, frictions, window) for name in names]
-            points(axes[1], times, [(abs(value), error) for value, error in pairs], color=COLOURS[quantity], marker="o", linestyle=line,
-                   label=label if line == "-" else None)
+            points(
+                axes[1],
+                times,
+                [(abs(value), error) for value, error in pairs],
+                color=COLOURS[quantity],
+                marker="o",
+                linestyle=line,
+                label=label if line == "-" else None,
+            )
     axes[1].set_ylim(1e-8, 0.1)
     axes[1].set_title(r"runs from the same states ($\mu_p$ = 0 and 0.4; dashed: 10)", fontsize=9)
     for level in (0.01, 0.001):
@@ -191,13 +284,25 @@ def draw_cost(results, path):
 def draw_divergence(results, path):
     """How trajectories part: shear stress against the strain since the common start."""
     figure, axes = plt.subplots(1, 3, figsize=(11.5, 3.6), constrained_layout=True, sharey=True)
-    looks = {"fraction 0.6": (RUN_COLOURS[1], "-"), "fraction 0.3": (RUN_COLOURS[5], "-"), "default": (RUN_COLOURS[0], "-"),
-             "superquadric": (RUN_COLOURS[2], "--"), "nve/superquadric": (RUN_COLOURS[3], ":")}
+    looks = {
+        "fraction 0.6": (RUN_COLOURS[1], "-"),
+        "fraction 0.3": (RUN_COLOURS[5], "-"),
+        "default": (RUN_COLOURS[0], "-"),
+        "superquadric": (RUN_COLOURS[2], "--"),
+        "nve/superquadric": (RUN_COLOURS[3], ":"),
+    }
     for axis, alpha in zip(axes, ALPHAS):
         for name, (colour, line) in looks.items():
             rows = results.pick("divergence", "sigma_xy", setting=name, alpha=alpha)
             label = {"default": "0.15"}.get(name, name.replace("fraction ", ""))
-            axis.plot([float(row["at"]) for row in rows], [row["value"] or math.nan for row in rows], line, color=colour, linewidth=1.4, label=label)
+            axis.plot(
+                [float(row["at"]) for row in rows],
+                [row["value"] or math.nan for row in rows],
+                line,
+                color=colour,
+                linewidth=1.4,
+                label=label,
+            )
         axis.set_yscale("log")
         axis.set_title(rf"$\alpha = {alpha:g}$")
         axis.set_xlabel("strain since the common start")
@@ -211,9 +316,21 @@ def draw_sampling(results, path):
     for quantity, label in MEASURES.items():
         name = quantity.replace("ledger", "step")
         rows = [row for row in results.pick("sampling", name) if row["setting"] != "statistical"]
-        axis.plot([float(row["setting"].split()[1]) for row in rows], [row["value"] for row in rows], "o-", markersize=4, linewidth=1.2,
-                  color=COLOURS[quantity], label=label)
-        axis.axhline(results.pair("sampling", name, setting="statistical")[0], color=COLOURS[quantity], linestyle=":", linewidth=1)
+        axis.plot(
+            [float(row["setting"].split()[1]) for row in rows],
+            [row["value"] for row in rows],
+            "o-",
+            markersize=4,
+            linewidth=1.2,
+            color=COLOURS[quantity],
+            label=label,
+        )
+        axis.axhline(
+            results.pair("sampling", name, setting="statistical")[0],
+            color=COLOURS[quantity],
+            linestyle=":",
+            linewidth=1,
+        )
     axis.set_xscale("log")
     axis.set_yscale("log")
     axis.set_xlabel("strain between samples")
@@ -233,15 +350,32 @@ def draw_modes(results, path):
             for mode in MODES:
                 pairs = []
                 for _, name in steps:
-                    parts = [results.pair("modes", f"{mode}_{part}", alpha=alpha, e=0.1, setting=name, **wanted) for part in "nt"]
-                    pairs.append((parts[0][0] + parts[1][0], math.hypot(parts[0][1], parts[1][1]) if mode == "ledger" else 0.0))
-                points(axis, [shift[alpha] * fraction for fraction, _ in steps], pairs, color=shape_colour(alpha), marker=shape_marker(alpha),
-                       linestyle=lines[mode], markersize=4)
+                    parts = [
+                        results.pair("modes", f"{mode}_{part}", alpha=alpha, e=0.1, setting=name, **wanted)
+                        for part in "nt"
+                    ]
+                    pairs.append(
+                        (parts[0][0] + parts[1][0], math.hypot(parts[0][1], parts[1][1]) if mode == "ledger" else 0.0)
+                    )
+                points(
+                    axis,
+                    [shift[alpha] * fraction for fraction, _ in steps],
+                    pairs,
+                    color=shape_colour(alpha),
+                    marker=shape_marker(alpha),
+                    linestyle=lines[mode],
+                    markersize=4,
+                )
         step_axis(axis, (0.05, 0.1, 0.15, 0.3, 0.6))
         axis.set_title(rf"$I = {wanted['I']:g}$, $\mu_p = {wanted['mu']:g}$")
     axes[0].set_ylabel(r"$(P_n + P_t) / \dot\gamma P \Omega$")
-    axes[1].legend(handles=[shape_handle(alpha) for alpha in ALPHAS] + [Line2D([], [], color="k", linestyle=lines[mode], label=mode)
-                                                                        for mode in MODES], fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5))
+    axes[1].legend(
+        handles=[shape_handle(alpha) for alpha in ALPHAS]
+        + [Line2D([], [], color="k", linestyle=lines[mode], label=mode) for mode in MODES],
+        fontsize=8,
+        loc="center left",
+        bbox_to_anchor=(1.0, 0.5),
+    )
     save(figure, path)
 
 
@@ -265,7 +399,9 @@ def print_times(results):
     rows = []
     for flow in results.flows("times", mu=0.4, e=0.1):
         rayleigh, hertz = (results.pair("times", name, **flow)[0] for name in ("T_R", "T_H"))
-        rows.append([f"{flow['alpha']:g}", f"{flow['I']:g}", f"{hertz / rayleigh:.1f}", f"{1 / (0.15 * rayleigh):,.0f}"])
+        rows.append(
+            [f"{flow['alpha']:g}", f"{flow['I']:g}", f"{hertz / rayleigh:.1f}", f"{1 / (0.15 * rayleigh):,.0f}"]
+        )
     table("Times", ["alpha", "I", "T_H / T_R", "default steps per unit of strain"], rows)
 
 
@@ -275,10 +411,16 @@ def print_costs(results):
         cells = []
         for alpha in ALPHAS:
             wanted = {"alpha": alpha, "setting": name}
-            steps, lists, time = (results.pair("cost", quantity, **wanted)[0] for quantity in ("steps", "lists", "relative time"))
+            steps, lists, time = (
+                results.pair("cost", quantity, **wanted)[0] for quantity in ("steps", "lists", "relative time")
+            )
             cells.append(f"{time:.2f} ± {results.pair('cost', 'relative time', **wanted)[1]:.2f} ({steps / lists:.0f})")
         rows.append([name, *cells])
-    table("Cost: time per unit of strain over the default's (steps per neighbour list)", ["setting", *(f"alpha = {a:g}" for a in ALPHAS)], rows)
+    table(
+        "Cost: time per unit of strain over the default's (steps per neighbour list)",
+        ["setting", *(f"alpha = {a:g}" for a in ALPHAS)],
+        rows,
+    )
 
 
 def print_steps(results):
@@ -288,15 +430,31 @@ def print_steps(results):
         cells += [percent(energy_error(results, alpha, name)) for alpha in ALPHAS]
         for frictions, window in PAIRS:
             for quantity in MEASURES:
-                cells.append("0" if name == "fraction 0.01" else percent(*pooled(results, quantity, name, frictions, window)))
+                cells.append(
+                    "0" if name == "fraction 0.01" else percent(*pooled(results, quantity, name, frictions, window))
+                )
         rows.append(cells)
-    table("Time step, errors in %", ["dt / T_R", "time", *(f"G_dt, alpha = {a:g}" for a in ALPHAS),
-                                     *(f"mu_p {mu}: {q}" for mu in ("0, 0.4", "10") for q in MEASURES)], rows)
+    table(
+        "Time step, errors in %",
+        [
+            "dt / T_R",
+            "time",
+            *(f"G_dt, alpha = {a:g}" for a in ALPHAS),
+            *(f"mu_p {mu}: {q}" for mu in ("0, 0.4", "10") for q in MEASURES),
+        ],
+        rows,
+    )
 
 
 def print_long(results):
-    rows = [[f"{fraction:g}", *(percent(*long_errors(results, quantity.replace("ledger", "step"), name)) for quantity in MEASURES)]
-            for fraction, name in results.steps("long") if name != FINEST_LONG]
+    rows = [
+        [
+            f"{fraction:g}",
+            *(percent(*long_errors(results, quantity.replace("ledger", "step"), name)) for quantity in MEASURES),
+        ]
+        for fraction, name in results.steps("long")
+        if name != FINEST_LONG
+    ]
     table("Long runs, differences from those of step 0.1 in %", ["dt / T_R", *MEASURES], rows)
 
 
@@ -306,55 +464,107 @@ def print_worst(results):
         cells = [f"{fraction:g}", f"{np.mean([relative_time(results, alpha, name) for alpha in ALPHAS]):.2f}"]
         for frictions, window, inertial in (*((*pair, 0.1) for pair in PAIRS), ((0.4,), "0.004", 0.01)):
             row = worst(results, name, frictions, window, inertial)
-            cells.append(f"{percent(row['value'], row['error'])} ({row['quantity']}, alpha {row['alpha']:g}, mu_p {row['mu']:g})")
+            cells.append(
+                f"{percent(row['value'], row['error'])} ({row['quantity']}, alpha {row['alpha']:g}, mu_p {row['mu']:g})"
+            )
         rows.append(cells)
-    table("The largest error of mu_eff, phi, P_n and P_t in any flow, %", ["dt / T_R", "time", "I = 0.1, mu_p = 0, 0.4", "I = 0.1, mu_p = 10",
-                                                                           "I = 0.01, mu_p = 0.4"], rows)
+    table(
+        "The largest error of mu_eff, phi, P_n and P_t in any flow, %",
+        ["dt / T_R", "time", "I = 0.1, mu_p = 0, 0.4", "I = 0.1, mu_p = 10", "I = 0.01, mu_p = 0.4"],
+        rows,
+    )
 
 
 def print_variants(results):
     rows = []
-    names = dict.fromkeys(row["setting"] for row in results.pick("paired", "mu_eff") if not row["setting"].startswith(("fraction", "default")))
+    names = dict.fromkeys(
+        row["setting"]
+        for row in results.pick("paired", "mu_eff")
+        if not row["setting"].startswith(("fraction", "default"))
+    )
     for name in names:
         cells = [name, ", ".join(f"{relative_time(results, alpha, name):.2f}" for alpha in ALPHAS)]
         for quantity in MEASURES:
             cells.append(percent(*pooled(results, quantity, name, *PAIRS[0])))
         cells.append(percent(max(abs(row["value"]) for row in results.pick("account", "residual", setting=name))))
         rows.append(cells)
-    table("Other settings against the default, %", ["setting", "time, alpha = 0.33, 1, 1.5", *MEASURES, "largest residual"], rows)
+    table(
+        "Other settings against the default, %",
+        ["setting", "time, alpha = 0.33, 1, 1.5", *MEASURES, "largest residual"],
+        rows,
+    )
 
 
 def print_modes(results):
     rows = []
     for flow in results.flows("modes"):
+
         def cell(quantity):
             return percent(results.pair("modes", quantity, setting="default", **flow)[0])
+
         cells = [f"{flow[name]:g}" for name in ("alpha", "mu", "I", "e")]
         share = [results.pair("modes", f"ledger_{part}", setting="default", **flow)[0] for part in "nt"]
         cells += [f"{100 * share[0] / sum(share):.0f}"]
         cells += [cell(name) for name in MISSED]
         cells += [cell(name) for name in (*LEAKS, "G", "residual")]
         rows.append(cells)
-    table("Modes at the default step, % of D_n + D_t", ["alpha", "mu_p", "I", "e", "share of D_n", "instantaneous P_n", "P_t", "step P_n", "P_t",
-                                                        *LEAKS, "sum of G", "residual"], rows)
+    table(
+        "Modes at the default step, % of D_n + D_t",
+        [
+            "alpha",
+            "mu_p",
+            "I",
+            "e",
+            "share of D_n",
+            "instantaneous P_n",
+            "P_t",
+            "step P_n",
+            "P_t",
+            *LEAKS,
+            "sum of G",
+            "residual",
+        ],
+        rows,
+    )
 
 
 def print_modes_by_step(results):
     rows = []
-    for flow in (Flow(1.0, 0.4, 0.1, 0.1), Flow(1.0, 0.4, 0.1, 0.9), Flow(1.0, 0.4, 0.01, 0.1), Flow(1.5, 10.0, 0.1, 0.1), Flow(1.5, 0.0, 0.1, 0.1)):
+    for flow in (
+        Flow(1.0, 0.4, 0.1, 0.1),
+        Flow(1.0, 0.4, 0.1, 0.9),
+        Flow(1.0, 0.4, 0.01, 0.1),
+        Flow(1.5, 10.0, 0.1, 0.1),
+        Flow(1.5, 0.0, 0.1, 0.1),
+    ):
         wanted = flow._asdict()
         for fraction, name in results.steps("modes", **wanted):
-            rows.append([f"{value:g}" for value in (*flow, fraction)] + [
-                percent(results.pair("modes", quantity, setting=name, **wanted)[0])
-                for quantity in (*MISSED, "G_k", "G_open", "G_dt")])
-    table("Modes over the step, % of D_n + D_t", ["alpha", "mu_p", "I", "e", "dt / T_R", "instantaneous P_n", "P_t", "step P_n", "P_t", "G_k",
-                                                  "G_open", "G_dt"], rows)
+            rows.append(
+                [f"{value:g}" for value in (*flow, fraction)]
+                + [
+                    percent(results.pair("modes", quantity, setting=name, **wanted)[0])
+                    for quantity in (*MISSED, "G_k", "G_open", "G_dt")
+                ]
+            )
+    table(
+        "Modes over the step, % of D_n + D_t",
+        ["alpha", "mu_p", "I", "e", "dt / T_R", "instantaneous P_n", "P_t", "step P_n", "P_t", "G_k", "G_open", "G_dt"],
+        rows,
+    )
 
 
 def print_sampling(results):
     rows = []
     for name in dict.fromkeys(row["setting"] for row in results.pick("sampling", "mu_eff")):
-        rows.append([name, *(percent(results.pair("sampling", quantity.replace("ledger", "step"), setting=name)[0]) for quantity in MEASURES)])
+        rows.append(
+            [
+                name,
+                *(
+                    percent(results.pair("sampling", quantity.replace("ledger", "step"), setting=name)[0])
+                    for quantity in MEASURES
+                ),
+            ]
+        )
     table("Sampling, % of each mean over strain 6", ["", *MEASURES], rows)
 
 
@@ -363,10 +573,25 @@ def main():
     parser.add_argument("--images", type=pathlib.Path, default=ROOT / "doc" / "images", help="folder of the figures")
     images = parser.parse_args().images
     results = Results(HERE / "results.csv")
-    for draw, name in ((draw_step, "accuracy_step"), (draw_cost, "accuracy_cost"), (draw_divergence, "accuracy_divergence"),
-                       (draw_sampling, "accuracy_sampling"), (draw_modes, "dissipation_modes")):
+    for draw, name in (
+        (draw_step, "accuracy_step"),
+        (draw_cost, "accuracy_cost"),
+        (draw_divergence, "accuracy_divergence"),
+        (draw_sampling, "accuracy_sampling"),
+        (draw_modes, "dissipation_modes"),
+    ):
         draw(results, images / f"{name}.png")
-    for show in (print_times, print_costs, print_steps, print_worst, print_long, print_variants, print_modes, print_modes_by_step, print_sampling):
+    for show in (
+        print_times,
+        print_costs,
+        print_steps,
+        print_worst,
+        print_long,
+        print_variants,
+        print_modes,
+        print_modes_by_step,
+        print_sampling,
+    ):
         show(results)
 
 

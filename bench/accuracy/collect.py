@@ -8,8 +8,13 @@ import numpy as np
 SERIES = ("strain", "P", "sigma_xy", "volume", "Z", "step_n", "step_t")
 MODES = ("instantaneous_n", "instantaneous_t", "ledger_n", "ledger_t")
 LEAKS = ("G_k", "G_p", "G_n", "G_open", "G_dt")
-COLUMN = {name: number for number, name in enumerate(
-    "step W_shear W_box W_frame W_other D_n D_t D_damp D_rolling G_k G_p G_n G_open G_dt U_n U_t K_tr K_rot residual relative".split())}
+COLUMN = {
+    name: number
+    for number, name in enumerate(
+        "step W_shear W_box W_frame W_other D_n D_t D_damp D_rolling G_k G_p G_n G_open G_dt U_n U_t K_tr K_rot "
+        "residual relative".split()
+    )
+}
 SOLID = 4 / 3 * math.pi * 500 * np.mean(np.linspace(0.8, 1.2, 15) ** 3)  # volume of the grains over alpha
 BLOCKS = 8
 WINDOWS = (0.01, 0.04)  # strain, at I = 0.1
@@ -19,6 +24,7 @@ FINEST_PAIRED, FINEST_OF_MODES = "fraction 0.01", "fraction 0.05"
 @dataclass
 class Rows:
     """A run's rows of means; `account` holds the totals at their ends."""
+
     alpha: float
     rate: float
     values: dict
@@ -33,18 +39,20 @@ class Rows:
         if run.options.get("measure") != "basic":
             values.update(zip(MODES, np.loadtxt(f"{prefix}.modes.txt", ndmin=2).T[1:]))
             account = np.loadtxt(f"{prefix}.account.txt", ndmin=2)
-        rows = Rows(run.flow.alpha, rate, values, account[-len(values["P"]):])
+        rows = Rows(run.flow.alpha, rate, values, account[-len(values["P"]) :])
         return rows[1:]  # a run begins with a force evaluation that moves no spring
 
     def __getitem__(self, part):
-        return Rows(self.alpha, self.rate, {name: column[part] for name, column in self.values.items()}, self.account[part])
+        return Rows(
+            self.alpha, self.rate, {name: column[part] for name, column in self.values.items()}, self.account[part]
+        )
 
     def __len__(self):
         return len(self.values["P"])
 
     def until(self, strain):
         passed = self.values["strain"] - self.values["strain"][0]
-        return self[:int(np.searchsorted(passed, strain * (1 - 1e-6)))]
+        return self[: int(np.searchsorted(passed, strain * (1 - 1e-6)))]
 
     def blocks(self, count=BLOCKS):
         edges = np.linspace(0, len(self), count + 1).astype(int)
@@ -54,8 +62,12 @@ class Rows:
         """What is charted: ratios of means, powers over rate x P x volume."""
         mean = {name: column.mean() for name, column in self.values.items()}
         unit = self.rate * mean["P"] * mean["volume"]
-        found = {"mu_eff": mean["sigma_xy"] / mean["P"], "phi": SOLID * self.alpha / mean["volume"], "P": mean["P"] / (50 * min(self.alpha, 1)),
-                 "Z": mean["Z"]}
+        found = {
+            "mu_eff": mean["sigma_xy"] / mean["P"],
+            "phi": SOLID * self.alpha / mean["volume"],
+            "P": mean["P"] / (50 * min(self.alpha, 1)),
+            "Z": mean["Z"],
+        }
         found.update((name, mean[name] / unit) for name in ("step_n", "step_t", *MODES) if name in mean)
         if "ledger_n" in mean:
             lost = mean["ledger_n"] + mean["ledger_t"]
@@ -73,7 +85,10 @@ class Rows:
 def with_errors(rows):
     """Mean and standard error of each quantity, the error from blocks."""
     blocks = [block.means() for block in rows.blocks()]
-    return {name: (value, np.std([block[name] for block in blocks], ddof=1) / math.sqrt(BLOCKS)) for name, value in rows.means().items()}
+    return {
+        name: (value, np.std([block[name] for block in blocks], ddof=1) / math.sqrt(BLOCKS))
+        for name, value in rows.means().items()
+    }
 
 
 def grouped(runs):
@@ -143,12 +158,14 @@ def of_divergence(scratch, runs, bins=25):
             apart = (own["sigma_xy"] - other["sigma_xy"]) / other["sigma_xy"].mean()
             passed = own["strain"] - own["strain"][0]
             for part in np.array_split(np.arange(len(apart)), bins):
-                yield "divergence", flow, label, passed[part].mean(), "sigma_xy", math.sqrt((apart[part] ** 2).mean()), math.nan
+                yield "divergence", flow, label, passed[part].mean(), "sigma_xy", math.sqrt(
+                    (apart[part] ** 2).mean()
+                ), math.nan
 
 
 def of_sampling(scratch, run, intervals=(5, 10, 25, 50, 100, 250, 500)):
-    """Relative error of the means over the whole strain: statistical, and that from sampling every so many rows only, root mean square over
-    the ways to begin."""
+    """Relative error of the means over the whole strain: statistical, and that from sampling every so many rows only,
+    root mean square over the ways to begin."""
     rows = Rows.read(scratch, run)
     strain = rows.values["strain"][-1] - rows.values["strain"][0]
     whole = with_errors(rows)
@@ -163,8 +180,8 @@ def of_sampling(scratch, run, intervals=(5, 10, 25, 50, 100, 250, 500)):
 
 
 def of_costs(scratch, runs):
-    """Processor time per unit of strain, the quickest of the rounds, and that over the default's; the second quickest over the quickest tells
-    the scatter. Steps and neighbour lists per unit of strain."""
+    """Processor time per unit of strain, the quickest of the rounds, and that over the default's; the second quickest
+    over the quickest tells the scatter. Steps and neighbour lists per unit of strain."""
     found = {}
     for key, group in grouped(runs).items():
         numbers = []

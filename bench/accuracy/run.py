@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""How the time step, the surface model, the integrator, the skin and the sampling of the simple shear flow trade speed for accuracy.
+"""How the time step, the surface model, the integrator, the skin and the sampling of the simple shear flow trade speed
+for accuracy.
 
     run.py build/release/bin/grainscope --scratch folder
 
@@ -20,18 +21,23 @@ import time
 import collect
 
 
-
 HERE = pathlib.Path(__file__).resolve().parent
 DECK = HERE / "in.accuracy"
 ALPHAS, FRICTIONS = (1.5, 1.0, 0.33), (0.4, 10.0, 0.0)
 DEFAULT_FRACTION = 0.15
-VARIANTS = {"superquadric": {"surface": "superquadric"}, "nve/superquadric": {"move": "nve/superquadric"},
-            "skin 0.05": {"reach": 0.05}, "skin 0.1": {"reach": 0.1}, "skin 0.4": {"reach": 0.4}}
+VARIANTS = {
+    "superquadric": {"surface": "superquadric"},
+    "nve/superquadric": {"move": "nve/superquadric"},
+    "skin 0.05": {"reach": 0.05},
+    "skin 0.1": {"reach": 0.1},
+    "skin 0.4": {"reach": 0.4},
+}
 
 
 @dataclass(frozen=True)
 class Flow:
     """Which flow: everything that is physics."""
+
     alpha: float
     mu: float
     I: float = 0.1
@@ -69,7 +75,10 @@ def state(flow, number=0):
 
 
 def by_fraction(fractions):
-    return {"default" if fraction == DEFAULT_FRACTION else f"fraction {fraction:g}": {"fraction": fraction} for fraction in fractions}
+    return {
+        "default" if fraction == DEFAULT_FRACTION else f"fraction {fraction:g}": {"fraction": fraction}
+        for fraction in fractions
+    }
 
 
 def is_flat(flow):
@@ -90,7 +99,8 @@ def slow_flows():
 
 
 def preparations():
-    """Steady states: four of each flow at I = 0.1 and e = 0.1, half a unit of strain apart, and one of each other flow."""
+    """Steady states: four of each flow at I = 0.1 and e = 0.1, half a unit of strain apart, and one of each other
+    flow."""
     coarse = {"fraction": 0.3, "measure": "basic", "sample": 0.1, "repeat": 1, "block": 600}
     for flow in quick_flows():
         yield Run("state", flow, 5 if is_flat(flow) else 4, options=coarse)
@@ -132,8 +142,14 @@ def long_runs():
     """Means over long strains, sampled five times per six of the shorter times."""
     for label, options in by_fraction((0.15, 0.6, 0.3, 0.1)).items():
         for flow in quick_flows():
-            yield Run("long", flow, 1.5 if is_flat(flow) else 4, state(flow), label,
-                      options={"measure": "basic", "sample": 1.2 * flow.shorter_strain, "repeat": 5, **options})
+            yield Run(
+                "long",
+                flow,
+                1.5 if is_flat(flow) else 4,
+                state(flow),
+                label,
+                options={"measure": "basic", "sample": 1.2 * flow.shorter_strain, "repeat": 5, **options},
+            )
 
 
 def sampling_runs():
@@ -143,19 +159,39 @@ def sampling_runs():
 
 def timed_runs():
     """The same runs again and again in turn, measuring as the example does."""
-    variants = {**by_fraction((0.6, 0.4, 0.3, 0.15, 0.1, 0.05)), **VARIANTS,
-                "superquadric and nve/superquadric": {"surface": "superquadric", "move": "nve/superquadric"},
-                "sample 0.1": {"sample": 0.1, "repeat": 1}, "sample 0.01": {"sample": 0.01, "repeat": 1}, "sample 0.0001": {"sample": 1e-4},
-                "sample every step": {"sample": 0}}
+    variants = {
+        **by_fraction((0.6, 0.4, 0.3, 0.15, 0.1, 0.05)),
+        **VARIANTS,
+        "superquadric and nve/superquadric": {"surface": "superquadric", "move": "nve/superquadric"},
+        "sample 0.1": {"sample": 0.1, "repeat": 1},
+        "sample 0.01": {"sample": 0.01, "repeat": 1},
+        "sample 0.0001": {"sample": 1e-4},
+        "sample every step": {"sample": 0},
+    }
     for number, alpha, label in itertools.product(range(4), ALPHAS, variants):
-        yield Run("cost", Flow(alpha, 0.4), 0.05 if alpha < 1 else 0.12, f"timed_{Flow(alpha, 0.4)}_0", label, number,
-                  {"ledger": "off", "measure": "basic", "sample": 1e-3, **variants[label]})
+        yield Run(
+            "cost",
+            Flow(alpha, 0.4),
+            0.05 if alpha < 1 else 0.12,
+            f"timed_{Flow(alpha, 0.4)}_0",
+            label,
+            number,
+            {"ledger": "off", "measure": "basic", "sample": 1e-3, **variants[label]},
+        )
 
 
 def execute(binary, scratch, run):
-    """Runs the deck and leaves the cost of its last time loop in run.cost: steps, seconds of processor time, lists built."""
-    words = {"out": scratch / run.name, "alpha": run.flow.alpha, "mu": run.flow.mu, "I": run.flow.I, "e": run.flow.e, "strain": run.strain,
-             **run.options}
+    """Runs the deck and leaves the cost of its last time loop in run.cost: steps, seconds of processor time, lists
+    built."""
+    words = {
+        "out": scratch / run.name,
+        "alpha": run.flow.alpha,
+        "mu": run.flow.mu,
+        "I": run.flow.I,
+        "e": run.flow.e,
+        "strain": run.strain,
+        **run.options,
+    }
     if run.start:
         words.update(start=1, **{"from": scratch / f"{run.start}.restart"})
     command = [str(binary), "-in", str(DECK), "-log", "none"]
@@ -195,11 +231,13 @@ HEADER = """\
 # cost: relative time [default] of the quickest of the rounds, error: how much slower the second quickest was; processor seconds,
 #   steps, neighbour lists per unit of strain.
 study,alpha,mu,I,e,setting,at,quantity,value,error
-"""
+"""  # noqa: E501, as it stands in the file
 
 
 def number(value):
-    return "" if isinstance(value, float) and math.isnan(value) else f"{value:.4g}" if isinstance(value, float) else str(value)
+    if not isinstance(value, float):
+        return str(value)
+    return "" if math.isnan(value) else f"{value:.4g}"
 
 
 def gather(scratch, runs):
@@ -209,21 +247,44 @@ def gather(scratch, runs):
         if (scratch / f"{run.name}.cost").exists():
             done.setdefault(run.study, []).append(run)
     rows = itertools.chain(
-        collect.of_times(scratch, [run for run in done["state"] if run.number == 0]), collect.of_means(scratch, done["modes"] + done["long"]),
-        collect.of_pairs(scratch, done["paired"]), collect.of_accounts(scratch, done["paired"]),
-        collect.of_divergence(scratch, [run for run in done["modes"] if (run.flow.mu, run.flow.I, run.flow.e) == (0.4, 0.1, 0.1)]),
-        collect.of_sampling(scratch, done["sampling"][0]), collect.of_costs(scratch, done["cost"]))
+        collect.of_times(scratch, [run for run in done["state"] if run.number == 0]),
+        collect.of_means(scratch, done["modes"] + done["long"]),
+        collect.of_pairs(scratch, done["paired"]),
+        collect.of_accounts(scratch, done["paired"]),
+        collect.of_divergence(
+            scratch, [run for run in done["modes"] if (run.flow.mu, run.flow.I, run.flow.e) == (0.4, 0.1, 0.1)]
+        ),
+        collect.of_sampling(scratch, done["sampling"][0]),
+        collect.of_costs(scratch, done["cost"]),
+    )
     with open(HERE / "results.csv", "w") as out:
         out.write(HEADER)
         for study, flow, label, at, quantity, value, error in rows:
-            out.write(",".join([study, *map(number, (flow.alpha, flow.mu, flow.I, flow.e)), label, number(at), quantity, number(float(value)),
-                                number(float(error))]) + "\n")
+            out.write(
+                ",".join(
+                    [
+                        study,
+                        *map(number, (flow.alpha, flow.mu, flow.I, flow.e)),
+                        label,
+                        number(at),
+                        quantity,
+                        number(float(value)),
+                        number(float(error)),
+                    ]
+                )
+                + "\n"
+            )
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("binary", type=pathlib.Path, help="the grainscope binary")
-    parser.add_argument("--scratch", type=pathlib.Path, default=pathlib.Path("accuracy-runs"), help="folder of all runs (default %(default)s)")
+    parser.add_argument(
+        "--scratch",
+        type=pathlib.Path,
+        default=pathlib.Path("accuracy-runs"),
+        help="folder of all runs (default %(default)s)",
+    )
     arguments = parser.parse_args()
     scratch = arguments.scratch.resolve()
     scratch.mkdir(parents=True, exist_ok=True)

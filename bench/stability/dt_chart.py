@@ -1,4 +1,5 @@
 """doc/images/stability_dt.png, from the csv files alone."""
+
 import sys
 
 import numpy as np
@@ -6,7 +7,16 @@ import numpy as np
 from dt_tools import HERE, column, rows_of
 
 sys.path.insert(0, str(HERE.parents[1] / "tools"))
-from figure_style import Line2D, RUN_COLOURS, log_scale, plt, save, shape_colour, shape_handle, shape_marker  # noqa: E402
+from figure_style import (
+    Line2D,
+    RUN_COLOURS,
+    log_scale,
+    plt,
+    save,
+    shape_colour,
+    shape_handle,
+    shape_marker,
+)  # noqa: E402
 
 RULE = 0.15
 EXCESS = 0.01
@@ -26,8 +36,15 @@ def draw_limits(axis, press, title):
             found = rows_of("dt_theory", press=press, e=e, damping=damping)
             axis.plot(column(found, "alpha"), column(found, "network"), style, color=colour, linewidth=1.2)
             runs = rows_of("dt_growth", press=press, e=e, damping=damping)
-            axis.plot(column(runs, "alpha"), np.sqrt(column(runs, "stable") * column(runs, "unstable")), color=colour, linestyle="",
-                      marker="o" if damping == "off" else "s", markersize=5, markerfacecolor=colour if damping == "off" else "white")
+            axis.plot(
+                column(runs, "alpha"),
+                np.sqrt(column(runs, "stable") * column(runs, "unstable")),
+                color=colour,
+                linestyle="",
+                marker="o" if damping == "off" else "s",
+                markersize=5,
+                markerfacecolor=colour if damping == "off" else "white",
+            )
     axis.set_ylim(0.07, 3.5)
     log_scale(axis.xaxis)
     log_scale(axis.yaxis)
@@ -48,7 +65,11 @@ def crossing(steps, values, level):
 def collision_limit(speed, alpha, e, name="mean"):
     """Time step over Hertz' time at which collisions keep 1 % more energy than at the finest step."""
     found = rows_of("dt_pairs", speed=speed, alpha=alpha, e=e)
-    return crossing(column(found, "dt_over_hertz"), column(found, name) - (column(found, name)[0] if name == "mean" else 0.0), EXCESS)
+    return crossing(
+        column(found, "dt_over_hertz"),
+        column(found, name) - (column(found, name)[0] if name == "mean" else 0.0),
+        EXCESS,
+    )
 
 
 def draw_pairs(axis):
@@ -56,7 +77,9 @@ def draw_pairs(axis):
     for e, colour in zip(SHOWN, RUN_COLOURS):
         for speed, style in (("0.02", "-"), ("0.5", ":")):
             limits = [collision_limit(speed, alpha, e) for alpha in alphas]
-            axis.plot([float(alpha) for alpha in alphas], limits, style, color=colour, marker="o", markersize=4, linewidth=1.2)
+            axis.plot(
+                [float(alpha) for alpha in alphas], limits, style, color=colour, marker="o", markersize=4, linewidth=1.2
+            )
     axis.set_ylim(0.07, 3.5)
     log_scale(axis.xaxis)
     log_scale(axis.yaxis)
@@ -71,15 +94,25 @@ def draw_flows(axis):
             found = rows_of("dt_flow", press="1e-5", alpha=alpha, e=e, damping=damping)
             kept, colour = [row for row in found if row["W_shear"] != "inf"], shape_colour(float(alpha))
             made = np.abs(column(kept, "G_dt")) + np.maximum(0, -column(kept, "D_damp"))
-            axis.plot(column(kept, "dt_over_rayleigh"), made / column(kept, "W_shear"), style, color=colour, marker=shape_marker(float(alpha)),
-                      markersize=4, linewidth=1.2, markerfacecolor=colour if damping == "off" else "white")
-            lost = column(found, "dt_over_rayleigh")[len(kept):][:1]
+            axis.plot(
+                column(kept, "dt_over_rayleigh"),
+                made / column(kept, "W_shear"),
+                style,
+                color=colour,
+                marker=shape_marker(float(alpha)),
+                markersize=4,
+                linewidth=1.2,
+                markerfacecolor=colour if damping == "off" else "white",
+            )
+            lost = column(found, "dt_over_rayleigh")[len(kept) :][:1]
             axis.plot(lost, np.full(len(lost), 3.0), marker="x", color=colour, markersize=6, linestyle="")
     axis.axhline(EXCESS, color="0.6", linewidth=0.8, linestyle=":")
     axis.set_yscale("log")
     log_scale(axis.xaxis)
     axis.axvline(RULE, color="0.6", linewidth=4, alpha=0.6, zorder=0)
-    axis.set(title=r"d  flows, $e = 0.1$: work of the time step", xlabel=r"$\Delta t/T_R$", ylabel="over that of the shear")
+    axis.set(
+        title=r"d  flows, $e = 0.1$: work of the time step", xlabel=r"$\Delta t/T_R$", ylabel="over that of the shear"
+    )
     axis.legend(handles=[shape_handle(alpha) for alpha in (5.0, 1.0, 0.2)], loc="upper left", fontsize=9)
 
 
@@ -90,7 +123,9 @@ def draw():
     draw_pairs(axes[1, 0])
     draw_flows(axes[1, 1])
     handles = [Line2D([], [], color=colour, label=f"$e = {e}$") for e, colour in zip(SHOWN, RUN_COLOURS)]
-    handles += [Line2D([], [], color="0.3", marker="o", label="no tangential damping"),
-                Line2D([], [], color="0.3", marker="s", markerfacecolor="white", linestyle="--", label="tangential damping")]
+    handles += [
+        Line2D([], [], color="0.3", marker="o", label="no tangential damping"),
+        Line2D([], [], color="0.3", marker="s", markerfacecolor="white", linestyle="--", label="tangential damping"),
+    ]
     figure.legend(handles=handles, loc="upper center", ncols=5, bbox_to_anchor=(0.5, 1.05))
     save(figure, HERE.parents[1] / "doc" / "images" / "stability_dt.png")

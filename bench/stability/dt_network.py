@@ -1,4 +1,5 @@
 """The contacts of a packing at rest as a linear system, and the time step at which velocity Verlet makes it grow."""
+
 import math
 
 import numpy as np
@@ -13,7 +14,8 @@ def cross_matrix(r):
 
 
 class Network:
-    """The contacts of a packing as springs and dashpots of the linear theory; velocities in units that make every mass 1."""
+    """The contacts of a packing as springs and dashpots of the linear theory; velocities in units that make every mass
+    1."""
 
     def __init__(self, stem, alpha):
         contacts, edges = read_dump(f"{stem}.contacts")
@@ -54,7 +56,11 @@ class Network:
 
     def apply(self, law, q):
         """M^-1/2 A M^-1/2 q for the network with this law in each contact."""
-        force = np.einsum("cab,cb->ca", law, np.einsum("cab,cb->ca", self.to_i, q[self.i]) - np.einsum("cab,cb->ca", self.to_j, q[self.j]))
+        force = np.einsum(
+            "cab,cb->ca",
+            law,
+            np.einsum("cab,cb->ca", self.to_i, q[self.i]) - np.einsum("cab,cb->ca", self.to_j, q[self.j]),
+        )
         result = np.zeros_like(q)
         np.add.at(result, self.i, np.einsum("cab,ca->cb", self.to_i, force))
         np.add.at(result, self.j, -np.einsum("cab,ca->cb", self.to_j, force))
@@ -88,13 +94,16 @@ class Network:
         dt = 1.0 / math.sqrt(self.stiffness.max() / self.mass)
         for _ in range(8):
             q = self.stiffest(dt**2 * stiffness + 2 * dt * damping)
-            before, dt = dt, positive_root(np.vdot(q, self.apply(stiffness, q)), 2 * np.vdot(q, self.apply(damping, q)), 4)
+            before, dt = dt, positive_root(
+                np.vdot(q, self.apply(stiffness, q)), 2 * np.vdot(q, self.apply(damping, q)), 4
+            )
             if abs(dt / before - 1) < 1e-4:
                 break
         return dt
 
     def bounds(self, stiffness, damping):
-        """dt at which twice the largest eigenvalue of a grain's own matrix is 4, and dt at which twice the largest trace is."""
+        """dt at which twice the largest eigenvalue of a grain's own matrix is 4, and dt at which twice the largest
+        trace is."""
         own_k, own_c = self.own(stiffness), self.own(damping)
         dt = min(positive_root(np.trace(k), 2 * np.trace(c), 2) for k, c in zip(own_k, own_c) if k.any())
         trace = dt

@@ -1,4 +1,5 @@
 """Pairs of spheroids about to collide."""
+
 import math
 
 import numpy as np
@@ -7,7 +8,8 @@ from dt_tools import DENSITY, axes_of, read_dump, unit
 
 
 class Pairs:
-    """Pairs of equal spheroids that touch: random orientations, directions, velocities and spins, the contact closing."""
+    """Pairs of equal spheroids that touch: random orientations, directions, velocities and spins, the contact
+    closing."""
 
     def __init__(self, alpha, speed, kinds, each):
         """`each` pairs of every kind."""
@@ -32,11 +34,11 @@ class Pairs:
         """From the first grain to the second along `direction` when they touch: branch, normal and the first's arm."""
         one, two = self.squares
         low, high = np.zeros(len(direction)), np.ones(len(direction))
-        for _ in range(60):   # the derivative of lambda (1 - lambda) d.C^-1.d changes its sign once
+        for _ in range(60):  # the derivative of lambda (1 - lambda) d.C^-1.d changes its sign once
             middle = 0.5 * (low + high)
             p = self._solve(middle, direction)
             first, second = (np.einsum("na,nab,nb->n", p, b, p) for b in (one, two))
-            rising = (1 - middle)**2 * first > middle**2 * second
+            rising = (1 - middle) ** 2 * first > middle**2 * second
             low, high = np.where(rising, middle, low), np.where(rising, high, middle)
         p = self._solve(low, direction)
         scale = 1 / np.sqrt(low * (1 - low) * np.einsum("na,na->n", direction, p))
@@ -57,20 +59,22 @@ class Pairs:
         return 5 * max(1, self.alpha)
 
     def edge(self):
-        return self.spacing() * math.ceil(len(self.phase)**(1 / 3))
+        return self.spacing() * math.ceil(len(self.phase) ** (1 / 3))
 
     def write(self, path, dt):
         """Commands that make the grains, apart by a part of what a step closes."""
         branch = self.branch + self.normal * (self.closing * dt * self.phase)[:, None]
-        cells = math.ceil(len(self.phase)**(1 / 3))
+        cells = math.ceil(len(self.phase) ** (1 / 3))
         with open(path, "w") as file:
             for pair in range(len(self.phase)):
                 cell = (np.array([pair % cells, pair // cells % cells, pair // cells**2]) + 0.5) * self.spacing()
                 for k, side in ((0, -0.5), (1, 0.5)):
                     place, atom = cell + side * branch[pair], 2 * pair + k + 1
-                    file.write(f"create_atoms {pair // self.each + 1} single {' '.join(map(repr, place.tolist()))} units box\n"
-                               f"set atom {atom} shape 1 1 {self.alpha!r} blockiness 2 2 density {DENSITY!r} quat_direct "
-                               + " ".join(map(repr, self.quaternions[k, pair].tolist())))
+                    file.write(
+                        f"create_atoms {pair // self.each + 1} single {' '.join(map(repr, place.tolist()))} units box\n"
+                        f"set atom {atom} shape 1 1 {self.alpha!r} blockiness 2 2 density {DENSITY!r} quat_direct "
+                        + " ".join(map(repr, self.quaternions[k, pair].tolist()))
+                    )
                     names = ("vx", "vy", "vz", "omegax", "omegay", "omegaz")
                     values = (*self.velocities[k, pair].tolist(), *self.spins[k, pair].tolist())
                     file.write("".join(f" {name} {value!r}" for name, value in zip(names, values)) + "\n")

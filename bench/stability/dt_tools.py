@@ -1,4 +1,6 @@
-"""What dt_map.py and limits.py share: the material, tables that grow, runs of the decks of this folder and what they dump."""
+"""What dt_map.py and limits.py share: the material, tables that grow, runs of the decks of this folder and what they
+dump."""
+
 import csv
 import math
 import os
@@ -11,7 +13,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 YOUNG, POISSON, DENSITY = 5e6, 0.3, 1000.0
 SHEAR_MODULUS = YOUNG / (2 * (1 + POISSON))
 STIFFNESS = YOUNG / (2 * (1 - POISSON**2))
-TANGENTIAL = 2 * (1 - POISSON) / (2 - POISSON)   # tangential over normal tangent stiffness
+TANGENTIAL = 2 * (1 - POISSON) / (2 - POISSON)  # tangential over normal tangent stiffness
 
 
 def rayleigh_time(alpha):
@@ -20,7 +22,7 @@ def rayleigh_time(alpha):
 
 def hertz_time(alpha, speed):
     """Duration of a head-on collision of two spheres with the smallest semi-axis."""
-    return 2.94 * (5 * math.sqrt(2) * math.pi * DENSITY / (8 * STIFFNESS))**0.4 * min(1, alpha) / speed**0.2
+    return 2.94 * (5 * math.sqrt(2) * math.pi * DENSITY / (8 * STIFFNESS)) ** 0.4 * min(1, alpha) / speed**0.2
 
 
 def damping_ratio(e):
@@ -52,7 +54,7 @@ class Table:
 class Runner:
     """Runs decks of this folder in a scratch folder."""
 
-    PATIENCE = 300   # seconds: no run that keeps its grains takes a tenth of it
+    PATIENCE = 300  # seconds: no run that keeps its grains takes a tenth of it
 
     def __init__(self, binary, work):
         self.binary, self.work = binary.resolve(), work.resolve()
@@ -63,7 +65,9 @@ class Runner:
         for name, value in variables.items():
             command += ["-var", name, str(value)]
         try:
-            return subprocess.run(command, cwd=self.work, capture_output=True, text=True, errors="replace", timeout=self.PATIENCE).stdout
+            return subprocess.run(
+                command, cwd=self.work, capture_output=True, text=True, errors="replace", timeout=self.PATIENCE
+            ).stdout
         except subprocess.TimeoutExpired:
             return "ERROR: out of time"
 
@@ -100,12 +104,12 @@ def read_dump(path):
     lines = open(path).read().splitlines()
     box = max(k for k, line in enumerate(lines) if line.startswith("ITEM: BOX"))
     start = max(k for k, line in enumerate(lines) if line.startswith(("ITEM: ENTRIES", "ITEM: ATOMS")))
-    bounds = np.array([line.split() for line in lines[box + 1:box + 4]], dtype=float)
+    bounds = np.array([line.split() for line in lines[box + 1 : box + 4]], dtype=float)
     edges = np.diag(bounds[:, 1] - bounds[:, 0])
     if bounds.shape[1] == 3:
         edges[0, 1] = bounds[0, 2]
         edges[0, 0] -= abs(edges[0, 1])
-    return np.array([line.split() for line in lines[start + 1:] if line.strip()], dtype=float), edges
+    return np.array([line.split() for line in lines[start + 1 :] if line.strip()], dtype=float), edges
 
 
 def axes_of(quaternions):

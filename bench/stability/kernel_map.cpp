@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Where LIGGGHTS's superquadric routines and the ellipsoid kernel fail, and how exact they are, over aspect ratio and overlap: CSV on
-// standard output, progress on standard error. Drawn by kernel_map.py.
+// Where LIGGGHTS's superquadric routines and the ellipsoid kernel fail, and how exact they are, over aspect ratio and
+// overlap: CSV on standard output, progress on standard error. Drawn by kernel_map.py.
 // Usage: kernel_map [pairs per cell, default 200]
 #include "superquadric_pair.h"
 #include <algorithm>
@@ -14,7 +14,8 @@ using reference::Quad;
 namespace {
 
 constexpr double DRIFT = 1e-4;  // of a step, in smallest semi-axes and as an angle
-constexpr double GROSS = 1e-2;  // an error beyond which the answer is a wrong one: point and overlap in smallest semi-axes, normal in rad
+// an error beyond which the answer is a wrong one: point and overlap in smallest semi-axes, normal in rad
+constexpr double GROSS = 1e-2;
 
 /** Aligned: axes parallel, one grain on the other along the shortest axis and up to 0.3 of the longest one aside. */
 enum class Posture { random, aligned };
@@ -33,8 +34,8 @@ struct Answer {
   }
 };
 
-/** What a cell of the map counts, and the largest errors of the answers that are finite and not called failed. Concentric grains have
- *  no exact answer: they are counted only. */
+/** What a cell of the map counts, and the largest errors of the answers that are finite and not called failed.
+ *  Concentric grains have no exact answer: they are counted only. */
 struct Tally {
   long pairs = 0, failed = 0, not_finite = 0, missed = 0, invented = 0, gross = 0;
   double point = 0.0, normal = 0.0, overlap = 0.0;  // the largest
@@ -46,7 +47,8 @@ struct Tally {
     not_finite += answer.touching && !answer.finite();
     if (!exact.proved || answer.failed || !answer.touching || !answer.finite()) return;
     const double errors[] = {distance(answer.point, exact.point) / smallest, distance(answer.normal, exact.normal),
-                             std::fabs(static_cast<double>(answer.overlap - exact.depth[0] - exact.depth[1])) / smallest};
+                             std::fabs(static_cast<double>(answer.overlap - exact.depth[0] - exact.depth[1])) /
+                                 smallest};
     point = std::max(point, errors[0]);
     normal = std::max(normal, errors[1]);
     overlap = std::max(overlap, errors[2]);
@@ -80,7 +82,8 @@ bool liggghts_fails(const GrainPair &pair, const SuperquadricHistory &history, c
   two.set(centre[1], p.quaternion[1], p.semi[1], blockiness);
   LIGGGHTS::ContactModels::SurfacesIntersectData data;
   if (history.state == SuperquadricHistory::FAR)
-    return MathExtraLiggghtsNonspherical::calc_contact_point_if_no_previous_point_avaialable(data, &one, &two, point, f[0], f[1], nullptr);
+    return MathExtraLiggghtsNonspherical::calc_contact_point_if_no_previous_point_avaialable(data, &one, &two, point,
+                                                                                             f[0], f[1], nullptr);
   std::copy_n(history.point, 3, before);
   std::copy_n(motion.shift, 3, shift);
   std::copy_n(&motion.turn[0][0], 6, &turn[0][0]);
@@ -89,9 +92,10 @@ bool liggghts_fails(const GrainPair &pair, const SuperquadricHistory &history, c
   data.v_j = shift;
   data.omega_i = turn[0];
   data.omega_j = turn[1];
-  const double r1 = std::cbrt(p.semi[0][0] * p.semi[0][1] * p.semi[0][2]), r2 = std::cbrt(p.semi[1][0] * p.semi[1][1] * p.semi[1][2]);
-  return MathExtraLiggghtsNonspherical::calc_contact_point_using_prev_step(data, &one, &two, r1 / (r1 + r2), 1.0, before, point, f[0], f[1],
-                                                                           nullptr);
+  const double r1 = std::cbrt(p.semi[0][0] * p.semi[0][1] * p.semi[0][2]),
+               r2 = std::cbrt(p.semi[1][0] * p.semi[1][1] * p.semi[1][2]);
+  return MathExtraLiggghtsNonspherical::calc_contact_point_using_prev_step(data, &one, &two, r1 / (r1 + r2), 1.0,
+                                                                           before, point, f[0], f[1], nullptr);
 }
 
 Answer by_liggghts(const GrainPair &pair, SuperquadricHistory history, const PairMotion &motion) {
@@ -126,7 +130,8 @@ GrainPair draw(RandomPairs &random, Posture posture, double alpha) {
   return pair;
 }
 
-/** Moves grain 2 along d until the grains overlap by `overlap` to 1 %, their centres then being (1 - shift) of those of tangency apart. */
+/** Moves grain 2 along d until the grains overlap by `overlap` to 1 %, their centres then being (1 - shift) of those of
+ *  tangency apart. */
 bool place_at_overlap(RandomPairs &random, GrainPair &pair, double overlap, double &shift) {
   double along[3], low = 0.0, high = 1.0;
   std::copy_n(pair.d, 3, along);
@@ -162,7 +167,7 @@ void cell(Posture posture, double alpha, Given given, double value, long pairs) 
     }
     const double smallest = pair.smallest();
     const PairMotion motion(random, DRIFT * smallest, DRIFT);
-    const auto both = [&](const GrainPair &p, bool warm, Answer (&answers)[2]) {
+    const auto both = [&](const GrainPair &p, bool warm, Answer(&answers)[2]) {
       SuperquadricHistory history;
       if (warm) SuperquadricPair(motion.before(p)).contact(history);
       answers[0] = by_liggghts(p, history, motion);
@@ -184,8 +189,9 @@ void cell(Posture posture, double alpha, Given given, double value, long pairs) 
   for (int k = 0; k < 2; k++)
     for (int warm = 0; warm < 2; warm++) {
       const Tally &t = tally[k][warm];
-      std::printf("%s,%g,%s,%g,%s,%s,%ld,%ld,%ld,%ld,%ld,%ld,%.2g,%.2g,%.2g\n", name(posture), alpha, name(given), value, who[k], start[warm],
-                  t.pairs, t.failed, t.not_finite, t.missed, t.invented, t.gross, t.point, t.normal, t.overlap);
+      std::printf("%s,%g,%s,%g,%s,%s,%ld,%ld,%ld,%ld,%ld,%ld,%.2g,%.2g,%.2g\n", name(posture), alpha, name(given),
+                  value, who[k], start[warm], t.pairs, t.failed, t.not_finite, t.missed, t.invented, t.gross, t.point,
+                  t.normal, t.overlap);
     }
   std::fflush(stdout);
 }
@@ -200,7 +206,8 @@ int main(int argc, char **argv) {
     for (double alpha : {0.05, 0.1, 0.2, 0.33, 0.5, 0.67, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0}) {
       for (double overlap : {1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 3e-2, 1e-1, 3e-1, 5e-1})
         cell(posture, alpha, Given::overlap, overlap, pairs);
-      for (double distance : {0.3, 1e-1, 1e-2, 1e-4, 1e-8, 1e-12, 1e-16, 0.0}) cell(posture, alpha, Given::distance, distance, pairs);
+      for (double distance : {0.3, 1e-1, 1e-2, 1e-4, 1e-8, 1e-12, 1e-16, 0.0})
+        cell(posture, alpha, Given::distance, distance, pairs);
       std::fprintf(stderr, "%s, alpha %g\n", name(posture), alpha);
     }
 }

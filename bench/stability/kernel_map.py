@@ -1,8 +1,10 @@
 #!/usr/bin/python3
-"""Where LIGGGHTS's superquadric routines and the ellipsoid kernel fail, and how exact they are: aspect ratio against overlap.
+"""Where LIGGGHTS's superquadric routines and the ellipsoid kernel fail, and how exact they are: aspect ratio against
+overlap.
 
-With the program kernel_map its answers go to kernel_map.csv beside this file (two minutes). A chart and Markdown tables are made of that
-file alone. A cell shows the worst of 4000 answers: grains at random and aligned, cold and from a step ago.
+With the program kernel_map its answers go to kernel_map.csv beside this file (two minutes). A chart and Markdown tables
+are made of that file alone. A cell shows the worst of 4000 answers: grains at random and aligned, cold and from a step
+ago.
 """
 import argparse
 import collections
@@ -28,8 +30,13 @@ LEAST, MOST = 1e-16, 1.0
 
 def read():
     with RESULTS.open() as text:
-        return [{name: value if name in ("posture", "given", "surface", "start") else float(value)
-                 for name, value in row.items()} for row in csv.DictReader(text)]
+        return [
+            {
+                name: value if name in ("posture", "given", "surface", "start") else float(value)
+                for name, value in row.items()
+            }
+            for row in csv.DictReader(text)
+        ]
 
 
 def places(rows):
@@ -66,7 +73,9 @@ def panel(axes, cells, alphas, columns, quantity):
         elif cell["gross"] or cell["missed"] or cell["invented"]:
             axes.plot(*at, "_", color="#D55E00", markersize=6, markeredgewidth=2)
     axes.axvline(sum(given == "overlap" for given, _ in columns), color="black", linewidth=1.0)
-    axes.set_xticks(np.arange(len(columns)) + 0.5, labels=[power(value) for _, value in columns], rotation=90, fontsize=8)
+    axes.set_xticks(
+        np.arange(len(columns)) + 0.5, labels=[power(value) for _, value in columns], rotation=90, fontsize=8
+    )
     axes.set_yticks(np.arange(len(alphas)) + 0.5, labels=[f"{alpha:g}" for alpha in alphas], fontsize=8)
     return image
 
@@ -83,10 +92,22 @@ def draw(rows):
     for axis in axes[1]:
         axis.set_xlabel("overlap  |  distance of the centres", fontsize=9)
     figure.colorbar(image, ax=axes, shrink=0.8, label="largest error [smallest semi-axes; normal: rad]")
-    marks = (("X", "#D55E00", "no number (NaN)"), ("_", "#D55E00", "wrong by more than 0.01, without a word"),
-             ("o", "#009E73", "a defined answer, counted as a fallback"))
-    figure.legend(handles=[Line2D([], [], linestyle="", marker=marker, color=colour, markeredgewidth=2 if marker == "_" else 1, label=word)
-                           for marker, colour, word in marks], loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=3)
+    marks = (
+        ("X", "#D55E00", "no number (NaN)"),
+        ("_", "#D55E00", "wrong by more than 0.01, without a word"),
+        ("o", "#009E73", "a defined answer, counted as a fallback"),
+    )
+    figure.legend(
+        handles=[
+            Line2D(
+                [], [], linestyle="", marker=marker, color=colour, markeredgewidth=2 if marker == "_" else 1, label=word
+            )
+            for marker, colour, word in marks
+        ],
+        loc="upper center",
+        bbox_to_anchor=(0.5, 0.0),
+        ncols=3,
+    )
     save(figure, CHART)
 
 
@@ -96,31 +117,50 @@ def exponent(x):
 
 def tables(rows):
     """Failures by place, and errors by overlap, of all aspect ratios together."""
-    print("| given | value | answers | " + " | ".join(f"{surface}: NaN | fallback | wrong" for surface in SURFACES) + " |")
+    print(
+        "| given | value | answers | " + " | ".join(f"{surface}: NaN | fallback | wrong" for surface in SURFACES) + " |"
+    )
     print("|---" * 9 + "|")
     for place in places(rows):
         line = []
         for surface in SURFACES:
             cells = [row for row in rows if row["surface"] == surface and (row["given"], row["value"]) == place]
             total = {name: sum(int(row[name]) for row in cells) for name in COUNTS}
-            line += [total["not_finite"], total["failed"] - total["not_finite"], total["gross"] + total["missed"] + total["invented"]]
+            line += [
+                total["not_finite"],
+                total["failed"] - total["not_finite"],
+                total["gross"] + total["missed"] + total["invented"],
+            ]
         print(f"| {place[0]} | {place[1]:g} | {total['pairs']} | " + " | ".join(str(count) for count in line) + " |")
-    print("\n| alpha | overlap | " + " | ".join(f"{surface}: {word}" for surface in SURFACES for word in ERRORS.values()) + " |")
+    print(
+        "\n| alpha | overlap | "
+        + " | ".join(f"{surface}: {word}" for surface in SURFACES for word in ERRORS.values())
+        + " |"
+    )
     print("|---" * 8 + "|")
     found = {surface: worst(rows, surface) for surface in SURFACES}
     for alpha in sorted({row["alpha"] for row in rows}):
         for overlap in (1e-8, 1e-4, 1e-2, 0.5):
-            line = [exponent(found[surface][alpha, ("overlap", overlap)][name]) for surface in SURFACES for name in ERRORS]
+            line = [
+                exponent(found[surface][alpha, ("overlap", overlap)][name]) for surface in SURFACES for name in ERRORS
+            ]
             print(f"| {alpha:g} | {overlap:g} | " + " | ".join(line) + " |")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", type=pathlib.Path, nargs="?", help="<build>/bench/kernel_map; without it, what the file holds is drawn")
+    parser.add_argument(
+        "program",
+        type=pathlib.Path,
+        nargs="?",
+        help="<build>/bench/kernel_map; without it, what the file holds is drawn",
+    )
     parser.add_argument("--pairs", type=int, default=1000, help="of each cell, posture and start (default %(default)s)")
     arguments = parser.parse_args()
     if arguments.program:
-        answers = subprocess.run([str(arguments.program), str(arguments.pairs)], stdout=subprocess.PIPE, text=True, check=True).stdout
+        answers = subprocess.run(
+            [str(arguments.program), str(arguments.pairs)], stdout=subprocess.PIPE, text=True, check=True
+        ).stdout
         RESULTS.write_text(answers)
     rows = read()
     tables(rows)

@@ -56,7 +56,7 @@ int AtomVecSuperquadricFiles::columns_of_atoms(int n, char *lines) {
     if (!first) first = words.size();
     if (complaint.empty() && words.size() != first)
       complaint = "all lines must have as many columns, got " + std::to_string(words.size()) + " after " +
-          std::to_string(first);
+                  std::to_string(first);
     if (!complaint.empty()) refuse("Atoms", id_of(words), complaint);
   });
   columns_ = line::columns_without_images(first);
@@ -104,7 +104,9 @@ void AtomVecSuperquadricFiles::require_grains_of_shape_and_density() {
   MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, world);
   if (first == INT_MAX) return;
   const std::string grain = std::to_string(first);
-  const std::string complaint = "write_data: the radius, volume, mass or moments of inertia of grain " + grain + " are "
+  const std::string complaint =
+      "write_data: the radius, volume, mass or moments of inertia of grain " + grain +
+      " are "
       "not those of its shape and density, and a data file of superquadrics holds no others: set its shape and "
       "density, or use write_restart";
   error->all(FLERR, complaint.c_str());

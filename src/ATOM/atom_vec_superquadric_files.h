@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #ifdef ATOM_CLASS
 
+// clang-format off
 AtomStyle(superquadric,AtomVecSuperquadricFiles)
 
 AtomStyle(granular_superquadric,AtomVecSuperquadricFiles)
+// clang-format on
 
 #else
 

@@ -44,8 +44,8 @@ void add_sources(Owner **owners, int n, const char *kind, std::vector<Source> &a
   for (int k = 0; k < n; k++) {
     const auto *declared = dynamic_cast<DeclaresOutputs *>(owners[k]);
     const std::string id = owners[k]->id, style = declared ? declared->declared_style() : owners[k]->style;
-    all.push_back({id, std::string(kind) + " " + id + " (" + style + ")", std::string(1, kind[0]) + "_" + id,
-                   declared});
+    all.push_back(
+        {id, std::string(kind) + " " + id + " (" + style + ")", std::string(1, kind[0]) + "_" + id, declared});
   }
 }
 
@@ -65,7 +65,7 @@ Source source_of(const Modify &modify, const std::string &id, const Arguments &e
   const std::string requirement = "'ID' must be that of a compute or fix with named outputs, got '" + id + "'";
   if (found.size() > 1)
     errors.fail(requirement + ", which is both " + found[0].description + " and " + found[1].description +
-                    ": rename one");
+                ": rename one");
   if (found.empty() && !other.empty()) errors.fail(requirement + ", " + other + ", whose outputs have no names");
   if (found.empty()) errors.fail(requirement + grainscope::nearest_name(id, named));
   return found[0];
@@ -161,7 +161,7 @@ void define(LAMMPS *lmp, const std::vector<Line> &lines, const Arguments &errors
     const std::string other = other_meaning(variable, one.variable, one.formula);
     if (!other.empty())
       errors.fail("'" + one.formula + "' would be variable '" + one.variable + "', which exists and is " + other +
-                      ": delete that variable first, or give another 'prefix'");
+                  ": delete that variable first, or give another 'prefix'");
   }
   for (const Line &one : lines) {
     if (one.variable.empty() || variable.find(const_cast<char *>(one.variable.c_str())) >= 0) continue;

@@ -15,16 +15,17 @@ constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Ex
 
 grainscope::Outputs declared(int bins) {
   grainscope::Outputs outputs;
-  outputs.set_array(bins, "bin of beta", {
-      {"beta", "rad", intensive, "angle of the bin's middle"},
-      {"N_c", "-", whole, "contacts, each at beta and at beta + pi"},
-      {"density", "1/rad", intensive, "share of the contacts over the width of a bin, integral 1"},
-      {"F_n", "force", intensive, "normal force in the plane, mean over the bin's contacts"},
-      {"F_t", "force", intensive, "tangential force in the plane, mean over the bin's contacts"},
-      {"F_along", "force", intensive, "tangential force along (-sin beta, cos beta), mean over the bin's contacts"},
-      {"F_n_sum", "force", whole, "sum that F_n is the mean of"},
-      {"F_t_sum", "force", whole, "sum that F_t is the mean of"},
-      {"F_along_sum", "force", whole, "sum that F_along is the mean of"}});
+  outputs.set_array(
+      bins, "bin of beta",
+      {{"beta", "rad", intensive, "angle of the bin's middle"},
+       {"N_c", "-", whole, "contacts, each at beta and at beta + pi"},
+       {"density", "1/rad", intensive, "share of the contacts over the width of a bin, integral 1"},
+       {"F_n", "force", intensive, "normal force in the plane, mean over the bin's contacts"},
+       {"F_t", "force", intensive, "tangential force in the plane, mean over the bin's contacts"},
+       {"F_along", "force", intensive, "tangential force along (-sin beta, cos beta), mean over the bin's contacts"},
+       {"F_n_sum", "force", whole, "sum that F_n is the mean of"},
+       {"F_t_sum", "force", whole, "sum that F_t is the mean of"},
+       {"F_along_sum", "force", whole, "sum that F_along is the mean of"}});
   return outputs;
 }
 

@@ -76,7 +76,8 @@ double ComputeContactGrain::angle_to_flow(int i) const {
   if (!atom->superquadric_flag) return 0.0;
   const grainscope::SymmetryAxis axis = grainscope::symmetry_axis(atom->shape[i]);
   if (axis.shape == grainscope::Shape::sphere) return 0.0;
-  return grainscope::major_axis_angle(grainscope::orientation(*atom, i) * Eigen::Vector3d::Unit(axis.index), axis.shape);
+  return grainscope::major_axis_angle(grainscope::orientation(*atom, i) * Eigen::Vector3d::Unit(axis.index),
+                                      axis.shape);
 }
 
 /** Collective. Errors when grains were sorted, added or removed since their contacts were seen. */

@@ -41,19 +41,18 @@ const char *const xyz = "x y z", *const one = "";
 
 const Column columns[] = {
     {"id", "i j", "-", "ID of grain",
-     [](const Row &r, double *to) { to[0] = r.id_i; to[1] = r.id_j; }},
+     [](const Row &r, double *to) {
+       to[0] = r.id_i;
+       to[1] = r.id_j;
+     }},
     {"image", xyz, "-", "periodic image of j that i touches, in box edges,",
      [](const Row &r, double *to) { std::copy(r.image, r.image + 3, to); }},
-    {"point", xyz, "distance", "contact point,",
-     [](const Row &r, double *to) { put(to, r.contact.motion->point); }},
-    {"normal", xyz, "-", "unit normal from j to i,",
-     [](const Row &r, double *to) { put(to, r.contact.normal); }},
+    {"point", xyz, "distance", "contact point,", [](const Row &r, double *to) { put(to, r.contact.motion->point); }},
+    {"normal", xyz, "-", "unit normal from j to i,", [](const Row &r, double *to) { put(to, r.contact.normal); }},
     {"branch", xyz, "distance", "x_i - x_j with that image,",
      [](const Row &r, double *to) { put(to, r.contact.branch); }},
-    {"overlap", one, "distance", "normal overlap",
-     [](const Row &r, double *to) { *to = r.contact.overlap; }},
-    {"force", xyz, "force", "force on i,",
-     [](const Row &r, double *to) { put(to, r.contact.force); }},
+    {"overlap", one, "distance", "normal overlap", [](const Row &r, double *to) { *to = r.contact.overlap; }},
+    {"force", xyz, "force", "force on i,", [](const Row &r, double *to) { put(to, r.contact.force); }},
     {"fn", one, "force", "normal component of the force, > 0 pushes apart",
      [](const Row &r, double *to) { *to = r.contact.normal_force; }},
     {"fn_damping", one, "force", "damping part of fn",
@@ -80,7 +79,7 @@ struct ComputeContactLocal::Impl {
   };
   std::vector<Chosen> chosen;
   int width = 0;
-  std::vector<double> values;    // the rows, one after the other
+  std::vector<double> values;  // the rows, one after the other
   std::vector<double *> rows;
 };
 
@@ -110,8 +109,8 @@ ComputeContactLocal::ComputeContactLocal(LAMMPS *lmp, int &iarg, int narg, char 
 
 ComputeContactLocal::~ComputeContactLocal() {}
 
-/** Of a contact that two owners see (or one owner twice, through an image of itself), the lower ID writes the row; between two images of one
- *  grain, the one whose partner lies toward the positive side. */
+/** Of a contact that two owners see (or one owner twice, through an image of itself), the lower ID writes the row;
+ *  between two images of one grain, the one whose partner lies toward the positive side. */
 bool ComputeContactLocal::is_mine(const Contact &c) const {
   const int j = c.j();
   if (!c.ghost()) return true;
@@ -149,4 +148,6 @@ void ComputeContactLocal::compute_local() {
   array_local = impl_->rows.data();
 }
 
-double ComputeContactLocal::memory_usage() { return impl_->values.capacity() * sizeof(double) + impl_->rows.capacity() * sizeof(double *); }
+double ComputeContactLocal::memory_usage() {
+  return impl_->values.capacity() * sizeof(double) + impl_->rows.capacity() * sizeof(double *);
+}

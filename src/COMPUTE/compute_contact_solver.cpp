@@ -26,22 +26,27 @@ grainscope::Outputs declared() {
 
 }
 
-ComputeContactSolver::ComputeContactSolver(LAMMPS *lmp, int &iarg, int narg, char **arg) : Compute(lmp, iarg, narg, arg) {
+ComputeContactSolver::ComputeContactSolver(LAMMPS *lmp, int &iarg, int narg, char **arg)
+    : Compute(lmp, iarg, narg, arg) {
   grainscope::Arguments arguments(lmp, "compute contact/solver", iarg, narg, arg);
   arguments.require_none();
   if (igroup != 0)
-    arguments.fail(std::string("the group must be 'all', as the pairs of all grains are counted, got '") + arg[1] + "'");
+    arguments.fail(std::string("the group must be 'all', as the pairs of all grains are counted, got '") + arg[1] +
+                   "'");
   declare(this, declared());
 }
 
 void ComputeContactSolver::init() {
   if (!PairGranInsitu::required_by(lmp, "compute contact/solver")->contact_match("surface", "ellipsoid"))
-    error->all(FLERR, "compute contact/solver requires a pair_style with surface ellipsoid: other surfaces have other solvers");
+    error->all(
+        FLERR,
+        "compute contact/solver requires a pair_style with surface ellipsoid: other surfaces have other solvers");
 }
 
 void ComputeContactSolver::compute_vector() {
   invoked_vector = update->ntimestep;
-  const grainscope::SolverCounts &c = PairGranInsitu::required_by(lmp, "compute contact/solver")->ellipsoid_bodies().counts;
+  const grainscope::SolverCounts &c =
+      PairGranInsitu::required_by(lmp, "compute contact/solver")->ellipsoid_bodies().counts;
   double sums[] = {c.listed, c.solved, c.touching, c.steps, c.fallbacks}, most_steps = c.most_steps;
   MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, world);
   MPI_Allreduce(MPI_IN_PLACE, &most_steps, 1, MPI_DOUBLE, MPI_MAX, world);

@@ -35,24 +35,24 @@ grainscope::Outputs declared(int bins) {
   outputs.vector = {{"P", "pressure", intensive, "sum of F_y r_y over contacts, over the volume of the box"},
                     {"A_p", "distance^2", intensive, "area of a grain, mean over the group"},
                     {"N", "-", whole, "grains of the group"}};
-  outputs.set_array(bins, "bin of psi", {
-      {"psi", "rad", intensive, "angle of the bin's middle"},
-      {"area", "distance^2", intensive, "area A_j of the bin on a grain, mean over grains"},
-      {"N_c", "-", whole, "contacts N_j of the bin, each on both of its grains"},
-      {"rho_s", "1/distance^2", intensive, "share of the contacts over the area A_j"},
-      {"rho_s_A_p", "-", intensive, "rho_s A_p = (N_j/N)/(A_j/A_p)"},
-      {"F_n", "-", intensive, "F_n/(P A_p), mean over the bin's contacts"},
-      {"F_t", "-", intensive, "|F_t|/(P A_p), mean over the bin's contacts"},
-      {"mobilisation", "-", intensive, "|F_t| over its friction limit, mean over the bin's contacts"},
-      {"sliding", "-", intensive, "fraction of the bin's contacts that slide"},
-      {"P_n", "energy/time", whole, "power lost by normal damping, half to each grain of a contact"},
-      {"P_t", "energy/time", whole, "power lost by friction, half to each grain of a contact"},
-      {"inhomogeneity", "-", intensive, "share of P_n + P_t over share of the area"},
-      {"inhomogeneity_printed", "-", intensive, "the same, as the paper prints it"},
-      {"F_n_sum", "-", whole, "sum that F_n is the mean of"},
-      {"F_t_sum", "-", whole, "sum that F_t is the mean of"},
-      {"mobilisation_sum", "-", whole, "sum that mobilisation is the mean of"},
-      {"sliding_sum", "-", whole, "the bin's contacts that slide"}});
+  outputs.set_array(bins, "bin of psi",
+                    {{"psi", "rad", intensive, "angle of the bin's middle"},
+                     {"area", "distance^2", intensive, "area A_j of the bin on a grain, mean over grains"},
+                     {"N_c", "-", whole, "contacts N_j of the bin, each on both of its grains"},
+                     {"rho_s", "1/distance^2", intensive, "share of the contacts over the area A_j"},
+                     {"rho_s_A_p", "-", intensive, "rho_s A_p = (N_j/N)/(A_j/A_p)"},
+                     {"F_n", "-", intensive, "F_n/(P A_p), mean over the bin's contacts"},
+                     {"F_t", "-", intensive, "|F_t|/(P A_p), mean over the bin's contacts"},
+                     {"mobilisation", "-", intensive, "|F_t| over its friction limit, mean over the bin's contacts"},
+                     {"sliding", "-", intensive, "fraction of the bin's contacts that slide"},
+                     {"P_n", "energy/time", whole, "power lost by normal damping, half to each grain of a contact"},
+                     {"P_t", "energy/time", whole, "power lost by friction, half to each grain of a contact"},
+                     {"inhomogeneity", "-", intensive, "share of P_n + P_t over share of the area"},
+                     {"inhomogeneity_printed", "-", intensive, "the same, as the paper prints it"},
+                     {"F_n_sum", "-", whole, "sum that F_n is the mean of"},
+                     {"F_t_sum", "-", whole, "sum that F_t is the mean of"},
+                     {"mobilisation_sum", "-", whole, "sum that mobilisation is the mean of"},
+                     {"sliding_sum", "-", whole, "the bin's contacts that slide"}});
   return outputs;
 }
 
@@ -60,7 +60,8 @@ grainscope::Outputs declared(int bins) {
 Vector3d along(int axis, const Vector3d &v) { return {v[(axis + 1) % 3], v[(axis + 2) % 3], v[axis]}; }
 
 void require_axes(const Atom *atom, const grainscope::Arguments &errors) {
-  if (!atom->superquadric_flag) errors.fail("needs atom_style superquadric: grains of other styles have no axes to measure angles from");
+  if (!atom->superquadric_flag)
+    errors.fail("needs atom_style superquadric: grains of other styles have no axes to measure angles from");
 }
 
 /** Sums of each bin, over the contacts of this rank; a grain's angle is measured from `axis`. */
@@ -68,9 +69,9 @@ struct SurfaceSums {
   const Atom *atom = nullptr;
   int bins = 10;
   SurfaceAngle angle = SurfaceAngle::polar;
-  int axis = -1;              // body axis; -1: the symmetry axis
-  double unit_area = 0.0;     // of a grain whose semi-axis along the axis is 1
-  std::vector<double> sums;   // bins x SUMS, sum of F_y r_y over contacts, contacts whose place is not finite
+  int axis = -1;             // body axis; -1: the symmetry axis
+  double unit_area = 0.0;    // of a grain whose semi-axis along the axis is 1
+  std::vector<double> sums;  // bins x SUMS, sum of F_y r_y over contacts, contacts whose place is not finite
 
   void reset() { sums.assign(bins * SUMS + 2, 0.0); }
   std::vector<double> &numbers() { return sums; }
@@ -114,10 +115,11 @@ struct SurfaceSums {
 
 struct ComputeContactSurface::Impl {
   grainscope::ContactSums<SurfaceSums> contacts;
-  Vector3d proportions = Vector3d::Zero();  // semi-axes of a grain of the group's shape, 1 along the axis; zero for an empty group
-  std::vector<double> unit_areas;     // of its bands
+  // semi-axes of a grain of the group's shape, 1 along the axis; zero for an empty group
+  Vector3d proportions = Vector3d::Zero();
+  std::vector<double> unit_areas;          // of its bands
   double grains = 0.0, mean_square = 0.0;  // of the group: number, mean of (semi-axis along the axis)^2
-  bigint build = -1;                  // the neighbour list that the four above are of
+  bigint build = -1;                       // the neighbour list that the four above are of
 
   SurfaceSums &sums() { return contacts.mine(); }
 };
@@ -128,7 +130,9 @@ ComputeContactSurface::ComputeContactSurface(LAMMPS *lmp, int &iarg, int narg, c
   while (!arguments.done()) {
     const std::string keyword = arguments.keyword({"bins", "angle", "axis"});
     if (keyword == "bins") impl_->sums().bins = arguments.whole_number(keyword, 1, 1000);
-    if (keyword == "angle") impl_->sums().angle = arguments.choice(keyword, {"polar", "parametric"}) == "polar" ? SurfaceAngle::polar : SurfaceAngle::parametric;
+    if (keyword == "angle")
+      impl_->sums().angle = arguments.choice(keyword, {"polar", "parametric"}) == "polar" ? SurfaceAngle::polar
+                                                                                          : SurfaceAngle::parametric;
     if (keyword == "axis") {
       const std::string axis = arguments.choice(keyword, {"auto", "x", "y", "z"});
       impl_->sums().axis = axis == "auto" ? -1 : axis[0] - 'x';
@@ -155,12 +159,14 @@ void ComputeContactSurface::require_one_shape() {
   const grainscope::Arguments errors(lmp, name_);
   const int none = std::numeric_limits<int>::max();
   int boxy = none, triaxial = none;
-  double extremes[4] = {0.0, 0.0, -HUGE_VAL, -HUGE_VAL};  // largest and (negative) smallest ratios of semi-axes across to along
+  // largest and (negative) smallest ratios of semi-axes across to along
+  double extremes[4] = {0.0, 0.0, -HUGE_VAL, -HUGE_VAL};
   for (int i = 0; i < atom->nlocal; i++) {
     if (!in_group(i)) continue;
     const double *shape = atom->shape[i], *blockiness = atom->blockiness[i];
     if (blockiness[0] != 2.0 || blockiness[1] != 2.0) boxy = std::min(boxy, atom->tag[i]);
-    if (impl_->sums().axis < 0 && grainscope::symmetry_axis(shape).shape == Shape::triaxial) triaxial = std::min(triaxial, atom->tag[i]);
+    if (impl_->sums().axis < 0 && grainscope::symmetry_axis(shape).shape == Shape::triaxial)
+      triaxial = std::min(triaxial, atom->tag[i]);
     const Vector3d s = along(impl_->sums().axis_of(shape), Map<const Vector3d>(shape));
     for (int k = 0; k < 2; k++) {
       extremes[k] = std::max(extremes[k], s[k] / s[2]);
@@ -170,8 +176,10 @@ void ComputeContactSurface::require_one_shape() {
   int bad[2] = {boxy, triaxial};
   MPI_Allreduce(MPI_IN_PLACE, bad, 2, MPI_INT, MPI_MIN, world);
   MPI_Allreduce(MPI_IN_PLACE, extremes, 4, MPI_DOUBLE, MPI_MAX, world);
-  if (bad[0] != none) errors.fail("needs ellipsoids, blockiness 2 2, but grain " + std::to_string(bad[0]) + " has another");
-  if (bad[1] != none) errors.fail("'axis' must be x, y or z for triaxial grains, got 'auto' and grain " + std::to_string(bad[1]));
+  if (bad[0] != none)
+    errors.fail("needs ellipsoids, blockiness 2 2, but grain " + std::to_string(bad[0]) + " has another");
+  if (bad[1] != none)
+    errors.fail("'axis' must be x, y or z for triaxial grains, got 'auto' and grain " + std::to_string(bad[1]));
   if (extremes[0] == 0.0) {  // nobody in the group
     impl_->proportions = Vector3d::Zero();
     impl_->unit_areas.assign(impl_->sums().bins, 0.0);
@@ -180,8 +188,9 @@ void ComputeContactSurface::require_one_shape() {
   }
   for (int k = 0; k < 2; k++)
     if (extremes[k] + extremes[2 + k] > 1e-9 * extremes[k])
-      errors.fail("needs grains of one shape in group '" + std::string(group->names[igroup]) + "', got semi-axes across over along the axis from " +
-                     std::to_string(-extremes[2 + k]) + " to " + std::to_string(extremes[k]));
+      errors.fail("needs grains of one shape in group '" + std::string(group->names[igroup]) +
+                  "', got semi-axes across over along the axis from " + std::to_string(-extremes[2 + k]) + " to " +
+                  std::to_string(extremes[k]));
   const Vector3d proportions(extremes[0], extremes[1], 1.0);
   if (proportions != impl_->proportions) {
     impl_->proportions = proportions;
@@ -227,7 +236,8 @@ void ComputeContactSurface::answer() {
     const double *s = all.bin(k);
     const double area = impl_->unit_areas[k] * impl_->mean_square;
     const double whole_over_part = all.unit_area > 0.0 ? all.unit_area / impl_->unit_areas[k] : 0.0;
-    const double share = contacts > 0.0 ? s[CONTACTS] / contacts : 0.0, per_contact = s[CONTACTS] > 0.0 ? 1.0 / s[CONTACTS] : 0.0;
+    const double share = contacts > 0.0 ? s[CONTACTS] / contacts : 0.0,
+                 per_contact = s[CONTACTS] > 0.0 ? 1.0 / s[CONTACTS] : 0.0;
     const double inhomogeneity = power != 0.0 ? (s[NORMAL_POWER] + s[FRICTION_POWER]) / power * whole_over_part : 0.0;
     put_row(k, {(k + 0.5) * M_PI_2 / all.bins, area, s[CONTACTS], area > 0.0 ? share / area : 0.0,
                 share * whole_over_part, s[NORMAL] * per_contact * per_pressure,

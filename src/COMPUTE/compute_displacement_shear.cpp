@@ -38,17 +38,32 @@ grainscope::Outputs declared() {
 /** What is kept of a grain: X of the last call, d, and whether it was there at the start. */
 enum { POSITION = 0, DISPLACEMENT = 3, TRACKED = 6, WIDTH };
 
-/** What all ranks share: whether it has started, strain at the start and at the last call, that call's step and box, and the sums of
- *  the fit: calls, strain, strain^2, and for x, y, z <d^2> and strain <d^2>; then the last means and the number of grains. */
-enum { STARTED = 0, STRAIN_0, STRAIN_1, STEP, EDGES, CALLS = EDGES + 9, STRAIN, STRAIN_STRAIN, SQUARE, STRAIN_SQUARE = SQUARE + 3,
-       MEAN = STRAIN_SQUARE + 3, GRAINS = MEAN + 3, SHARED };
+/** What all ranks share: whether it has started, strain at the start and at the last call, that call's step and box,
+ *  and the sums of the fit: calls, strain, strain^2, and for x, y, z <d^2> and strain <d^2>; then the last means and
+ *  the number of grains. */
+enum {
+  STARTED = 0,
+  STRAIN_0,
+  STRAIN_1,
+  STEP,
+  EDGES,
+  CALLS = EDGES + 9,
+  STRAIN,
+  STRAIN_STRAIN,
+  SQUARE,
+  STRAIN_SQUARE = SQUARE + 3,
+  MEAN = STRAIN_SQUARE + 3,
+  GRAINS = MEAN + 3,
+  SHARED
+};
 
 const int no_remap = 0;          // of the host's numbers for none x v
 const int last_that_stands = 1;  // of the host's numbers for p f s m
 
 /** The box now, and where grains are in it. */
 struct Box {
-  Box(const Domain &domain, const FixGrainRecord &record) : edges(grainscope::upper_triangular(domain.h)), wrapped(grainscope::upper_triangular(record.edges())) {
+  Box(const Domain &domain, const FixGrainRecord &record)
+      : edges(grainscope::upper_triangular(domain.h)), wrapped(grainscope::upper_triangular(record.edges())) {
     // The point that the flow leaves at rest: middle heights, and along the flow a place that does not follow the tilt.
     rest = Map<const Vector3d>(domain.boxlo) + 0.5 * edges.diagonal();
     for (int k = 0; k < 3; k++) {
@@ -63,7 +78,8 @@ struct Box {
    *  that its image flags count. */
   Vector3d position(const Atom &atom, int i) const {
     const tagint image = atom.image[i];
-    const Vector3d boxes((image & IMGMASK) - IMGMAX, (image >> IMGBITS & IMGMASK) - IMGMAX, (image >> IMG2BITS) - IMGMAX);
+    const Vector3d boxes((image & IMGMASK) - IMGMAX, (image >> IMGBITS & IMGMASK) - IMGMAX,
+                         (image >> IMG2BITS) - IMGMAX);
     return Map<const Vector3d>(atom.x[i]) + wrapped * boxes - rest;
   }
 
@@ -94,12 +110,11 @@ ComputeDisplacementShear::ComputeDisplacementShear(LAMMPS *lmp, int &iarg, int n
   }
   grainscope::require_box(lmp, arguments);
   declare(this, declared());
-  impl_->record = FixGrainRecord::make(lmp, id, igroup, WIDTH, SHARED, std::string(name) + " " + group->names[igroup], STEP);
+  impl_->record =
+      FixGrainRecord::make(lmp, id, igroup, WIDTH, SHARED, std::string(name) + " " + group->names[igroup], STEP);
 }
 
-ComputeDisplacementShear::~ComputeDisplacementShear() {
-  FixGrainRecord::forget(lmp, id);
-}
+ComputeDisplacementShear::~ComputeDisplacementShear() { FixGrainRecord::forget(lmp, id); }
 
 void ComputeDisplacementShear::init() {
   impl_->strain.init();
@@ -116,14 +131,14 @@ void ComputeDisplacementShear::require_flow_of_all() {
     const grainscope::Arguments errors(lmp, name);
     if (deform->remapflag == no_remap)
       errors.fail(which + " must move grains along with the box, 'remap v' or 'remap x', got 'remap none': "
-                      "displacements against its flow would be wrong");
+                          "displacements against its flow would be wrong");
     int others = 0;
     for (int i = 0; i < atom->nlocal && !others; i++)
       others = atom->mask[i] & groupbit && !(atom->mask[i] & deform->groupbit);
     MPI_Allreduce(MPI_IN_PLACE, &others, 1, MPI_INT, MPI_MAX, world);
     if (others)
       errors.fail(which + " must move all grains of group '" + group->names[igroup] + "', got group '" +
-                      group->names[deform->igroup] + "'");
+                  group->names[deform->igroup] + "'");
   }
 }
 
@@ -232,7 +247,8 @@ void ComputeDisplacementShear::compute_vector() {
   const double strain = impl_->strain.now();
   double *shared = impl_->shared();
   const bool started = shared[STARTED] != 0.0;
-  if (started ? shared[STEP] != update->ntimestep : std::fabs(strain) >= std::fabs(impl_->start) - 1e-9) measure(strain);
+  if (started ? shared[STEP] != update->ntimestep : std::fabs(strain) >= std::fabs(impl_->start) - 1e-9)
+    measure(strain);
 
   std::fill(vector, vector + size_vector, 0.0);
   scalar = 0.0;
@@ -242,8 +258,8 @@ void ComputeDisplacementShear::compute_vector() {
   for (int k = 0; k < 3 && spread > 0.0; k++)
     slopes[k] = 0.5 * (n * shared[STRAIN_SQUARE + k] - shared[STRAIN] * shared[SQUARE + k]) / spread;
   const double *d2 = shared + MEAN;
-  put_vector({shared[STRAIN_1] - shared[STRAIN_0], d2[0], d2[1], d2[2], slopes[0], slopes[1], slopes[2],
-              shared[GRAINS]});
+  put_vector(
+      {shared[STRAIN_1] - shared[STRAIN_0], d2[0], d2[1], d2[2], slopes[0], slopes[1], slopes[2], shared[GRAINS]});
   scalar = d2[1];
 }
 

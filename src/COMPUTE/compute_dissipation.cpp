@@ -27,12 +27,12 @@ constexpr auto extensive = grainscope::Extent::extensive;
 grainscope::Outputs declared() {
   grainscope::Outputs outputs;
   outputs.scalar = {{"P_total", "energy/time", extensive, "P_n + P_t + P_t_damp"}};
-  outputs.vector = {{"P_n", "energy/time", extensive, "power lost by normal damping"},
-                    {"P_t", "energy/time", extensive, "power lost by friction of sliding contacts"},
-                    {"P_t_damp", "energy/time", extensive,
-                     "power lost by tangential damping of contacts that do not slide"},
-                    {"N_c", "-", extensive, "contacts"},
-                    {"N_sliding", "-", extensive, "sliding contacts"}};
+  outputs.vector = {
+      {"P_n", "energy/time", extensive, "power lost by normal damping"},
+      {"P_t", "energy/time", extensive, "power lost by friction of sliding contacts"},
+      {"P_t_damp", "energy/time", extensive, "power lost by tangential damping of contacts that do not slide"},
+      {"N_c", "-", extensive, "contacts"},
+      {"N_sliding", "-", extensive, "sliding contacts"}};
   return outputs;
 }
 
@@ -79,7 +79,9 @@ ComputeDissipation::ComputeDissipation(LAMMPS *lmp, int &iarg, int narg, char **
   }
   if (impl_->mode == Mode::ledger) grainscope::require_box(lmp, arguments);
   using Of = LossSums::Of;
-  impl_->sums.mine().of = impl_->mode == Mode::instantaneous ? Of::powers : impl_->mode == Mode::step ? Of::slip : Of::contacts;
+  impl_->sums.mine().of = impl_->mode == Mode::instantaneous ? Of::powers
+                          : impl_->mode == Mode::step        ? Of::slip
+                                                             : Of::contacts;
   sums_over(impl_->sums);
   if (impl_->mode == Mode::step) sums_over(impl_->damping);
   declare(this, declared());
@@ -124,7 +126,7 @@ void ComputeDissipation::answer_by_ledger() {
   const auto last = FixLedgerRecord::find(lmp, id)->account().last;
   const auto &sums = impl_->sums.total(*this).sums;
   const double dt = update->dt;
-  put_vector({last[E::D_n] / dt, last[E::D_t] / dt, last[E::D_damp] / dt, sums[LossSums::contacts],
-              sums[LossSums::sliding]});
+  put_vector(
+      {last[E::D_n] / dt, last[E::D_t] / dt, last[E::D_damp] / dt, sums[LossSums::contacts], sums[LossSums::sliding]});
   scalar = vector[0] + vector[1] + vector[2];
 }

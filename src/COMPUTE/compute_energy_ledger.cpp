@@ -12,7 +12,8 @@ using E = grainscope::EnergyLedger;
 
 namespace {
 
-constexpr int residual = E::entries + E::stores, relative = residual + 1, rates = relative + 1, size = rates + residual + 1;
+constexpr int residual = E::entries + E::stores, relative = residual + 1, rates = relative + 1,
+              size = rates + residual + 1;
 constexpr auto intensive = grainscope::Extent::intensive, extensive = grainscope::Extent::extensive;
 
 grainscope::Outputs declared() {

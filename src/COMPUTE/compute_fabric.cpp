@@ -35,16 +35,16 @@ grainscope::Outputs declared(const std::vector<const Weighted *> &chosen) {
   outputs.vector.add_each(six, {"F_*", "-", intensive, "fabric, mean of n_a n_b"})
       .add_each("1 2 3", {"eigenvalue_*", "-", intensive, "eigenvalue * of the fabric, descending"});
   for (const char *axis : {"1", "2", "3"})
-    outputs.vector.add_each("x y z", {std::string("eigenvector_") + axis + "_*", "-", intensive,
-                                      std::string("* of eigenvector ") + axis});
+    outputs.vector.add_each(
+        "x y z", {std::string("eigenvector_") + axis + "_*", "-", intensive, std::string("* of eigenvector ") + axis});
   const grainscope::NamedOutput deviator = {"deviator", "-", intensive, "sqrt(3/2 F':F')"};
   outputs.vector.add(deviator)
       .add({"angle", "rad", intensive, "principal angle in the plane"})
       .add({"ratio", "-", intensive, "anisotropy, eigenvalue_1 over eigenvalue_2"})
       .add({"N_c", "-", whole, "contacts"});
   for (const Weighted *one : chosen)
-    outputs.vector.add_each(
-        six, {std::string(one->output) + "_*", "-", intensive, std::string(one->name) + " tensor, *"});
+    outputs.vector.add_each(six,
+                            {std::string(one->output) + "_*", "-", intensive, std::string(one->name) + " tensor, *"});
   outputs.scalar = {deviator};
   return outputs;
 }
@@ -70,7 +70,8 @@ struct ComputeFabric::Impl {
   Moments moments;
 };
 
-ComputeFabric::ComputeFabric(LAMMPS *lmp, int &iarg, int narg, char **arg) : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
+ComputeFabric::ComputeFabric(LAMMPS *lmp, int &iarg, int narg, char **arg)
+    : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   while (!arguments.done()) {
     const std::string keyword = arguments.keyword({"plane", "branch", "force/normal", "force/tangential"});
@@ -101,7 +102,9 @@ void ComputeFabric::answer() {
   *out++ = scalar;
   const double shear = 2.0 * fabric(a, b), difference = fabric(a, a) - fabric(b, b);
   const bool isotropic_in_plane = std::hypot(shear, difference) <= rounding;
-  *out++ = isotropic_in_plane ? 0.0 : 0.5 * std::atan2(std::fabs(shear) <= rounding * std::fabs(difference) ? 0.0 : shear, difference);
+  *out++ = isotropic_in_plane
+               ? 0.0
+               : 0.5 * std::atan2(std::fabs(shear) <= rounding * std::fabs(difference) ? 0.0 : shear, difference);
   *out++ = principal.values[1] > rounding ? principal.values[0] / principal.values[1] : 0.0;
   *out++ = all.contacts();
 
@@ -114,4 +117,6 @@ void ComputeFabric::answer() {
   require_all_elements(out);
 }
 
-double ComputeFabric::memory_usage() { return impl_->moments.of_contacts.capacity() * sizeof(grainscope::ContactMoment); }
+double ComputeFabric::memory_usage() {
+  return impl_->moments.of_contacts.capacity() * sizeof(grainscope::ContactMoment);
+}

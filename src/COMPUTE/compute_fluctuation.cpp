@@ -66,7 +66,8 @@ struct ComputeFluctuation::Impl {
   }
 };
 
-ComputeFluctuation::ComputeFluctuation(LAMMPS *lmp, int &iarg, int narg, char **arg) : Compute(lmp, iarg, narg, arg), impl_(new Impl) {
+ComputeFluctuation::ComputeFluctuation(LAMMPS *lmp, int &iarg, int narg, char **arg)
+    : Compute(lmp, iarg, narg, arg), impl_(new Impl) {
   grainscope::Arguments arguments(lmp, "compute fluctuation", iarg, narg, arg);
   while (!arguments.done()) {
     const std::string keyword = arguments.keyword({"plane", "layers", "diameter", "flow"});
@@ -153,8 +154,10 @@ void ComputeFluctuation::compute_vector() {
   vector[13] = vector[along] * std::sqrt(impl_->layers / n) / unit;
   const double limit = std::max(straight_enough, 2.0 * vector[13]);
   impl_->bent.watch(lmp, vector[12] > limit,
-                    "compute fluctuation: the velocity profile is off the box's flow by %.3g of rate x L (rms over layers; limit %g; a "
-                    "flow in one thin layer has 0.29): what is measured against that flow is not fluctuation alone. Look for a shear band, or use 'flow layers'",
+                    "compute fluctuation: the velocity profile is off the box's flow by %.3g of rate x L (rms over "
+                    "layers; limit %g; a "
+                    "flow in one thin layer has 0.29): what is measured against that flow is not fluctuation alone. "
+                    "Look for a shear band, or use 'flow layers'",
                     vector[12], limit);
 }
 

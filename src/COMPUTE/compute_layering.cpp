@@ -21,8 +21,9 @@ grainscope::Outputs declared(int lags) {
                     {"peak_lag", "distance", intensive, "its lag"},
                     {"C0", "1/distance", intensive, "C at lag 0"},
                     {"N", "-", whole, "grains"}};
-  outputs.set_array(lags, "lag", {{"lag", "distance", intensive, "lag y"},
-                                  {"C", "1/distance", intensive, "correlation of the density"}});
+  outputs.set_array(
+      lags, "lag",
+      {{"lag", "distance", intensive, "lag y"}, {"C", "1/distance", intensive, "correlation of the density"}});
   return outputs;
 }
 
@@ -34,7 +35,8 @@ struct ComputeLayering::Impl {
   double grains = 0.0;
 };
 
-ComputeLayering::ComputeLayering(LAMMPS *lmp, int &iarg, int narg, char **arg) : Compute(lmp, iarg, narg, arg), impl_(new Impl) {
+ComputeLayering::ComputeLayering(LAMMPS *lmp, int &iarg, int narg, char **arg)
+    : Compute(lmp, iarg, narg, arg), impl_(new Impl) {
   grainscope::Arguments arguments(lmp, "compute layering", iarg, narg, arg);
   while (!arguments.done()) {
     const std::string keyword = arguments.keyword({"axis", "layers"});

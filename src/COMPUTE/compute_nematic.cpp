@@ -56,9 +56,10 @@ void ComputeNematic::compute_vector() {
 
   const grainscope::Nematic nematic(sums);
   double *out = grainscope::write_components(nematic.q, vector);
-  for (double value : {nematic.director[0], nematic.director[1], nematic.director[2], nematic.biaxiality, nematic.theta,
-                       nematic.director_theta, nematic.spin[0], nematic.spin[1], nematic.spin[2], nematic.grains_with_axis,
-                       nematic.grains_with_theta, nematic.eigenvalues[0], nematic.eigenvalues[1], nematic.eigenvalues[2]})
+  for (double value :
+       {nematic.director[0], nematic.director[1], nematic.director[2], nematic.biaxiality, nematic.theta,
+        nematic.director_theta, nematic.spin[0], nematic.spin[1], nematic.spin[2], nematic.grains_with_axis,
+        nematic.grains_with_theta, nematic.eigenvalues[0], nematic.eigenvalues[1], nematic.eigenvalues[2]})
     *out++ = value;
   require_all_elements(out);
   scalar = nematic.order;

@@ -11,8 +11,8 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-const char *const words[] = {"shapex", "shapey", "shapez", "quatw", "quati", "quatj", "quatk",
-                             "blockiness1", "blockiness2"};
+const char *const words[] = {"shapex", "shapey", "shapez",      "quatw",      "quati",
+                             "quatj",  "quatk",  "blockiness1", "blockiness2"};
 
 constexpr auto intensive = grainscope::Extent::intensive;
 

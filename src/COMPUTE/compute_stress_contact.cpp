@@ -72,7 +72,8 @@ void ComputeStressContact::init() {
   ContactCompute::init();
   stiffness_of_build_ = -1;
   if (!law().knows_sliding() && comm->me == 0)
-    error->warning(FLERR, "compute stress/contact: sliding is known for 'tangential' off, no_history and history only; element 32 stays 0");
+    error->warning(FLERR, "compute stress/contact: sliding is known for 'tangential' off, no_history and history only; "
+                          "element 32 stays 0");
 }
 
 /** Smallest Young's modulus among the types of the group; 0 when the deck defines none. */
@@ -141,12 +142,17 @@ void ComputeStressContact::answer() {
   const double kappa = stiffness_ * std::pow(per_pressure, 2.0 / 3.0);
   *out++ = kappa;
   require_all_elements(out);
-  if (!unasked()) soft_.watch(lmp, pressure > 0.0 && kappa < hard_grains,
-              "compute stress/contact: the stiffness number kappa is %.4g, below the hard-grain limit of %g: results depend on how stiff the "
-              "grains are. Stiffer grains, or a lower pressure", kappa, hard_grains);
+  if (!unasked())
+    soft_.watch(lmp, pressure > 0.0 && kappa < hard_grains,
+                "compute stress/contact: the stiffness number kappa is %.4g, below the hard-grain limit of %g: results "
+                "depend on how stiff the "
+                "grains are. Stiffer grains, or a lower pressure",
+                kappa, hard_grains);
   for (int k = 0; k < size_vector; k++) vector[k] += 0.0;  // no negative zeros
   if (!grainscope::all_finite(vector, size_vector))
-    error->all(FLERR, ("compute stress/contact: the stress of step " + std::to_string(update->ntimestep) + " is not finite, though every force is: look "
-                       "at overlaps and at the material's constants").c_str());
+    error->all(FLERR, ("compute stress/contact: the stress of step " + std::to_string(update->ntimestep) +
+                       " is not finite, though every force is: look "
+                       "at overlaps and at the material's constants")
+                          .c_str());
   scalar = pressure + 0.0;
 }

@@ -43,10 +43,11 @@ grainscope::Outputs declared(int bins) {
                     {"N", "-", whole, "grains; with 'average running' summed over calls"},
                     {"bins", "-", intensive, "bins in the fit"}};
   outputs.scalar = {outputs.vector.front()};
-  outputs.set_array(bins, "bin of r", {{"r", "distance", intensive, "middle of the bin"},
-                                       {"C", "-", intensive, "correlation at r"},
-                                       {"products", square, whole, "sum over pairs of dv_i dv_j"},
-                                       {"pairs", "-", whole, "pairs, each once"}});
+  outputs.set_array(bins, "bin of r",
+                    {{"r", "distance", intensive, "middle of the bin"},
+                     {"C", "-", intensive, "correlation at r"},
+                     {"products", square, whole, "sum over pairs of dv_i dv_j"},
+                     {"pairs", "-", whole, "pairs, each once"}});
   return outputs;
 }
 
@@ -56,7 +57,9 @@ PeriodicCell periodic_cell(const grainscope::BoxState &box, const Domain &domain
   return {box.edges, {{domain.xperiodic != 0, domain.yperiodic != 0, domain.zperiodic != 0}}};
 }
 
-double half_smallest_height(const PeriodicCell &cell) { return 0.5 * std::min({cell.height(0), cell.height(1), cell.height(2)}); }
+double half_smallest_height(const PeriodicCell &cell) {
+  return 0.5 * std::min({cell.height(0), cell.height(1), cell.height(2)});
+}
 
 }
 
@@ -87,10 +90,11 @@ struct ComputeVelocityCorrelation::Impl {
   std::unique_ptr<grainscope::MeshCorrelation> mesh;  // of method mesh
   bigint measured = -1;                               // the step of the last measurement
   Totals totals;
-  FixGrainRecord *record = nullptr;                   // of `average running`: the totals, which restart files hold
+  FixGrainRecord *record = nullptr;  // of `average running`: the totals, which restart files hold
   double bytes = 0.0;
 
-  /** The numbers that the ranks share in the record: the step of the last call, four sums, then products and pairs of each bin. */
+  /** The numbers that the ranks share in the record: the step of the last call, four sums, then products and pairs of
+   *  each bin. */
   enum { STEP, SQUARES, GRAINS, RANGE, CALLS, SUMS };
   void make_record(LAMMPS *lmp, const char *id, int igroup);
   bool counted(bigint step) const;
@@ -99,7 +103,8 @@ struct ComputeVelocityCorrelation::Impl {
 
   Totals measure(LAMMPS *lmp, int groupbit);
   void require_finite(LAMMPS *lmp, const PointValues &points) const;
-  PairSums share_of_pairs(LAMMPS *lmp, const PeriodicCell &cell, const PointValues &points, const DistanceBins &distances);
+  PairSums share_of_pairs(LAMMPS *lmp, const PeriodicCell &cell, const PointValues &points,
+                          const DistanceBins &distances);
 };
 
 ComputeVelocityCorrelation::ComputeVelocityCorrelation(LAMMPS *lmp, int &iarg, int narg, char **arg)
@@ -113,7 +118,8 @@ ComputeVelocityCorrelation::ComputeVelocityCorrelation(LAMMPS *lmp, int &iarg, i
     if (keyword == "bins") impl_->bins = arguments.whole_number(keyword, 1, 10000);
     if (keyword == "range") impl_->range = arguments.number(keyword, "a positive length", is_positive);
     if (keyword == "method")
-      impl_->mesh.reset(arguments.choice(keyword, {"direct", "mesh"}) == "mesh" ? new grainscope::MeshCorrelation(world) : nullptr);
+      impl_->mesh.reset(arguments.choice(keyword, {"direct", "mesh"}) == "mesh" ? new grainscope::MeshCorrelation(world)
+                                                                                : nullptr);
     if (keyword == "mesh") {
       mesh_given = true;
       impl_->mesh_per_bin = arguments.whole_number(keyword, 1, 100);
@@ -138,9 +144,9 @@ ComputeVelocityCorrelation::~ComputeVelocityCorrelation() {
 void ComputeVelocityCorrelation::Impl::make_record(LAMMPS *lmp, const char *id, int igroup) {
   std::ostringstream meaning;
   meaning.precision(17);
-  meaning << name << ' ' << lmp->group->names[igroup] << ' ' << component.spin << component.axis << ' ' << bins << ' ' << range << ' '
-          << (mesh ? mesh_per_bin : 0) << ' ' << static_cast<int>(flow.kind) << ' ' << flow.rate << ' ' << flow.layers << ' ' << flow.plane.flow
-          << flow.plane.gradient;
+  meaning << name << ' ' << lmp->group->names[igroup] << ' ' << component.spin << component.axis << ' ' << bins << ' '
+          << range << ' ' << (mesh ? mesh_per_bin : 0) << ' ' << static_cast<int>(flow.kind) << ' ' << flow.rate << ' '
+          << flow.layers << ' ' << flow.plane.flow << flow.plane.gradient;
   record = FixGrainRecord::make(lmp, id, igroup, 1, SUMS + 2 * bins, meaning.str(), STEP);
 }
 
@@ -183,8 +189,8 @@ void ComputeVelocityCorrelation::init() {
 }
 
 /** This rank's share of the sums over pairs. */
-PairSums ComputeVelocityCorrelation::Impl::share_of_pairs(LAMMPS *lmp, const PeriodicCell &cell, const PointValues &points,
-                                                          const DistanceBins &distances) {
+PairSums ComputeVelocityCorrelation::Impl::share_of_pairs(LAMMPS *lmp, const PeriodicCell &cell,
+                                                          const PointValues &points, const DistanceBins &distances) {
   if (!mesh) {
     const PointValues all = grainscope::gathered(points, lmp->world);
     bytes = 8.0 * sizeof(double) * all.size();  // and their copy in the order of cells
@@ -194,9 +200,9 @@ PairSums ComputeVelocityCorrelation::Impl::share_of_pairs(LAMMPS *lmp, const Per
   try {
     size = grainscope::mesh_size(cell, distances, mesh_per_bin, most_mesh_cells);
   } catch (const std::length_error &wanted) {
-    Arguments(lmp, name)
-        .fail("'mesh' " + std::to_string(mesh_per_bin) + " must ask for less than 1e9 cells, got " + wanted.what() +
-              ": take fewer bins or 'method direct', which is fast when the range is short");
+    Arguments(lmp, name).fail("'mesh' " + std::to_string(mesh_per_bin) + " must ask for less than 1e9 cells, got " +
+                              wanted.what() +
+                              ": take fewer bins or 'method direct', which is fast when the range is short");
   }
   PairSums sums = mesh->pair_sums(cell, points, distances, size);
   bytes = mesh->memory_usage();
@@ -209,7 +215,8 @@ void ComputeVelocityCorrelation::Impl::require_finite(LAMMPS *lmp, const PointVa
   for (std::size_t i = 0; i < points.size(); i++)
     strays += std::isfinite(points.s[0][i] + points.s[1][i] + points.s[2][i]) ? 0.0 : 1.0;
   MPI_Allreduce(MPI_IN_PLACE, &strays, 1, MPI_DOUBLE, MPI_SUM, lmp->world);
-  grainscope::require_finite(lmp, name, strays, "the positions", "grains are not finite: look at what moves or pushes them");
+  grainscope::require_finite(lmp, name, strays, "the positions",
+                             "grains are not finite: look at what moves or pushes them");
 }
 
 ComputeVelocityCorrelation::Impl::Totals ComputeVelocityCorrelation::Impl::measure(LAMMPS *lmp, int groupbit) {
@@ -236,7 +243,8 @@ ComputeVelocityCorrelation::Impl::Totals ComputeVelocityCorrelation::Impl::measu
   MPI_Allreduce(MPI_IN_PLACE, &now.squares, 1, MPI_DOUBLE, MPI_SUM, lmp->world);
   MPI_Allreduce(MPI_IN_PLACE, now.sums.products.data(), bins, MPI_DOUBLE, MPI_SUM, lmp->world);
   MPI_Allreduce(MPI_IN_PLACE, now.sums.pairs.data(), bins, MPI_DOUBLE, MPI_SUM, lmp->world);
-  for (int k = 0; k < bins && (k + 1) * distances.width() <= smallest; k++) now.sums.products[k] = now.sums.pairs[k] = 0.0;
+  for (int k = 0; k < bins && (k + 1) * distances.width() <= smallest; k++)
+    now.sums.products[k] = now.sums.pairs[k] = 0.0;
   now.grains = motion.grains();
   now.range = distances.range;
   now.calls = 1.0;

@@ -23,8 +23,9 @@ namespace {
 const char *const name = "compute velocity/memory";
 constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
 
-/** What all ranks share: number of samples, strain of the first, number of the next multiple; then the strains of the last `lags` samples
- *  (sample k at k modulo lags); then for each lag the sums of strains between samples, of products, and the number of products. */
+/** What all ranks share: number of samples, strain of the first, number of the next multiple; then the strains of the
+ *  last `lags` samples (sample k at k modulo lags); then for each lag the sums of strains between samples, of products,
+ *  and the number of products. */
 enum { SAMPLES = 0, STRAIN_0, NEXT, PAST };
 enum { STRAIN = 0, PRODUCTS, PAIRS, SUMS };
 
@@ -35,10 +36,11 @@ grainscope::Outputs declared(int rows) {
                     {"samples", "-", intensive, "samples"},
                     {"lags", "-", intensive, "lags in the fit"}};
   outputs.scalar = {outputs.vector.front()};
-  outputs.set_array(rows, "lag, from 0 on", {{"lag", "-", intensive, "mean strain between the samples"},
-                                             {"C", "-", intensive, "correlation at the lag"},
-                                             {"products", "(velocity or 1/time)^2", whole, "sum of products"},
-                                             {"pairs", "-", whole, "number of products"}});
+  outputs.set_array(rows, "lag, from 0 on",
+                    {{"lag", "-", intensive, "mean strain between the samples"},
+                     {"C", "-", intensive, "correlation at the lag"},
+                     {"products", "(velocity or 1/time)^2", whole, "sum of products"},
+                     {"pairs", "-", whole, "number of products"}});
   return outputs;
 }
 
@@ -60,8 +62,9 @@ struct ComputeVelocityMemory::Impl {
   void make_record(LAMMPS *lmp, const char *id, int igroup) {
     std::ostringstream meaning;
     meaning.precision(17);
-    meaning << name << ' ' << lmp->group->names[igroup] << ' ' << component.spin << component.axis << ' ' << every << ' ' << lags << ' '
-            << static_cast<int>(flow.kind) << ' ' << flow.rate << ' ' << flow.layers << ' ' << flow.plane.flow << flow.plane.gradient;
+    meaning << name << ' ' << lmp->group->names[igroup] << ' ' << component.spin << component.axis << ' ' << every
+            << ' ' << lags << ' ' << static_cast<int>(flow.kind) << ' ' << flow.rate << ' ' << flow.layers << ' '
+            << flow.plane.flow << flow.plane.gradient;
     record = FixGrainRecord::make(lmp, id, igroup, lags + 1, PAST + lags + (lags + 1) * SUMS, meaning.str());
   }
 };
@@ -72,7 +75,8 @@ ComputeVelocityMemory::ComputeVelocityMemory(LAMMPS *lmp, int &iarg, int narg, c
   while (!arguments.done()) {
     const std::string keyword = arguments.keyword({"component", "every", "lags", "strain", "flow", "plane"});
     if (keyword == "component") impl_->component.read(arguments);
-    if (keyword == "every") impl_->every = arguments.number(keyword, "a positive strain", [](double x) { return x > 0.0; });
+    if (keyword == "every")
+      impl_->every = arguments.number(keyword, "a positive strain", [](double x) { return x > 0.0; });
     if (keyword == "lags") impl_->lags = arguments.whole_number(keyword, 1, 400);
     if (keyword == "strain") impl_->strain.read(arguments);
     if (keyword == "flow") impl_->flow.read(arguments);
@@ -84,9 +88,7 @@ ComputeVelocityMemory::ComputeVelocityMemory(LAMMPS *lmp, int &iarg, int narg, c
   impl_->make_record(lmp, id, igroup);
 }
 
-ComputeVelocityMemory::~ComputeVelocityMemory() {
-  FixGrainRecord::forget(lmp, id);
-}
+ComputeVelocityMemory::~ComputeVelocityMemory() { FixGrainRecord::forget(lmp, id); }
 
 void ComputeVelocityMemory::init() {
   impl_->strain.init();
@@ -108,10 +110,9 @@ void ComputeVelocityMemory::sample(double strain) {
   const int lags = impl_->lags;
   const long count = grainscope::whole_count(impl_->shared()[SAMPLES], 1e15);
   if (count < 0)
-    grainscope::Arguments(lmp, name)
-        .fail("the number of samples in its memory is damaged, got " +
-              grainscope::Arguments::text(impl_->shared()[SAMPLES]));
-  const int known = std::min<long>(count, lags);  // lags that reach back to a sample
+    grainscope::Arguments(lmp, name).fail("the number of samples in its memory is damaged, got " +
+                                          grainscope::Arguments::text(impl_->shared()[SAMPLES]));
+  const int known = std::min<long>(count, lags);   // lags that reach back to a sample
   std::vector<double> sums(2 * (known + 1), 0.0);  // products, pairs
   const Fluctuations motion(lmp, groupbit, grainscope::BoxState(lmp), impl_->flow);
   for (const Fluctuations::Grain &g : motion.local()) {

@@ -14,7 +14,8 @@ namespace grainscope {
 using LAMMPS_NS::PairGranInsitu;
 
 ContactCompute::ContactCompute(LAMMPS_NS::LAMMPS *lmp, int &iarg, int narg, char **arg)
-    : Compute(lmp, iarg, narg, arg), observer_(nullptr), name_(std::string("compute ") + style), tallied_(-1), unasked_(false) {
+    : Compute(lmp, iarg, narg, arg), observer_(nullptr), name_(std::string("compute ") + style), tallied_(-1),
+      unasked_(false) {
   timeflag = 1;
 }
 
@@ -92,8 +93,10 @@ void ContactCompute::require_known_losses() const {
 
 void ContactCompute::require_tally() const {
   if (attached() && tallied_ == update->ntimestep) return;
-  const std::string message = name_ + " " + id + ": not tallied on this step, because nobody announced it: ask through thermo, "
-                              "fix ave/time, a dump, or a variable that one of them uses, or after the last step of a run";
+  const std::string message =
+      name_ + " " + id +
+      ": not tallied on this step, because nobody announced it: ask through thermo, "
+      "fix ave/time, a dump, or a variable that one of them uses, or after the last step of a run";
   error->all(FLERR, message.c_str());
 }
 

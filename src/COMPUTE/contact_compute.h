@@ -13,12 +13,13 @@ class ContactObserver;
 struct Contact;
 struct ContactLaw;
 
-/** A compute that sees contacts: it listens to the force evaluations of the steps it is announced for, as LAMMPS announces
- *  computes (thermo, fix ave/time, dumps and variables in them do), and of the last step of every run; it refuses to answer for any other.
- *  What it gives as a whole or as rows is computed when a run ends, so that the input script can ask for it until the next run begins.
+/** A compute that sees contacts: it listens to the force evaluations of the steps it is announced for, as LAMMPS
+ *  announces computes (thermo, fix ave/time, dumps and variables in them do), and of the last step of every run; it
+ *  refuses to answer for any other. What it gives as a whole or as rows is computed when a run ends, so that the input
+ *  script can ask for it until the next run begins.
  *
- *  A measure that is made of sums declares them (`sums_over`, see contact_sums.h) and fills its outputs from them in `answer`. One that keeps
- *  contacts or grains overrides begin_contacts and add_contacts. */
+ *  A measure that is made of sums declares them (`sums_over`, see contact_sums.h) and fills its outputs from them in
+ *  `answer`. One that keeps contacts or grains overrides begin_contacts and add_contacts. */
 class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
  public:
   /** What a measure adds up. */
@@ -59,7 +60,8 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
 
   bool in_group(int i) const;
   const ContactLaw &law() const;
-  /** Errors unless the damping and friction of the contact model are known, because their powers are reported. In init(). */
+  /** Errors unless the damping and friction of the contact model are known, because their powers are reported. In
+   *  init(). */
   void require_known_losses() const;
   /** Errors unless the current step was tallied. */
   void require_tally() const;

@@ -24,8 +24,9 @@ void StrainSource::read(Arguments &arguments) {
   }
   const std::size_t open = text_.find('['), close = text_.size() - 1;
   double element = 0.0;
-  const bool element_given = text_.compare(0, 2, "f_") == 0 && open != std::string::npos && open > 2 && text_[close] == ']' &&
-      Arguments::is_number(text_.substr(open + 1, close - open - 1), element);
+  const bool element_given = text_.compare(0, 2, "f_") == 0 && open != std::string::npos && open > 2 &&
+                             text_[close] == ']' &&
+                             Arguments::is_number(text_.substr(open + 1, close - open - 1), element);
   element_ = element_given ? static_cast<int>(whole_count(element, 1e6)) - 1 : -1;
   if (element_ < 0) arguments.fail("strain", requirement, text_);
   name_ = text_.substr(2, open - 2);
@@ -37,7 +38,8 @@ void StrainSource::find_press_strain(const Arguments &errors) {
     if (fix_) errors.fail("several fixes press/strain are there: name the one that tells the strain, 'strain f_ID[1]'");
     fix_ = modify->fix[k];
   }
-  if (!fix_) errors.fail("needs to know the strain: use fix press/strain, or the keyword 'strain' with f_ID[n] or v_name");
+  if (!fix_)
+    errors.fail("needs to know the strain: use fix press/strain, or the keyword 'strain' with f_ID[n] or v_name");
 }
 
 void StrainSource::init() {
@@ -52,12 +54,14 @@ void StrainSource::find(const Arguments &errors) {
     find_press_strain(errors);
   } else if (text_[0] == 'v') {
     variable_ = input->variable->find(const_cast<char *>(name_.c_str()));
-    if (variable_ < 0 || !input->variable->equalstyle(variable_)) errors.fail("strain", "an equal-style variable that is defined", text_);
+    if (variable_ < 0 || !input->variable->equalstyle(variable_))
+      errors.fail("strain", "an equal-style variable that is defined", text_);
   } else {
     const int found = modify->find_fix(name_.c_str());
     if (found < 0) errors.fail("strain", "the element of a fix that is defined", text_);
     fix_ = modify->fix[found];
-    if (!fix_->vector_flag || element_ >= fix_->size_vector) errors.fail("strain", "an element of the fix's vector", text_);
+    if (!fix_->vector_flag || element_ >= fix_->size_vector)
+      errors.fail("strain", "an element of the fix's vector", text_);
   }
 }
 

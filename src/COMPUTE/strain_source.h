@@ -5,14 +5,16 @@
 #include "pointers.h"
 #include <string>
 
-namespace LAMMPS_NS { class Fix; }
+namespace LAMMPS_NS {
+class Fix;
+}
 
 namespace grainscope {
 
 class Arguments;
 
-/** Where a compute takes the shear strain from: an element of a fix's vector, an equal-style variable, or the strain of the deck's only
- *  fix press/strain. */
+/** Where a compute takes the shear strain from: an element of a fix's vector, an equal-style variable, or the strain of
+ *  the deck's only fix press/strain. */
 class StrainSource : private LAMMPS_NS::Pointers {
  public:
   /** `style` is for messages. */
@@ -27,9 +29,9 @@ class StrainSource : private LAMMPS_NS::Pointers {
 
  private:
   std::string style_;
-  std::string text_;          // as given; empty: fix press/strain
-  std::string name_;          // of the fix or variable
-  int element_ = 0;           // of the fix's vector, from 0
+  std::string text_;  // as given; empty: fix press/strain
+  std::string name_;  // of the fix or variable
+  int element_ = 0;   // of the fix's vector, from 0
   LAMMPS_NS::Fix *fix_ = nullptr;
   int variable_ = -1;
   bool ready_ = false;

@@ -13,7 +13,9 @@ namespace grainscope {
 std::uint64_t checksum(const void *bytes, std::size_t n);
 
 /** Its upper 53 bits, as a whole number that a double holds exactly. */
-inline double checksum_as_double(const void *bytes, std::size_t n) { return static_cast<double>(checksum(bytes, n) >> 11); }
+inline double checksum_as_double(const void *bytes, std::size_t n) {
+  return static_cast<double>(checksum(bytes, n) >> 11);
+}
 inline double checksum_as_double(const std::string &text) { return checksum_as_double(text.data(), text.size()); }
 
 }

@@ -8,8 +8,7 @@
 #include <cmath>
 
 /** Ellipsoids whose centres are one point, and what the solver takes for their normal. */
-namespace grainscope {
-namespace contact_solver {
+namespace grainscope { namespace contact_solver {
 
 inline double smallest_square(const Spheroid &body) { return std::min(body.equatorial_square, body.polar_square); }
 inline double smallest_square(const Triaxial &body) { return *std::min_element(body.square, body.square + 3); }
@@ -33,13 +32,13 @@ inline void shortest_axis(const Triaxial &body, double *n) {
 }
 
 /** Centres so close that their line has no direction. */
-template <class Body> inline bool concentric(const Body &one, const Body &two, const double *d) {
+template <class Body>
+inline bool concentric(const Body &one, const Body &two, const double *d) {
   return dot(d, d) < 1e-26 * std::min(smallest_square(one), smallest_square(two));
 }
 
 inline bool is_sphere(const Spheroid &body) { return body.polar_square == body.equatorial_square; }
 
-}
-}
+}}
 
 #endif

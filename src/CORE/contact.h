@@ -9,47 +9,49 @@
 
 namespace grainscope {
 
-/** The same contact in the previous force evaluation, kept in columns of the contact history (`pair_style gran/insitu ... ledger on`).
- *  None of it changes sign when i and j are swapped. Works are those of the half step after x_{n-1}, with the velocities before it. */
+/** The same contact in the previous force evaluation, kept in columns of the contact history (`pair_style gran/insitu
+ *  ... ledger on`). None of it changes sign when i and j are swapped. Works are those of the half step after x_{n-1},
+ *  with the velocities before it. */
 struct ContactPast {
   double overlap = 0.0;
-  double elastic_force = 0.0;            // k_n overlap
-  double tangential_stiffness = 0.0;     // k_t
-  double elastic_work = 0.0;             // taken up by the normal spring, -F_elastic u_n dt/2
-  double spring_work = 0.0;              // taken up by the tangential spring, k_t s . u_t dt/2
+  double elastic_force = 0.0;         // k_n overlap
+  double tangential_stiffness = 0.0;  // k_t
+  double elastic_work = 0.0;          // taken up by the normal spring, -F_elastic u_n dt/2
+  double spring_work = 0.0;           // taken up by the tangential spring, k_t s . u_t dt/2
 };
 
 /** The other grain of a contact. */
 struct PartnerGrain {
-  int index = -1;                        // local index; may be a ghost
-  bool ghost = false;                    // its owner sees this contact too
+  int index = -1;      // local index; may be a ghost
+  bool ghost = false;  // its owner sees this contact too
 };
 
 /** A wall that a grain touches. */
 struct PartnerWall {
-  int wall = -1;                         // number of the wall's fix, from 0
-  int triangle = -1;                     // ID of the mesh's triangle; -1 for a primitive wall
+  int wall = -1;      // number of the wall's fix, from 0
+  int triangle = -1;  // ID of the mesh's triangle; -1 for a primitive wall
 };
 
 /** How the two surfaces move against each other at the contact point, and what the contact law makes of it. */
 struct ContactMotion {
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();   // contact point
-  Eigen::Vector3d arm = Eigen::Vector3d::Zero();     // from the centre of i to the contact point; from that of j it is arm + branch
-  double normal_velocity = 0.0;                      // (v_i - v_j at the contact point) . normal, < 0 approaching
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  // contact point
+  // from the centre of i to the contact point; from that of j it is arm + branch
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();
+  double normal_velocity = 0.0;  // (v_i - v_j at the contact point) . normal, < 0 approaching
   Eigen::Vector3d tangential_velocity = Eigen::Vector3d::Zero();  // of i relative to j at the contact point
-  double normal_damping = 0.0;                       // the damping part of normal_force
-  double normal_stiffness = 0.0;                     // secant k_n: elastic force / overlap
-  double tangential_stiffness = 0.0;                 // k_t
-  double damping_coefficient = 0.0;                  // gamma_n: damping force / normal velocity
-  double tangential_damping = 0.0;                   // gamma_t, acting while `damped`
-  bool damped = false;                               // tangential damping acts: the spring was not cut
+  double normal_damping = 0.0;                                    // the damping part of normal_force
+  double normal_stiffness = 0.0;                                  // secant k_n: elastic force / overlap
+  double tangential_stiffness = 0.0;                              // k_t
+  double damping_coefficient = 0.0;                               // gamma_n: damping force / normal velocity
+  double tangential_damping = 0.0;                                // gamma_t, acting while `damped`
+  bool damped = false;                                            // tangential damping acts: the spring was not cut
 };
 
 /** The tangential spring s; its force on i is -k_t s. */
 struct ContactSpring {
   Eigen::Vector3d before = Eigen::Vector3d::Zero();  // of the evaluation
   Eigen::Vector3d after = Eigen::Vector3d::Zero();
-  Eigen::Vector3d cut = Eigen::Vector3d::Zero();     // what the friction limit cut from it
+  Eigen::Vector3d cut = Eigen::Vector3d::Zero();  // what the friction limit cut from it
 };
 
 struct ContactRolling {
@@ -61,27 +63,32 @@ struct ContactRolling {
  *  Velocities are those that entered the force (x_n, v_{n-1/2}, omega_{n-1/2}); forces are those that drove the step:
  *  per grain they sum to f. All vectors are in the laboratory frame. */
 struct Contact {
-  int i = -1;                                        // local index
+  int i = -1;  // local index
   std::variant<PartnerGrain, PartnerWall> partner;
-  double weight = 1.0;                               // 1, or 1/2 when j is a ghost: weighted sums over ranks count each contact once
+  // 1, or 1/2 when j is a ghost: weighted sums over ranks count each contact once
+  double weight = 1.0;
   Eigen::Vector3d branch = Eigen::Vector3d::Zero();  // r = x_i - x_j
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // unit, from j to i
   double overlap = 0.0;                              // normal overlap, > 0
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   // total force on i
-  double normal_force = 0.0;                         // force . normal, > 0 pushes apart; damping (and cohesion) included
+  // force . normal, > 0 pushes apart; damping (and cohesion) included
+  double normal_force = 0.0;
   Eigen::Vector3d tangential_force = Eigen::Vector3d::Zero();  // force on i less its normal part
-  double friction = 0.0;                             // mu_p of this pair of types
-  double friction_limit = 0.0;                       // mu_p times the normal force of the law: cohesion may be no part of it
-  Eigen::Vector3d friction_force = Eigen::Vector3d::Zero();    // tangential_force less the drag of a liquid bridge, which no friction limits
-  bool sliding = false;                              // the tangential spring was cut (friction limit reached) in this evaluation;
-                                                     // in the first of a run also: damping takes the force to the limit or beyond
-  double slip = 0.0;                                 // length cut from the spring, >= 0
+  double friction = 0.0;                                       // mu_p of this pair of types
+  // mu_p times the normal force of the law: cohesion may be no part of it
+  double friction_limit = 0.0;
+  // tangential_force less the drag of a liquid bridge, which no friction limits
+  Eigen::Vector3d friction_force = Eigen::Vector3d::Zero();
+  // the tangential spring was cut (friction limit reached) in this evaluation; in the first of a run also: damping
+  // takes the force to the limit or beyond
+  bool sliding = false;
+  double slip = 0.0;  // length cut from the spring, >= 0
 
-  std::optional<ContactMotion> motion;               // when a sink needs it (ContactSink::needs_motion)
+  std::optional<ContactMotion> motion;  // when a sink needs it (ContactSink::needs_motion)
   // With `ledger on` only
-  std::optional<ContactPast> past;                   // of contacts that touched in the previous evaluation
-  std::optional<ContactSpring> spring;               // of a law that has one
-  std::optional<ContactRolling> rolling;             // of a law with a rolling model
+  std::optional<ContactPast> past;        // of contacts that touched in the previous evaluation
+  std::optional<ContactSpring> spring;    // of a law that has one
+  std::optional<ContactRolling> rolling;  // of a law with a rolling model
 
   bool with_wall() const { return std::holds_alternative<PartnerWall>(partner); }
   /** Local index of the other grain; a contact with a wall has none. */

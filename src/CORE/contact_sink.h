@@ -13,12 +13,15 @@ class ContactSink {
   class Source {
    public:
     virtual void remove(ContactSink *sink) = 0;
+
    protected:
     ~Source() {}
   };
 
   ContactSink() : source_(nullptr) {}
-  virtual ~ContactSink() { if (source_) source_->remove(this); }
+  virtual ~ContactSink() {
+    if (source_) source_->remove(this);
+  }
   ContactSink(const ContactSink &) = delete;
   ContactSink &operator=(const ContactSink &) = delete;
 
@@ -31,7 +34,8 @@ class ContactSink {
   virtual bool needs_motion() const { return true; }
   /** True if image shifts of ghosts must be known during the evaluation. */
   virtual bool needs_images() const { return false; }
-  /** A run has ended: results of the last evaluation are to be computed now, while grains are as they were then. Called on every rank alike. */
+  /** A run has ended: results of the last evaluation are to be computed now, while grains are as they were then. Called
+   *  on every rank alike. */
   virtual void end_run() {}
 
   void set_source(Source *source) { source_ = source; }

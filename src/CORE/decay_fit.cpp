@@ -36,7 +36,8 @@ struct Squares {
   }
 };
 
-/** Logarithms of two lengths with every finite minimum between them: each square alone is least at -r/ln c, or grows to the end. */
+/** Logarithms of two lengths with every finite minimum between them: each square alone is least at -r/ln c, or grows to
+ *  the end. */
 std::pair<double, double> search_range(const Squares &squares) {
   const double endless = 1e17;
   double shortest = endless, longest = 0.0;
@@ -54,9 +55,10 @@ double root(const Squares &squares, double a, double slope_a, double b, double s
   if (slope_b == 0.0) return b;
   std::uintmax_t iterations = 200;
   const boost::math::tools::eps_tolerance<double> tolerance(std::numeric_limits<double>::digits);
-  const auto bracket = boost::math::tools::toms748_solve([&](double x) { return squares.slope(x); }, a, b, slope_a, slope_b, tolerance,
-                                                         iterations);
-  return std::fabs(squares.slope(bracket.first)) < std::fabs(squares.slope(bracket.second)) ? bracket.first : bracket.second;
+  const auto bracket = boost::math::tools::toms748_solve([&](double x) { return squares.slope(x); }, a, b, slope_a,
+                                                         slope_b, tolerance, iterations);
+  return std::fabs(squares.slope(bracket.first)) < std::fabs(squares.slope(bracket.second)) ? bracket.first
+                                                                                            : bracket.second;
 }
 
 /** The length of the least sum of squares; 0 when none is better than an endless one, or none but lengths as good as

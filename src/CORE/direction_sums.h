@@ -9,14 +9,20 @@
 
 namespace grainscope {
 
-/** Contacts binned by the angle beta of their normal in a plane, Bilotto et al. 2025, Eq. (F1). Bins are from 0 to pi: beta and beta + pi are
- *  one line, and the component of F_t along (-sin beta, cos beta) is the same for both grains. */
+/** Contacts binned by the angle beta of their normal in a plane, Bilotto et al. 2025, Eq. (F1). Bins are from 0 to pi:
+ *  beta and beta + pi are one line, and the component of F_t along (-sin beta, cos beta) is the same for both
+ *  grains. */
 class DirectionSums {
  public:
-  struct Bin { double contacts, normal, tangential, along; };
+  struct Bin {
+    double contacts, normal, tangential, along;
+  };
 
   /** `flow`, `gradient`: the axes that beta is measured from and towards. */
-  explicit DirectionSums(int flow = 0, int gradient = 1, int bins = 36) : flow_(flow), gradient_(gradient), bins_(bins) { reset(); }
+  explicit DirectionSums(int flow = 0, int gradient = 1, int bins = 36)
+      : flow_(flow), gradient_(gradient), bins_(bins) {
+    reset();
+  }
 
   int bins() const { return bins_; }
   double width() const { return M_PI / bins_; }

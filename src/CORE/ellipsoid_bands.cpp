@@ -11,7 +11,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/** Area per dpsi dphi at the direction (psi, phi) as seen from the centre: |A u| / (u A u)^2 sin psi, A = diag(1/a^2, 1/b^2, 1/c^2). */
+/** Area per dpsi dphi at the direction (psi, phi) as seen from the centre: |A u| / (u A u)^2 sin psi, A = diag(1/a^2,
+ *  1/b^2, 1/c^2). */
 double polar_element(const Vector3d &s, double psi, double phi) {
   const Vector3d u(std::sin(psi) * std::cos(phi), std::sin(psi) * std::sin(phi), std::cos(psi));
   const Vector3d au = u.cwiseQuotient(s.cwiseAbs2());
@@ -22,7 +23,9 @@ double polar_element(const Vector3d &s, double psi, double phi) {
 /** Area per dpsi dphi at the point (a sin psi cos phi, b sin psi sin phi, c cos psi). */
 double parametric_element(const Vector3d &s, double psi, double phi) {
   const double sine = std::sin(psi);
-  return sine * Vector3d(s[1] * s[2] * sine * std::cos(phi), s[0] * s[2] * sine * std::sin(phi), s[0] * s[1] * std::cos(psi)).norm();
+  return sine *
+         Vector3d(s[1] * s[2] * sine * std::cos(phi), s[0] * s[2] * sine * std::sin(phi), s[0] * s[1] * std::cos(psi))
+             .norm();
 }
 
 /** The angle of the point (x cos t, y sin t), and its derivative by t. */
@@ -52,7 +55,8 @@ std::vector<double> band_areas(const Vector3d &semi_axes, int bands, SurfaceAngl
   const bool round = semi_axes[0] == semi_axes[1];
   const bool polar = angle == SurfaceAngle::polar;
   const double across = round ? semi_axes[0] : std::sqrt(semi_axes[0] * semi_axes[1]), flatness = semi_axes[2] / across;
-  // Polar angles are reached through parametric ones, in which elements change slowly however long or flat the grain is.
+  // Polar angles are reached through parametric ones, in which elements change slowly however long or flat the grain
+  // is.
   const auto edge = [&](int k) {
     const double psi = k * M_PI_2 / bands;
     return polar ? std::atan2(flatness * std::sin(psi), std::cos(psi)) : psi;
@@ -61,10 +65,12 @@ std::vector<double> band_areas(const Vector3d &semi_axes, int bands, SurfaceAngl
     if (round) return M_PI_2 * parametric_element(semi_axes, tau, 0.0);
     if (!polar) return integral([&](double phi) { return parametric_element(semi_axes, tau, phi); }, 0.0, M_PI_2);
     const Stretched psi(tau, across, semi_axes[2]);
-    return psi.slope * integral([&](double t) {
-      const Stretched phi(t, semi_axes[1], semi_axes[0]);
-      return phi.slope * polar_element(semi_axes, psi.angle, phi.angle);
-    }, 0.0, M_PI_2);
+    return psi.slope * integral(
+                           [&](double t) {
+                             const Stretched phi(t, semi_axes[1], semi_axes[0]);
+                             return phi.slope * polar_element(semi_axes, psi.angle, phi.angle);
+                           },
+                           0.0, M_PI_2);
   };
   std::vector<double> areas(bands);
   for (int k = 0; k < bands; k++) areas[k] = 8.0 * integral(ring, edge(k), edge(k + 1));  // eight octants

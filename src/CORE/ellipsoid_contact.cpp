@@ -15,17 +15,19 @@ namespace {
 using namespace contact_solver;
 
 /** EllipsoidContact, or several side by side. */
-template <class Real> struct Answer {
+template <class Real>
+struct Answer {
   using Mask = typename MaskOf<Real>::type;
   Mask touching, apart, unsettled;
   Real lambda, normal[3], point[3], depth[2], curvature[2], gap, steps;
 };
 
-/** The solver, for one pair or for several side by side; a lane that has found its answer keeps it, whatever the others still need.
- *  Those that have not settled in `most_steps` are `unsettled`, and answered as far as they got. */
+/** The solver, for one pair or for several side by side; a lane that has found its answer keeps it, whatever the others
+ *  still need. Those that have not settled in `most_steps` are `unsettled`, and answered as far as they got. */
 template <class Pair>
-GRAINSCOPE_INLINE void solve(const typename Pair::Body &one, const typename Pair::Body &two, const typename Pair::Real *d,
-                             typename Pair::Real start, double tolerance, int most_steps, Answer<typename Pair::Real> &answer) {
+GRAINSCOPE_INLINE void solve(const typename Pair::Body &one, const typename Pair::Body &two,
+                             const typename Pair::Real *d, typename Pair::Real start, double tolerance, int most_steps,
+                             Answer<typename Pair::Real> &answer) {
   using Real = typename Pair::Real;
   using Mask = typename MaskOf<Real>::type;
   const Mask cold = !((start > 0.0) & (start < 1.0));
@@ -48,7 +50,8 @@ GRAINSCOPE_INLINE void solve(const typename Pair::Body &one, const typename Pair
   for (int round = 1;; round++) {
     pair.evaluate(lambda, now);
     if (round == 1) kept = now;
-    const Real ab = root(now.support1 * now.support2), sum2 = now.support1 + now.support2 + 2.0 * ab, dp = dot(d, now.p);
+    const Real ab = root(now.support1 * now.support2), sum2 = now.support1 + now.support2 + 2.0 * ab,
+               dp = dot(d, now.p);
     const Mask out = open & (dp * dp > sum2);  // p is a separating axis: d.p > a + b, a and b the roots of the supports
     if (any(out)) {
       answer.gap = pick(out, (dp - root(sum2)) / root(dot(now.p, now.p)), answer.gap);
@@ -65,14 +68,16 @@ GRAINSCOPE_INLINE void solve(const typename Pair::Body &one, const typename Pair
     pair.differentiate(now, product1, product2);
     const Real slope = ab / (ab * sum2 - (product1 * now.support2 - product2 * now.support1)), step = off * slope;
     Real next = lambda + step;
-    const Mask settled = open & (absolute(step) <= tolerance * least(lambda, m)), bracketed = (next > low) & (next < high);
+    const Mask settled = open & (absolute(step) <= tolerance * least(lambda, m)),
+               bracketed = (next > low) & (next < high);
     if (round == most_steps) answer.unsettled = open & !settled;
     const Mask last = settled | answer.unsettled;
     answer.steps = pick(open, answer.steps + 1.0, answer.steps);
     if (any(last)) {  // the supports there, to second order, tell how far off the root still is
       Real again1, again2;
       pair.differentiate_again(now, again1, again2);
-      const Real a2 = now.support1 + step * (2.0 * product1 + step * again1), b2 = now.support2 + step * (2.0 * product2 + step * again2);
+      const Real a2 = now.support1 + step * (2.0 * product1 + step * again1),
+                 b2 = now.support2 + step * (2.0 * product2 + step * again2);
       const Real rest = ((1.0 - next) * a2 - next * b2 + (1.0 - 2.0 * next) * root(a2 * b2)) * slope;
       pair.advance(now, pick(settled, step + rest, Real{}), moved);
       keep(last, moved, kept);
@@ -112,7 +117,8 @@ inline bool is_sound(const EllipsoidContact &c) {
 
 /** One lane's answer. Of those that do not touch, only what is defined. */
 template <class Real>
-GRAINSCOPE_INLINE void unpack(const Answer<Real> &answer, int lane, bool touching, bool unsettled, EllipsoidContact &c) {
+GRAINSCOPE_INLINE void unpack(const Answer<Real> &answer, int lane, bool touching, bool unsettled,
+                              EllipsoidContact &c) {
   c = EllipsoidContact{};
   c.touching = touching;
   c.steps = static_cast<int>(number(answer.steps, lane));
@@ -130,8 +136,8 @@ GRAINSCOPE_INLINE void unpack(const Answer<Real> &answer, int lane, bool touchin
 }
 
 template <class Pair, class Body, class Pose>
-EllipsoidContact regular_contact(const Body &one, const Body &two, const Pose &pose1, const Pose &pose2, const double *d, double start,
-                                 double tolerance) {
+EllipsoidContact regular_contact(const Body &one, const Body &two, const Pose &pose1, const Pose &pose2,
+                                 const double *d, double start, double tolerance) {
   const bool no_direction = concentric(one, two, d);
   double n[3];
   if (no_direction) {  // any would do; theirs is the shortest way out of the thinner one
@@ -147,8 +153,8 @@ EllipsoidContact regular_contact(const Body &one, const Body &two, const Pose &p
 }
 
 inline SpheroidOf<double> pose_of(const Spheroid &body) {
-  return {{body.u[0], body.u[1], body.u[2]}, body.equatorial_square, body.polar_square, body.inverse_equatorial_square,
-          body.inverse_polar_square, body.inverse_product};
+  return {{body.u[0], body.u[1], body.u[2]}, body.equatorial_square,    body.polar_square,
+          body.inverse_equatorial_square,    body.inverse_polar_square, body.inverse_product};
 }
 
 inline void set_shape(const Spheroid &body, int lane, SpheroidOf<Lanes> &lanes) {
@@ -164,8 +170,8 @@ constexpr double TOLERANCE = 3e-5;
 constexpr int LANE_STEPS = 6;  // those that need more are asked again, alone
 
 /** LANES pairs, from spheroids by rows of components. */
-GRAINSCOPE_CLONES void solve_lanes(const SpheroidOf<Lanes> &one, const SpheroidOf<Lanes> &two, const Lanes *d, const Lanes &start,
-                                   Answer<Lanes> &answer) {
+GRAINSCOPE_CLONES void solve_lanes(const SpheroidOf<Lanes> &one, const SpheroidOf<Lanes> &two, const Lanes *d,
+                                   const Lanes &start, Answer<Lanes> &answer) {
   solve<SpheroidPair<Lanes>>(one, two, d, start, TOLERANCE, LANE_STEPS, answer);
 }
 
@@ -194,7 +200,8 @@ Triaxial make_triaxial(const double semi_axes[3], const double quaternion[4]) {
 }
 
 template <>
-EllipsoidContact ellipsoid_contact(const Spheroid &one, const Spheroid &two, const double d[3], double start, double tolerance) {
+EllipsoidContact ellipsoid_contact(const Spheroid &one, const Spheroid &two, const double d[3], double start,
+                                   double tolerance) {
   if (is_sphere(one) && is_sphere(two) && !concentric(one, two, d)) {
     EllipsoidContact c = sphere_contact(root(one.equatorial_square), root(two.equatorial_square), d, dot(d, d));
     c.fallback = !is_sound(c);
@@ -204,7 +211,8 @@ EllipsoidContact ellipsoid_contact(const Spheroid &one, const Spheroid &two, con
 }
 
 template <>
-EllipsoidContact ellipsoid_contact(const Triaxial &one, const Triaxial &two, const double d[3], double start, double tolerance) {
+EllipsoidContact ellipsoid_contact(const Triaxial &one, const Triaxial &two, const double d[3], double start,
+                                   double tolerance) {
   return regular_contact<TriaxialPair>(one, two, one, two, d, start, tolerance);
 }
 
@@ -212,7 +220,8 @@ void ellipsoid_contacts(int n, const EllipsoidPair *pairs, EllipsoidContact *con
   for (int first = 0; first < n; first += LANES) {
     const int many = std::min(LANES, n - first);
     if (many < 3) {  // not worth the lanes
-      for (int k = first; k < n; k++) contacts[k] = ellipsoid_contact(*pairs[k].one, *pairs[k].two, pairs[k].d, pairs[k].start, TOLERANCE);
+      for (int k = first; k < n; k++)
+        contacts[k] = ellipsoid_contact(*pairs[k].one, *pairs[k].two, pairs[k].d, pairs[k].start, TOLERANCE);
       return;
     }
     SpheroidOf<Lanes> one, two;
@@ -231,7 +240,8 @@ void ellipsoid_contacts(int n, const EllipsoidPair *pairs, EllipsoidContact *con
     if (together) solve_lanes(one, two, d, start, answer);
     for (int k = 0; k < many; k++) {
       const EllipsoidPair &pair = pairs[first + k];
-      if (alone[k] || answer.unsettled[k]) contacts[first + k] = ellipsoid_contact(*pair.one, *pair.two, pair.d, pair.start, TOLERANCE);
+      if (alone[k] || answer.unsettled[k])
+        contacts[first + k] = ellipsoid_contact(*pair.one, *pair.two, pair.d, pair.start, TOLERANCE);
       else unpack(answer, k, answer.touching[k], false, contacts[first + k]);
     }
   }

@@ -7,7 +7,7 @@ namespace grainscope {
 /** A spheroid or sphere as the contact solver wants it: semi-axes a along u and b across it, in any one unit of length;
  *  B = b^2 I + (a^2 - b^2) u u^T. */
 struct Spheroid {
-  double u[3];        // unit vector of the symmetry axis
+  double u[3];                             // unit vector of the symmetry axis
   double equatorial_square, polar_square;  // b^2, a^2
   double inverse_equatorial_square, inverse_polar_square;
   double inverse_product;  // of the three semi-axes
@@ -32,9 +32,10 @@ inline void rotated_axis(const double q[4], int k, double axis[3]) {
 Spheroid make_spheroid(const double semi_axes[3], const double quaternion[4]);
 Triaxial make_triaxial(const double semi_axes[3], const double quaternion[4]);
 
-/** Where two ellipsoids meet. Perram & Wertheim (1985), doi:10.1016/0021-9991(85)90171-8: with C = (1 - lambda) B1 + lambda B2
- *  and p = C^-1 d, the contact function d.p lambda (1 - lambda) is largest where (1 - lambda) sqrt(p.B1 p) = lambda sqrt(p.B2 p).
- *  That point is also where G1 + G2 is least on G1 = G2, G_k = (x - x_k).B_k^-1 (x - x_k) - 1, which is LIGGGHTS's definition. */
+/** Where two ellipsoids meet. Perram & Wertheim (1985), doi:10.1016/0021-9991(85)90171-8: with C = (1 - lambda) B1 +
+ *  lambda B2 and p = C^-1 d, the contact function d.p lambda (1 - lambda) is largest where (1 - lambda) sqrt(p.B1 p) =
+ *  lambda sqrt(p.B2 p). That point is also where G1 + G2 is least on G1 = G2, G_k = (x - x_k).B_k^-1 (x - x_k) - 1,
+ *  which is LIGGGHTS's definition. */
 struct EllipsoidContact {
   bool touching;
   bool fallback;     // the answer is not the regular one: concentric, the iteration did not settle, or it is no number
@@ -44,15 +45,17 @@ struct EllipsoidContact {
   double point[3];   // contact point from the centre of 1
   double depth[2];   // from the contact point to the surface of 1 along the normal, and to that of 2 against it; >= 0
   double curvature[2];  // root of the Gaussian curvature of each, where that line meets its surface [1/length]
-  double gap;        // of ellipsoids that do not touch: a lower bound of their distance; else 0
+  double gap;           // of ellipsoids that do not touch: a lower bound of their distance; else 0
 };
 
 constexpr int ELLIPSOID_STEPS = 60;
 
-/** d = x2 - x1. `start` is the lambda of a similar configuration, or 0 for none. The relative error of lambda is about `tolerance`^3:
- *  the last step is carried over to the answer to second order. Normal, point, depth and curvature are set only for those that touch. */
+/** d = x2 - x1. `start` is the lambda of a similar configuration, or 0 for none. The relative error of lambda is about
+ *  `tolerance`^3: the last step is carried over to the answer to second order. Normal, point, depth and curvature are
+ *  set only for those that touch. */
 template <class Body>
-EllipsoidContact ellipsoid_contact(const Body &one, const Body &two, const double d[3], double start, double tolerance = 3e-5);
+EllipsoidContact ellipsoid_contact(const Body &one, const Body &two, const double d[3], double start,
+                                   double tolerance = 3e-5);
 
 struct EllipsoidPair {
   const Spheroid *one, *two;
@@ -62,7 +65,8 @@ struct EllipsoidPair {
 /** Many pairs at once, several side by side: the same answers to the last bit, sooner. */
 void ellipsoid_contacts(int n, const EllipsoidPair *pairs, EllipsoidContact *contacts);
 
-/** Curvatures at a point y on the surface, from the centre: the Gaussian one [1/length^2] and the mean one [1/length]. */
+/** Curvatures at a point y on the surface, from the centre: the Gaussian one [1/length^2] and the mean one
+ *  [1/length]. */
 template <class Body>
 double gaussian_curvature(const Body &body, const double y[3]);
 template <class Body>

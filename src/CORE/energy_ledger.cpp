@@ -30,7 +30,8 @@ double of_overlap(double overlap, double exponent) {
   return exponent == 1.5 ? std::sqrt(overlap) : exponent == 1.0 ? 1.0 : std::pow(overlap, exponent - 1.0);
 }
 
-/** As it would be had the velocities of the edges not been changed: those that keep a shear rate grow with the box, lengths move on. */
+/** As it would be had the velocities of the edges not been changed: those that keep a shear rate grow with the box,
+ *  lengths move on. */
 LedgerFrame carried(const LedgerFrame &before, const LedgerFrame &after) {
   LedgerFrame frame = after;
   frame.velocity_gradient = before.velocity_gradient;
@@ -123,7 +124,8 @@ void EnergyLedger::add(const Contact &c, double dt, bool springs_move) {
   add_part(elastic, elastic_force, normal, of_i, of_j);
   add_part(damping, m.normal_damping, normal, of_i, of_j);
   if (slot_[spring] >= 0) {
-    // In the first evaluation of a run the host does not turn springs into the contact plane: they may push along the normal too.
+    // In the first evaluation of a run the host does not turn springs into the contact plane: they may push along the
+    // normal too.
     Vector3d force = c.force - (elastic_force + m.normal_damping) * c.normal;
     if (law_.viscous && m.damped) {
       const Vector3d viscous_force = -m.tangential_damping * m.tangential_velocity;
@@ -161,7 +163,9 @@ void EnergyLedger::end_of_step(const Grain &g, const double omega[3], const doub
 }
 
 /** Taken from the grains in the half step before an evaluation. */
-double EnergyLedger::half_work(const Contacts &contacts, int part, double dt) { return -0.5 * dt * contacts.sums[part][power_place]; }
+double EnergyLedger::half_work(const Contacts &contacts, int part, double dt) {
+  return -0.5 * dt * contacts.sums[part][power_place];
+}
 
 void EnergyLedger::book_step(double dt) {
   Entries step{};
@@ -179,7 +183,8 @@ void EnergyLedger::book_step(double dt) {
   step[D_n] = work[damping];
   step[D_damp] = work[viscous];
   step[D_rolling] = work[rolling];
-  const double path = contacts_.elastic_path + contacts_.new_elastic + half_work(before_, elastic, dt) - contacts_.kept_elastic;
+  const double path =
+      contacts_.elastic_path + contacts_.new_elastic + half_work(before_, elastic, dt) - contacts_.kept_elastic;
   step[G_n] = work[elastic] - path;
   step[G_dt] = path - (contacts_.normal_energy - before_.normal_energy);
   if (law_.spring) {
@@ -213,7 +218,9 @@ GRAINSCOPE_CLONES
 void EnergyLedger::start_of_step(const Grain &g, const double omega_after[3], const double momentum[3], double dt) {
   const Map<const Vector3d> x(g.x), v(g.v), force(g.force), torque(g.torque), spin(omega_after);
   const Vector3d kick = 0.5 * dt / g.mass * force, flow = next_.flow(x), now = v - flow, p = now + kick;
-  const auto kinetic = [&](const Vector3d &peculiar) { return 0.5 * g.mass * (peculiar.squaredNorm() - kick.squaredNorm()); };
+  const auto kinetic = [&](const Vector3d &peculiar) {
+    return 0.5 * g.mass * (peculiar.squaredNorm() - kick.squaredNorm());
+  };
   starts_.k_new += kinetic(now);
   if (driven_) starts_.k_carried += kinetic(v - carried_.flow(x));
   if (moved_) starts_.k_old += kinetic(v - frame_.flow(x));
@@ -231,7 +238,8 @@ void EnergyLedger::start_of_step(const Grain &g, const double omega_after[3], co
   }
   add_to(starts_.other, other);
 
-  // The coming drift in the frame: told before it, because a grain that is wrapped afterwards takes on another velocity.
+  // The coming drift in the frame: told before it, because a grain that is wrapped afterwards takes on another
+  // velocity.
   const Vector3d after = p + flow, drift = dt * next_.gradient_times(after), middle = g.mass * (p - 0.5 * drift);
   const double all = drift.dot(middle), box = dt * next_.velocity_gradient.diagonal().cwiseProduct(after).dot(middle);
   starts_.box -= box;
@@ -240,7 +248,8 @@ void EnergyLedger::start_of_step(const Grain &g, const double omega_after[3], co
 
 void EnergyLedger::book_start(double dt) {
   for (int k = 0; k < parts; k++) {
-    const double flow = on_diagonal(next_.velocity_gradient, contacts_.sums[k]) + off_diagonal(next_.velocity_gradient, contacts_.sums[k]);
+    const double flow = on_diagonal(next_.velocity_gradient, contacts_.sums[k]) +
+                        off_diagonal(next_.velocity_gradient, contacts_.sums[k]);
     starts_.work[k] = -0.5 * dt * (sum_of_three(starts_.rate[k]) + flow);
   }
   cleared_ = true;

@@ -32,7 +32,9 @@ EnergyLedger::State EnergyLedger::state() const {
 
 void EnergyLedger::restore(const State &state, const LedgerFrame &frame) {
   auto at = state.begin();
-  const auto take = [&at](auto &numbers) { for (double &one : numbers) one = *at++; };
+  const auto take = [&at](auto &numbers) {
+    for (double &one : numbers) one = *at++;
+  };
   between_.fill(0.0);
   take(totals_);
   take(last_);

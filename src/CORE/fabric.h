@@ -29,9 +29,10 @@ struct ContactMoment {
   double weight, distance, normal_force, tangential_force;
 };
 
-/** The tensors of LAMMPS's compute fabric (Ouadfel & Rothenburg 2001), with the true contact normal n and r = |x_i - x_j|:
- *  a = 15/2 (F - 1/3), w = 1/(1 + a:nn), and the sums of w r n n, w f_n n n, w |F_t| n n over contacts, each once. The mean over
- *  contacts that the definition asks for cancels in the tensors. */
+/** The tensors of LAMMPS's compute fabric (Ouadfel & Rothenburg 2001), with the true contact normal n and
+ *  r = |x_i - x_j|:
+ *  a = 15/2 (F - 1/3), w = 1/(1 + a:nn), and the sums of w r n n, w f_n n n, w |F_t| n n over contacts, each once. The
+ *  mean over contacts that the definition asks for cancels in the tensors. */
 struct WeightedFabricSums {
   // branch, normal force, tangential force: xx yy zz xy xz yz each; then contacts with 1 + a:nn = 0 (within 1e-10)
   std::array<double, 19> sums{};
@@ -39,7 +40,8 @@ struct WeightedFabricSums {
   /** `fabric`: <n n> of all contacts. */
   void add(const ContactMoment &m, const Eigen::Matrix3d &fabric);
   double singular() const { return sums[18]; }
-  /** Traceless, 15/(2 tr D) (D - tr D/3). All three are zero where their trace is, or with a contact where 1 + a:nn = 0. */
+  /** Traceless, 15/(2 tr D) (D - tr D/3). All three are zero where their trace is, or with a contact where 1 + a:nn =
+   *  0. */
   Eigen::Matrix3d branch() const;
   /** 15/(2 tr N) (N - tr N/3). */
   Eigen::Matrix3d normal_force() const;

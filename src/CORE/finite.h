@@ -8,8 +8,8 @@
 
 namespace grainscope {
 
-/** Whether none of n numbers is NaN or infinite: such have all bits of the exponent set, and adding one more carries into the sign's place. Integers,
- *  so that the loop runs on several numbers at once. */
+/** Whether none of n numbers is NaN or infinite: such have all bits of the exponent set, and adding one more carries
+ *  into the sign's place. Integers, so that the loop runs on several numbers at once. */
 inline bool all_finite(const double *values, std::size_t n) {
   std::uint64_t carried = 0;
   for (std::size_t k = 0; k < n; k++) {

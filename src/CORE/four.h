@@ -8,7 +8,8 @@
 
 namespace grainscope {
 
-/** Four numbers side by side, wherever the allocator put them: not through a reference, which clang takes for aligned. */
+/** Four numbers side by side, wherever the allocator put them: not through a reference, which clang takes for
+ *  aligned. */
 typedef double Four __attribute__((vector_size(32)));
 GRAINSCOPE_INLINE Four four_at(const double *memory) {
   Four four;
@@ -18,7 +19,8 @@ GRAINSCOPE_INLINE Four four_at(const double *memory) {
 GRAINSCOPE_INLINE void put(const Four &four, double *memory) { std::memcpy(memory, &four, sizeof four); }
 GRAINSCOPE_INLINE void add_to(double *memory, const Four &four) { put(four_at(memory) + four, memory); }
 GRAINSCOPE_INLINE void take_from(double *memory, const Four &four) { put(four_at(memory) - four, memory); }
-/** The fourth repeats the third, and is read by nobody. (A zero there would be cheap too, but by an instruction that valgrind does not know.) */
+/** The fourth repeats the third, and is read by nobody. (A zero there would be cheap too, but by an instruction that
+ *  valgrind does not know.) */
 GRAINSCOPE_INLINE Four four_of(double x, double y, double z) { return Four{x, y, z, z}; }
 GRAINSCOPE_INLINE Four four_of(const Eigen::Vector3d &v) { return four_of(v[0], v[1], v[2]); }
 GRAINSCOPE_INLINE Four four_times(double x) { return Four{x, x, x, x}; }

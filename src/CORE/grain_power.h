@@ -8,8 +8,9 @@
 
 namespace grainscope {
 
-/** Collects one kind of contact force per grain (force and torque), to be paired later with velocities that the contact loop does
- *  not know: those at the END of the step. A ghost partner's velocity differs from its owner's by the velocity of its image,
+/** Collects one kind of contact force per grain (force and torque), to be paired later with velocities that the contact
+ *  loop does not know: those at the END of the step. A ghost partner's velocity differs from its owner's by the
+ *  velocity of its image,
  *  V = dH/dt . shift; that part is summed contact by contact. */
 class GrainPower {
  public:
@@ -20,15 +21,16 @@ class GrainPower {
   }
 
   /** Force on i at the contact point and its opposite on j; `image_velocity` is that of a ghost j, else ignored. */
-  void add(const Contact &c, const Eigen::Vector3d &force, const Eigen::Vector3d &lever_i, const Eigen::Vector3d &lever_j,
-           const Eigen::Vector3d &image_velocity) {
+  void add(const Contact &c, const Eigen::Vector3d &force, const Eigen::Vector3d &lever_i,
+           const Eigen::Vector3d &lever_j, const Eigen::Vector3d &image_velocity) {
     used_ = true;
     add_wrench(c.i, force, lever_i);
     if (c.ghost()) image_power_ += c.weight * force.dot(image_velocity);
     else add_wrench(c.j(), -force, lever_j);
   }
 
-  /** Power of the collected forces with these velocities, over this rank's grains; the sum over ranks is sum F . (v_i - v_j). */
+  /** Power of the collected forces with these velocities, over this rank's grains; the sum over ranks is sum F . (v_i -
+   *  v_j). */
   double power(const double *const *v, const double *const *omega) const {
     if (!used_) return 0.0;
     double sum = -image_power_;

@@ -39,7 +39,8 @@ int fast_length(int at_least) {
 
 std::array<int, 3> mesh_size(const PeriodicCell &cell, const DistanceBins &bins, int per_bin, double most) {
   std::array<double, 3> wanted;
-  for (int k = 0; k < 3; k++) wanted[k] = std::ceil(per_bin * cell.height(k) / bins.width() - 1e-6);  // rounding must not add a cell
+  // rounding must not add a cell
+  for (int k = 0; k < 3; k++) wanted[k] = std::ceil(per_bin * cell.height(k) / bins.width() - 1e-6);
   std::array<int, 3> size;
   bool too_many = !(wanted[0] * wanted[1] * wanted[2] <= most);
   for (int k = 0; k < 3; k++) {
@@ -57,8 +58,8 @@ std::array<int, 3> LagMesh::cell_of(const PointValues &points, std::size_t i) co
   return cell;
 }
 
-void add_lags(const PeriodicCell &cell, const LagMesh &mesh, const double *correlation, bool whole, const DistanceBins &bins,
-              std::vector<double> &sums) {
+void add_lags(const PeriodicCell &cell, const LagMesh &mesh, const double *correlation, bool whole,
+              const DistanceBins &bins, std::vector<double> &sums) {
   const NearestImages images(cell, bins.range);
   const double range2 = bins.range * bins.range, per_length = 1.0 / bins.width();
   const int n = mesh.size[2];

@@ -5,7 +5,8 @@
 #include <cmath>
 
 // The widest vectors of the processor that the program finds itself on.
-#if defined(__x86_64__) && defined(__GNUC__) && defined(__GLIBC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__x86_64__) && defined(__GNUC__) && defined(__GLIBC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__)
 #define GRAINSCOPE_CLONES __attribute__((flatten, target_clones("avx512f", "avx2", "default")))
 #else
 #define GRAINSCOPE_CLONES
@@ -13,8 +14,9 @@
 
 namespace grainscope {
 
-/** Several numbers side by side, worked on at once: what a kernel written for `Real` becomes with Real = Lanes. Every lane goes through the
- *  same IEEE operations as a double would, so results are equal to the last bit, whatever vectors the processor has. */
+/** Several numbers side by side, worked on at once: what a kernel written for `Real` becomes with Real = Lanes. Every
+ *  lane goes through the same IEEE operations as a double would, so results are equal to the last bit, whatever vectors
+ *  the processor has. */
 constexpr int LANES = 8;
 typedef double Lanes __attribute__((vector_size(8 * LANES)));
 typedef long long LaneMask __attribute__((vector_size(8 * LANES)));
@@ -38,9 +40,16 @@ GRAINSCOPE_INLINE bool any(LaneMask condition) {
   return some != 0;
 }
 
-template <class Real> struct MaskOf;
-template <> struct MaskOf<double> { using type = bool; };
-template <> struct MaskOf<Lanes> { using type = LaneMask; };
+template <class Real>
+struct MaskOf;
+template <>
+struct MaskOf<double> {
+  using type = bool;
+};
+template <>
+struct MaskOf<Lanes> {
+  using type = LaneMask;
+};
 
 }
 

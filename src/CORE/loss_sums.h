@@ -10,9 +10,9 @@ namespace grainscope {
 /** Sums over contacts of what is lost, Bilotto et al. 2025, Eq. (4). */
 struct LossSums {
   enum class Of {
-    powers,    // at this instant
-    slip,      // what friction takes, |F_t| slip, an energy; damping is not summed
-    contacts   // nothing but their number
+    powers,   // at this instant
+    slip,     // what friction takes, |F_t| slip, an energy; damping is not summed
+    contacts  // nothing but their number
   } of = Of::powers;
   enum { normal_damping, friction, tangential_damping, contacts, sliding };
   std::array<double, 5> sums{};
@@ -25,7 +25,8 @@ struct LossSums {
     if (of != Of::powers) return;
     sums[normal_damping] += c.weight * damping_loss(c);
     sums[friction] += c.weight * friction_loss(c);
-    if (c.motion->damped) sums[tangential_damping] += c.weight * c.motion->tangential_damping * c.motion->tangential_velocity.squaredNorm();
+    if (c.motion->damped)
+      sums[tangential_damping] += c.weight * c.motion->tangential_damping * c.motion->tangential_velocity.squaredNorm();
   }
   std::array<double, 5> &numbers() { return sums; }
 };

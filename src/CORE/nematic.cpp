@@ -12,7 +12,8 @@ void NematicSums::add_axis(const Eigen::Vector3d &p, Shape shape) {
   if (shape == Shape::oblate) sums[10] += 1.0;
   const double in_plane = p[0] * p[0] + p[1] * p[1];
   if (in_plane < 1e-18) return;
-  const double sign = shape == Shape::oblate ? -1.0 : 1.0;  // the major axis lies at right angles to p: 2 theta turns by pi
+  // the major axis lies at right angles to p: 2 theta turns by pi
+  const double sign = shape == Shape::oblate ? -1.0 : 1.0;
   sums[7] += sign * (p[0] * p[0] - p[1] * p[1]) / in_plane;
   sums[8] += sign * 2.0 * p[0] * p[1] / in_plane;
   sums[9] += 1.0;
@@ -37,8 +38,9 @@ double major_axis_angle(const Eigen::Vector3d &axis, Shape shape) {
 }
 
 Nematic::Nematic(const NematicSums &all)
-    : q(Eigen::Matrix3d::Zero()), eigenvalues(Eigen::Vector3d::Zero()), director(Eigen::Vector3d::Zero()), order(0.0), biaxiality(0.0),
-      theta(0.0), director_theta(0.0), spin(Eigen::Vector3d::Zero()), grains_with_axis(all.sums[6]), grains_with_theta(all.sums[9]) {
+    : q(Eigen::Matrix3d::Zero()), eigenvalues(Eigen::Vector3d::Zero()), director(Eigen::Vector3d::Zero()), order(0.0),
+      biaxiality(0.0), theta(0.0), director_theta(0.0), spin(Eigen::Vector3d::Zero()), grains_with_axis(all.sums[6]),
+      grains_with_theta(all.sums[9]) {
   const auto &s = all.sums;
   if (s[14] > 0.0) spin = Eigen::Vector3d(s[11], s[12], s[13]) / s[14];
   if (grains_with_axis == 0.0) return;

@@ -10,7 +10,8 @@ namespace grainscope {
 
 /** Sums over grains for the nematic order; plain doubles, so that ranks add them up. */
 struct NematicSums {
-  // p p (xx yy zz xy xz yz), grains with an axis, cos 2theta, sin 2theta, grains with a theta, oblate grains, omega (3), grains
+  // p p (xx yy zz xy xz yz), grains with an axis, cos 2theta, sin 2theta, grains with a theta, oblate grains, omega
+  // (3), grains
   std::array<double, 15> sums{};
 
   void add_axis(const Eigen::Vector3d &p, Shape shape);
@@ -20,22 +21,23 @@ struct NematicSums {
 /** Angle of the line along (x, y) with the x axis, in (-pi/2, pi/2]. */
 double line_angle(double x, double y);
 
-/** Angle of a grain's major axis with x in the xy plane, from its symmetry axis: the axis itself for prolate and triaxial grains, at right
- *  angles to it for oblate ones, in (-pi/2, pi/2]; 0 where the axis stands on the plane (|p_xy| < 1e-9). */
+/** Angle of a grain's major axis with x in the xy plane, from its symmetry axis: the axis itself for prolate and
+ *  triaxial grains, at right angles to it for oblate ones, in (-pi/2, pi/2]; 0 where the axis stands on the plane
+ *  (|p_xy| < 1e-9). */
 double major_axis_angle(const Eigen::Vector3d &axis, Shape shape);
 
 /** Nematic order of the grains' symmetry axes p_i, Bilotto et al. 2025, Eq. (3) and Fig. 2. */
 struct Nematic {
   explicit Nematic(const NematicSums &sums);
 
-  Eigen::Matrix3d q;              // <p p> - 1/3; zero without grains
-  Eigen::Vector3d eigenvalues;    // of q, descending
-  Eigen::Vector3d director;       // eigenvector of the largest, its largest component positive; zero without grains
-  double order;                   // S2 = 3/2 largest eigenvalue
-  double biaxiality;              // middle less smallest eigenvalue
-  double theta;                   // mean angle of the major axis with x in the xy plane, (-pi/2, pi/2]
-  double director_theta;          // the same angle of the director
-  Eigen::Vector3d spin;           // mean angular velocity
+  Eigen::Matrix3d q;            // <p p> - 1/3; zero without grains
+  Eigen::Vector3d eigenvalues;  // of q, descending
+  Eigen::Vector3d director;     // eigenvector of the largest, its largest component positive; zero without grains
+  double order;                 // S2 = 3/2 largest eigenvalue
+  double biaxiality;            // middle less smallest eigenvalue
+  double theta;                 // mean angle of the major axis with x in the xy plane, (-pi/2, pi/2]
+  double director_theta;        // the same angle of the director
+  Eigen::Vector3d spin;         // mean angular velocity
   double grains_with_axis, grains_with_theta;
 };
 

@@ -11,14 +11,14 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr int batch = 256;  // distances at a time, a multiple of the lanes
-constexpr int lanes = 4;     // sums side by side: one that waits for the last to be stored takes half as long again
+constexpr int lanes = 4;    // sums side by side: one that waits for the last to be stored takes half as long again
 
 struct Span {
   std::size_t begin, end;
 };
 
-/** A grid on the unit cube that sorts points, so that pairs within range lie in neighbouring cells. An edge along which all cells would
- *  be neighbours is not divided. */
+/** A grid on the unit cube that sorts points, so that pairs within range lie in neighbouring cells. An edge along which
+ *  all cells would be neighbours is not divided. */
 class Grid {
  public:
   Grid(const PeriodicCell &cell, double range, std::size_t points) : periodic_(cell.periodic) {
@@ -81,8 +81,8 @@ class Grid {
   }
 };
 
-/** Points in the order of their cells; cell c holds those from first[c] to first[c + 1]. Those whose place is not finite
- *  are left out. */
+/** Points in the order of their cells; cell c holds those from first[c] to first[c + 1]. Those whose place is not
+ *  finite are left out. */
 PointValues sorted(const PointValues &points, const Grid &grid, std::vector<std::size_t> &first) {
   const std::size_t n = points.size();
   std::vector<int> cell(n);
@@ -106,8 +106,8 @@ PointValues sorted(const PointValues &points, const Grid &grid, std::vector<std:
 class RowSums {
  public:
   RowSums(const PeriodicCell &cell, const PointValues &points, const DistanceBins &bins)
-      : cell_(cell), images_(cell, bins.range), points_(points), bins_(bins.count), per_length_(bins.count / bins.range),
-        row_(lanes * (bins.count + 1), Vector2d::Zero()) {
+      : cell_(cell), images_(cell, bins.range), points_(points), bins_(bins.count),
+        per_length_(bins.count / bins.range), row_(lanes * (bins.count + 1), Vector2d::Zero()) {
     for (int k = 0; k < 3; k++) wrap_[k] = cell.periodic[k] ? 1.0 : 0.0;
   }
 
@@ -139,7 +139,8 @@ class RowSums {
   int bins_;
   double per_length_;
   double wrap_[3];
-  std::vector<Vector2d> row_;  // sum of values and pairs: per lane, of each bin; the last bin holds what is out of range
+  // sum of values and pairs: per lane, of each bin; the last bin holds what is out of range
+  std::vector<Vector2d> row_;
   double x_[batch], y_[batch], z_[batch], r2_[batch];
   int bin_[batch];
 
@@ -187,7 +188,8 @@ void PointValues::add(const Vector3d &fraction, double v) {
   value.push_back(v);
 }
 
-PairSums direct_pair_sums(const PeriodicCell &cell, const PointValues &points, const DistanceBins &bins, int rank, int ranks) {
+PairSums direct_pair_sums(const PeriodicCell &cell, const PointValues &points, const DistanceBins &bins, int rank,
+                          int ranks) {
   const Grid grid(cell, bins.range, points.size());
   std::vector<std::size_t> first;
   const PointValues ordered = sorted(points, grid, first);

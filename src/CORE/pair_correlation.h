@@ -30,10 +30,11 @@ struct PointValues {
   void add(const Eigen::Vector3d &fraction, double v);
 };
 
-/** The sums over all pairs of points at their nearest images; the share of them that falls to `rank` of `ranks`, all of which hold the same
- *  points; those whose place is not finite are left out. The work grows with the square of their number; less when
- *  `range` is short against the box. */
-PairSums direct_pair_sums(const PeriodicCell &cell, const PointValues &points, const DistanceBins &bins, int rank = 0, int ranks = 1);
+/** The sums over all pairs of points at their nearest images; the share of them that falls to `rank` of `ranks`, all of
+ *  which hold the same points; those whose place is not finite are left out. The work grows with the square of their
+ *  number; less when `range` is short against the box. */
+PairSums direct_pair_sums(const PeriodicCell &cell, const PointValues &points, const DistanceBins &bins, int rank = 0,
+                          int ranks = 1);
 
 }
 

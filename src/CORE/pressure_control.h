@@ -8,12 +8,13 @@
 
 namespace grainscope {
 
-/** What the contact network says along one axis, in one evaluation or summed over a window of evaluations. With every contact moved
- *  affinely along the axis n, a change of the box length L gives dP = (stiffness) dL/L + (damping) (dL/dt)/L, per unit volume:
- *  stiffness = sum (k n_a^2 + k_t (1 - n_a^2)) r_a^2, damping = sum (gamma_n n_a^2 + gamma_t (1 - n_a^2)) r_a^2, k the tangent
- *  normal stiffness, gamma_t that of contacts whose tangential force is not cut. */
+/** What the contact network says along one axis, in one evaluation or summed over a window of evaluations. With every
+ *  contact moved affinely along the axis n, a change of the box length L gives dP = (stiffness) dL/L + (damping)
+ *  (dL/dt)/L, per unit volume:
+ *  stiffness = sum (k n_a^2 + k_t (1 - n_a^2)) r_a^2, damping = sum (gamma_n n_a^2 + gamma_t (1 - n_a^2)) r_a^2, k the
+ *  tangent normal stiffness, gamma_t that of contacts whose tangential force is not cut. */
 struct NetworkResponse {
-  double pressure = 0.0;   // sum F_a r_a / volume
+  double pressure = 0.0;  // sum F_a r_a / volume
   double stiffness = 0.0;
   double damping = 0.0;
 
@@ -31,19 +32,20 @@ struct NetworkResponse {
   }
 };
 
-/** The controller: at each input dL/dt = kp (P - P_target), held until the next. With the automatic gain kp = beta L/(eta + K T), T the time
- *  between inputs, a network that answers affinely is stable for every beta < 1 (sampled recursion of the window average and the velocity
- *  held before it, by the Jury criterion). 0.5 leaves a factor of two for what is not affine; smaller values make a dilute start slow. */
+/** The controller: at each input dL/dt = kp (P - P_target), held until the next. With the automatic gain kp = beta
+ *  L/(eta + K T), T the time between inputs, a network that answers affinely is stable for every beta < 1 (sampled
+ *  recursion of the window average and the velocity held before it, by the Jury criterion). 0.5 leaves a factor of two
+ *  for what is not affine; smaller values make a dilute start slow. */
 struct PressureControl {
   static constexpr double beta = 0.5;
 
   bool automatic = true;
-  double gain = 0.0;               // kp, velocity per pressure, when not automatic
-  double limit = 0.01;             // largest |change of L| between two inputs, relative to L
-  double max_rate = HUGE_VAL;      // largest |dL/dt| / L
+  double gain = 0.0;           // kp, velocity per pressure, when not automatic
+  double limit = 0.01;         // largest |change of L| between two inputs, relative to L
+  double max_rate = HUGE_VAL;  // largest |dL/dt| / L
 
   struct Input {
-    double velocity;               // dL/dt
+    double velocity;  // dL/dt
     bool clipped;
   };
 
@@ -53,12 +55,13 @@ struct PressureControl {
     const double kp = automatic ? beta * length / resistance : gain;
     const double error = window.pressure - target;
     if (error == 0.0) return {0.0, false};
-    const double wanted = kp * error;   // infinite where nothing resists: clipped
+    const double wanted = kp * error;  // infinite where nothing resists: clipped
     return {std::clamp(wanted, -bound, bound), std::fabs(wanted) > bound};
   }
 };
 
-/** Counts how often a growing quantity has passed a multiple of its interval, without drift; the first time is at once. */
+/** Counts how often a growing quantity has passed a multiple of its interval, without drift; the first time is at
+ *  once. */
 class Intervals {
  public:
   explicit Intervals(double interval = 1.0) : interval_(interval) {}
@@ -66,9 +69,13 @@ class Intervals {
   double interval() const { return interval_; }
   double passed() const { return passed_; }
   double next() const { return next_; }
-  void restore(double passed, double next) { passed_ = passed; next_ = next; }
+  void restore(double passed, double next) {
+    passed_ = passed;
+    next_ = next;
+  }
 
-  /** Advances; true if a multiple of the interval was reached or passed. Sums of steps err by ulps: 1e-9 of an interval is forgiven. */
+  /** Advances; true if a multiple of the interval was reached or passed. Sums of steps err by ulps: 1e-9 of an interval
+   *  is forgiven. */
   bool advance(double step) {
     passed_ += step;
     const double turns = passed_ / interval_ + 1e-9;

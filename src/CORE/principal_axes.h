@@ -6,10 +6,10 @@
 
 namespace grainscope {
 
-/** Eigenvalues (descending) and eigenvectors (columns, unit, the largest component of each positive) of a symmetric tensor.
- *  Eigenvalues closer than 1e-10 of the largest magnitude are equal; their eigenvectors are then chosen by a rule, so that rounding
- *  does not turn them: in a degenerate plane the first is nearest to the laboratory axis that lies most in that plane, and an
- *  isotropic tensor has x, y, z. */
+/** Eigenvalues (descending) and eigenvectors (columns, unit, the largest component of each positive) of a symmetric
+ *  tensor. Eigenvalues closer than 1e-10 of the largest magnitude are equal; their eigenvectors are then chosen by a
+ *  rule, so that rounding does not turn them: in a degenerate plane the first is nearest to the laboratory axis that
+ *  lies most in that plane, and an isotropic tensor has x, y, z. */
 struct PrincipalAxes {
   explicit PrincipalAxes(const Eigen::Matrix3d &tensor);
 

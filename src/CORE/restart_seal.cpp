@@ -9,8 +9,7 @@
 #include <unistd.h>
 #include <vector>
 
-namespace grainscope {
-namespace restart_seal {
+namespace grainscope { namespace restart_seal {
 
 namespace {
 
@@ -18,8 +17,8 @@ const char mark[16] = {'\n', 'g', 'r', 'a', 'i', 'n', 's', 'c', 'o', 'p', 'e', '
 
 struct Seal {
   char mark[16];
-  std::uint64_t length;     // of what stands before the seal
-  std::uint32_t checksum;   // of the same
+  std::uint64_t length;    // of what stands before the seal
+  std::uint32_t checksum;  // of the same
   std::uint32_t format;
 };
 
@@ -51,7 +50,8 @@ std::uint64_t length_of(std::FILE *file) {
   return length > 0 ? length : 0;
 }
 
-/** The host's header: a number that says what follows, and the value. It begins with version, three sizes of integers, units and step. */
+/** The host's header: a number that says what follows, and the value. It begins with version, three sizes of integers,
+ *  units and step. */
 class Header {
  public:
   explicit Header(std::FILE *file) : file_(file) {}
@@ -71,14 +71,17 @@ class Header {
       if (!flag(number) || !value(any)) return false;
     }
     if (!text(22, style)) return false;
-    return style.compare(0, 6, "hybrid") == 0 || (flag(23) && value(grains) && grains >= 0);  // hybrid: more words follow
+    // hybrid: more words follow
+    return style.compare(0, 6, "hybrid") == 0 || (flag(23) && value(grains) && grains >= 0);
   }
 
  private:
   std::FILE *file_;
 
   template <class T>
-  bool value(T &one) { return std::fread(&one, sizeof one, 1, file_) == 1; }
+  bool value(T &one) {
+    return std::fread(&one, sizeof one, 1, file_) == 1;
+  }
   bool flag(std::int32_t expected) {
     std::int32_t found;
     return value(found) && found == expected;
@@ -124,10 +127,13 @@ std::string seal(const std::string &name) {
   seal.length = length_of(file.get());
   seal.format = format;
   boost::crc_32_type crc;
-  if (!read_bytes(file.get(), seal.length, [&crc](const char *bytes, std::size_t n) { crc.process_bytes(bytes, n); })) return failed();
+  if (!read_bytes(file.get(), seal.length, [&crc](const char *bytes, std::size_t n) { crc.process_bytes(bytes, n); }))
+    return failed();
   seal.checksum = crc.checksum();
   std::fseek(file.get(), 0, SEEK_END);
-  if (std::fwrite(&seal, sizeof seal, 1, file.get()) != 1 || std::fflush(file.get()) != 0 || fsync(fileno(file.get())) != 0) return failed();
+  if (std::fwrite(&seal, sizeof seal, 1, file.get()) != 1 || std::fflush(file.get()) != 0 ||
+      fsync(fileno(file.get())) != 0)
+    return failed();
   return "";
 }
 
@@ -154,16 +160,16 @@ Verdict examine(const std::string &name) {
     return verdict;
   }
   boost::crc_32_type crc;
-  const bool fits = seal.length == length - sizeof seal &&
+  const bool fits =
+      seal.length == length - sizeof seal &&
       read_bytes(file.get(), seal.length, [&crc](const char *bytes, std::size_t n) { crc.process_bytes(bytes, n); }) &&
       crc.checksum() == seal.checksum;
   if (!fits) verdict.reason = "is damaged: it does not match its seal";
   else if (seal.format != format)
-    verdict.reason = "was written by a version of grainscope that kept format " + std::to_string(seal.format) + ", this one keeps format " +
-        std::to_string(format);
+    verdict.reason = "was written by a version of grainscope that kept format " + std::to_string(seal.format) +
+                     ", this one keeps format " + std::to_string(format);
   verdict.whole = verdict.reason.empty();
   return verdict;
 }
 
-}
-}
+}}

@@ -7,12 +7,12 @@
 
 namespace grainscope {
 
-/** A restart file ends with a seal: its length and checksum (CRC-32), which LIGGGHTS does not read. A file that was cut short by a kill, by a
- *  full disk, or that was damaged later, has none or one that does not fit. */
+/** A restart file ends with a seal: its length and checksum (CRC-32), which LIGGGHTS does not read. A file that was cut
+ *  short by a kill, by a full disk, or that was damaged later, has none or one that does not fit. */
 namespace restart_seal {
 
-/** Written into the seal; raised when all that grainscope keeps in restart files changes. What one fix keeps has a version of its own
- *  (state_block.h). */
+/** Written into the seal; raised when all that grainscope keeps in restart files changes. What one fix keeps has a
+ *  version of its own (state_block.h). */
 constexpr std::uint32_t format = 2;
 /** The style of the fix that seals (FixRunGuard), as its name stands in every file that should have a seal. */
 constexpr const char *sealer = "run/guard";
@@ -22,9 +22,10 @@ std::string seal(const std::string &file);
 
 struct Verdict {
   bool whole = false;
-  bool sealed = false;         // false for a file of LIGGGHTS alone, of which only the beginning and the length can be checked
-  std::int64_t step = -1;      // the step in its header
-  std::string reason;          // why it is not whole
+  // false for a file of LIGGGHTS alone, of which only the beginning and the length can be checked
+  bool sealed = false;
+  std::int64_t step = -1;  // the step in its header
+  std::string reason;      // why it is not whole
 };
 
 /** Reads all of the file. */

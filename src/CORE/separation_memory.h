@@ -10,11 +10,12 @@
 
 namespace grainscope {
 
-/** Which neighbours need no look: a pair that was once found `gap` apart stays apart until its two grains have together moved and
- *  turned by as much. Motion is told against the affine motion of the box, so that a shear flow spends little of it. Rigorous: a
- *  displacement changes a distance by at most its length; a turn by phi by at most (longest - shortest semi-axis) phi, the largest
- *  slope of an ellipsoid's support function; the affine part, F r - r, by at most |F - 1| r, told for r up to 1.5 times the reach:
- *  farther apart the pairs of a neighbour list that is fit for use are never. */
+/** Which neighbours need no look: a pair that was once found `gap` apart stays apart until its two grains have together
+ *  moved and turned by as much. Motion is told against the affine motion of the box, so that a shear flow spends little
+ *  of it. Rigorous: a displacement changes a distance by at most its length; a turn by phi by at most (longest -
+ *  shortest semi-axis) phi, the largest slope of an ellipsoid's support function; the affine part, F r - r, by at most
+ *  |F - 1| r, told for r up to 1.5 times the reach: farther apart the pairs of a neighbour list that is fit for use are
+ *  never. */
 class SeparationMemory {
  public:
   /** A new neighbour list: nothing is known. Pairs of it are at most `reach` apart, centre to centre. */
@@ -25,11 +26,11 @@ class SeparationMemory {
     reach_ = reach;
   }
 
-  /** The grains as they are now: the box (edges in columns, origin), positions, unit quaternions; elongation(i) is the longest less the
-   *  shortest semi-axis of grain i. */
+  /** The grains as they are now: the box (edges in columns, origin), positions, unit quaternions; elongation(i) is the
+   *  longest less the shortest semi-axis of grain i. */
   template <class Elongation>
-  void move(const Eigen::Matrix3d &edges, const Eigen::Vector3d &origin, const double *const *x, const double *const *quaternion,
-            Elongation elongation);
+  void move(const Eigen::Matrix3d &edges, const Eigen::Vector3d &origin, const double *const *x,
+            const double *const *quaternion, Elongation elongation);
 
   double moved(int grain) const { return moved_[grain]; }
   /** False only if the pair is surely apart. `motion` is the sum of moved() of its two grains. */
@@ -41,8 +42,10 @@ class SeparationMemory {
   }
 
  private:
-  struct Pose { double x[3], q[4]; };
-  std::vector<Pose> pose_;          // at the last move
+  struct Pose {
+    double x[3], q[4];
+  };
+  std::vector<Pose> pose_;  // at the last move
   std::vector<double> moved_;
   std::vector<float> apart_until_;
   double reach_ = 0.0;
@@ -58,7 +61,8 @@ void SeparationMemory::move(const Eigen::Matrix3d &edges, const Eigen::Vector3d 
   pose_.resize(n);
   if (!first) {
     const Eigen::Matrix3d f = edges * edges_.inverse();
-    const double affine = 0.75 * reach_ * (f - Eigen::Matrix3d::Identity()).norm();  // per grain, for r up to 1.5 times the reach
+    // per grain, for r up to 1.5 times the reach
+    const double affine = 0.75 * reach_ * (f - Eigen::Matrix3d::Identity()).norm();
     for (int i = 0; i < n; i++) {
       const Pose &old = pose_[i];
       const double r0 = old.x[0] - origin_[0], r1 = old.x[1] - origin_[1], r2 = old.x[2] - origin_[2];

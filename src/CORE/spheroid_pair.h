@@ -4,39 +4,52 @@
 
 #include "lanes.h"
 
-/** What the solver of ellipsoid_contact.cpp asks of a pair of bodies: p = C^-1 d at a lambda, how p changes with lambda, and what follows. */
-namespace grainscope {
-namespace contact_solver {
+/** What the solver of ellipsoid_contact.cpp asks of a pair of bodies: p = C^-1 d at a lambda, how p changes with
+ *  lambda, and what follows. */
+namespace grainscope { namespace contact_solver {
 
-template <class Real> GRAINSCOPE_INLINE Real dot(const Real *a, const Real *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-template <class Real> GRAINSCOPE_INLINE Real absolute(Real x) { return pick(x < 0.0, -x, x); }
-template <class Real> GRAINSCOPE_INLINE Real least(Real a, Real b) { return pick(a < b, a, b); }
+template <class Real>
+GRAINSCOPE_INLINE Real dot(const Real *a, const Real *b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+template <class Real>
+GRAINSCOPE_INLINE Real absolute(Real x) {
+  return pick(x < 0.0, -x, x);
+}
+template <class Real>
+GRAINSCOPE_INLINE Real least(Real a, Real b) {
+  return pick(a < b, a, b);
+}
 
 /** |v - (u.v) u|^2: not v.v - (u.v)^2, which cancels. */
-template <class Real> GRAINSCOPE_INLINE Real across(const Real *v, const Real *u, Real along) {
+template <class Real>
+GRAINSCOPE_INLINE Real across(const Real *v, const Real *u, Real along) {
   const Real a = v[0] - along * u[0], b = v[1] - along * u[1], c = v[2] - along * u[2];
   return a * a + b * b + c * c;
 }
 
 /** A spheroid, or several side by side. */
-template <class Real> struct SpheroidOf {
+template <class Real>
+struct SpheroidOf {
   Real u[3], equatorial_square, polar_square, inverse_equatorial_square, inverse_polar_square, inverse_product;
 };
 
-template <class Real> GRAINSCOPE_INLINE Real support(const SpheroidOf<Real> &body, const Real *n) {
+template <class Real>
+GRAINSCOPE_INLINE Real support(const SpheroidOf<Real> &body, const Real *n) {
   const Real along = dot(body.u, n);
   return body.equatorial_square * across(n, body.u, along) + body.polar_square * along * along;
 }
 
 /** p = C^-1 d of two spheroids, in closed form: only the components of p along the two axes are unknown. */
-template <class Real_> class SpheroidPair {
+template <class Real_>
+class SpheroidPair {
  public:
   using Real = Real_;
   using Body = SpheroidOf<Real>;
 
-  /** p and what follows from it. t1, t2 are the components along the axes as they come out of the solution, to all digits; those that the
-   *  supports are made of are from p as it was rounded: d.p / (a + b) hardly changes with p near its largest, but only for one and the
-   *  same p. */
+  /** p and what follows from it. t1, t2 are the components along the axes as they come out of the solution, to all
+   *  digits; those that the supports are made of are from p as it was rounded: d.p / (a + b) hardly changes with p near
+   *  its largest, but only for one and the same p. */
   struct State {
     Real p[3], t1, t2, support1, support2;  // supports: p.B1 p, p.B2 p
     Real along1, along2, across1, across2;  // components along the axes, squares of those across them
@@ -44,8 +57,8 @@ template <class Real_> class SpheroidPair {
 
   GRAINSCOPE_INLINE SpheroidPair(const Body &one, const Body &two, const Real *d)
       : one_(one), two_(two), excess1_(one.polar_square - one.equatorial_square),
-        excess2_(two.polar_square - two.equatorial_square), d1_(dot(one.u, d)),
-        d2_(dot(two.u, d)), c_(dot(one.u, two.u)), s2_(across(one.u, two.u, c_)) {
+        excess2_(two.polar_square - two.equatorial_square), d1_(dot(one.u, d)), d2_(dot(two.u, d)),
+        c_(dot(one.u, two.u)), s2_(across(one.u, two.u, c_)) {
     for (int k = 0; k < 3; k++) d_[k] = d[k];
   }
 
@@ -75,7 +88,8 @@ template <class Real_> class SpheroidPair {
     product2 = two_.equatorial_square * pw_ + excess2_ * s.t2 * y2_;
   }
 
-  /** Half the second derivatives of the supports: w.B1 w + 2 p.B1 v with v = C^-1 (B1 - B2) w, likewise B2. After differentiate(). */
+  /** Half the second derivatives of the supports: w.B1 w + 2 p.B1 v with v = C^-1 (B1 - B2) w, likewise B2. After
+   *  differentiate(). */
   GRAINSCOPE_INLINE void differentiate_again(const State &s, Real &product1, Real &product2) {
     difference(y1_, y2_, z1_, z2_);
     f0_ = (one_.equatorial_square - two_.equatorial_square) * inverse_e_;
@@ -103,10 +117,11 @@ template <class Real_> class SpheroidPair {
     for (int k = 0; k < 3; k++) x[k] = f * s.p[k] + g * one_.u[k];
   }
 
-  /** From a point where B^-1 x = share p, along p/|p| to the surface of 1 (or 2: against it), and the root of the Gaussian curvature
-   *  there, 1/(sqrt(det B) g.g) with g = B^-1 y. `inside` is -G at the point. The quadratic's root is in the form that does not cancel. */
-  GRAINSCOPE_INLINE void surface(const State &s, int which, Real share, Real inside, Real length, Real inverse_length, Real &depth,
-                                 Real &curvature) const {
+  /** From a point where B^-1 x = share p, along p/|p| to the surface of 1 (or 2: against it), and the root of the
+   *  Gaussian curvature there, 1/(sqrt(det B) g.g) with g = B^-1 y. `inside` is -G at the point. The quadratic's root
+   *  is in the form that does not cancel. */
+  GRAINSCOPE_INLINE void surface(const State &s, int which, Real share, Real inside, Real length, Real inverse_length,
+                                 Real &depth, Real &curvature) const {
     const Body &body = which ? two_ : one_;
     const Real t = which ? s.along2 : s.along1, t2 = t * t, a = which ? s.across2 : s.across1, shared = share * length;
     const Real inverse =
@@ -146,10 +161,12 @@ template <class Real_> class SpheroidPair {
 };
 
 /** The state of the lanes that are `settled`: a struct of nothing but Reals. */
-template <class State> GRAINSCOPE_INLINE void keep(bool settled, const State &moved, State &kept) {
+template <class State>
+GRAINSCOPE_INLINE void keep(bool settled, const State &moved, State &kept) {
   if (settled) kept = moved;
 }
-template <class State> GRAINSCOPE_INLINE void keep(LaneMask settled, const State &moved, State &kept) {
+template <class State>
+GRAINSCOPE_INLINE void keep(LaneMask settled, const State &moved, State &kept) {
   for (int k = 0; k < 3; k++) kept.p[k] = pick(settled, moved.p[k], kept.p[k]);
   kept.support1 = pick(settled, moved.support1, kept.support1);
   kept.support2 = pick(settled, moved.support2, kept.support2);
@@ -161,7 +178,6 @@ template <class State> GRAINSCOPE_INLINE void keep(LaneMask settled, const State
   kept.across2 = pick(settled, moved.across2, kept.across2);
 }
 
-}
-}
+}}
 
 #endif

@@ -7,17 +7,20 @@
 
 namespace grainscope {
 
-/** tan(h)/h from h^2. Below h = 0.03 (a turn of 3.6 degrees) by its series, of which the first term left out is below 1e-17. */
+/** tan(h)/h from h^2. Below h = 0.03 (a turn of 3.6 degrees) by its series, of which the first term left out is below
+ *  1e-17. */
 inline double tan_over_angle(double h2) {
   if (h2 < 1e-3) return 1.0 + h2 * (1.0 / 3 + h2 * (2.0 / 15 + h2 * (17.0 / 315 + h2 * (62.0 / 2835))));
   const double h = std::sqrt(h2);
   return std::tan(h) / h;
 }
 
-/** A rigid body whose moments of inertia are I_u about its body axis k, of direction u, and I_e about every axis across it. L is its
- *  angular momentum; L, u and omega are in the laboratory frame, q (w x y z) turns the body's frame into it.
+/** A rigid body whose moments of inertia are I_u about its body axis k, of direction u, and I_e about every axis across
+ *  it. L is its angular momentum; L, u and omega are in the laboratory frame, q (w x y z) turns the body's frame into
+ *  it.
  *    omega = L/I_e + (1/I_u - 1/I_e) (L.u) u
- *  Without torque L and L.u are constant: u turns about L at the rate |L|/I_e, and the body about u at (1/I_u - 1/I_e) (L.u) beside.
+ *  Without torque L and L.u are constant: u turns about L at the rate |L|/I_e, and the body about u at (1/I_u - 1/I_e)
+ *  (L.u) beside.
  *  Source: Goldstein, Classical Mechanics, ch. 5 (the free symmetric top). */
 template <int k>
 class SymmetricTop {
@@ -32,7 +35,8 @@ class SymmetricTop {
     for (int n = 0; n < 3; n++) omega[n] = across_ * momentum_[n] + along * u_[n];
   }
 
-  /** Turns q by time dt. A turn by the angle 2h about n is the quaternion (1, tan(h) n), normalised; the two turns commute. */
+  /** Turns q by time dt. A turn by the angle 2h about n is the quaternion (1, tan(h) n), normalised; the two turns
+   *  commute. */
   void rotate(double dt, double q[4]) {
     const double *L = momentum_;
     double half = 0.5 * dt * across_, own = 0.5 * dt * along_ * momentum_along_axis();
@@ -74,7 +78,8 @@ inline bool is_symmetric_top(const double inertia[3]) { return symmetry_axis(ine
 
 /** The body axis across which the moments are the most alike: that of symmetry; where all three are equal, any. */
 inline int axis_of_symmetric_top(const double inertia[3]) {
-  const double x = std::fabs(inertia[1] - inertia[2]), y = std::fabs(inertia[2] - inertia[0]), z = std::fabs(inertia[0] - inertia[1]);
+  const double x = std::fabs(inertia[1] - inertia[2]), y = std::fabs(inertia[2] - inertia[0]),
+               z = std::fabs(inertia[0] - inertia[1]);
   return z <= x && z <= y ? 2 : x <= y ? 0 : 1;
 }
 

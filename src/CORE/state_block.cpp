@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace grainscope {
-namespace state_block {
+namespace grainscope { namespace state_block {
 
 namespace {
 
@@ -18,7 +17,8 @@ Header header_of(const char *block) {
 
 }
 
-std::vector<char> pack(std::uint32_t version, const void *state, std::size_t size, const void *tail, std::size_t tail_size) {
+std::vector<char> pack(std::uint32_t version, const void *state, std::size_t size, const void *tail,
+                       std::size_t tail_size) {
   Header header;
   memcpy(header.mark, mark, sizeof mark);
   header.version = version;
@@ -37,11 +37,11 @@ std::string what_differs(const char *block, std::uint32_t version, std::size_t s
     return "the restart file holds its state without a version, as earlier versions of grainscope wrote it, " + reads;
   const Header header = header_of(block);
   if (header.version != version)
-    return "the restart file was written by another version of grainscope: it holds version " + std::to_string(header.version) +
-        " of its state, " + reads;
+    return "the restart file was written by another version of grainscope: it holds version " +
+           std::to_string(header.version) + " of its state, " + reads;
   if (header.size != size)
-    return "the restart file was written by another version of grainscope: it holds " + std::to_string(header.size) + " bytes of its state, " +
-        reads + ", which has " + std::to_string(size);
+    return "the restart file was written by another version of grainscope: it holds " + std::to_string(header.size) +
+           " bytes of its state, " + reads + ", which has " + std::to_string(size);
   return "";
 }
 
@@ -49,5 +49,4 @@ const char *state(const char *block) { return block + sizeof(Header); }
 
 const char *tail(const char *block) { return state(block) + header_of(block).size; }
 
-}
-}
+}}

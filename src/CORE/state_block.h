@@ -18,7 +18,8 @@ struct Header {
   std::uint32_t version, size;
 };
 
-std::vector<char> pack(std::uint32_t version, const void *state, std::size_t size, const void *tail, std::size_t tail_size);
+std::vector<char> pack(std::uint32_t version, const void *state, std::size_t size, const void *tail,
+                       std::size_t tail_size);
 
 /** "" when `block` begins with a struct of this version and size; else what it holds instead. */
 std::string what_differs(const char *block, std::uint32_t version, std::size_t size);

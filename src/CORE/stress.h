@@ -8,7 +8,8 @@
 
 namespace grainscope {
 
-/** Sums over contacts that make up the contact stress, Bilotto et al. 2025, Eq. (2); plain doubles, so that ranks add them up. */
+/** Sums over contacts that make up the contact stress, Bilotto et al. 2025, Eq. (2); plain doubles, so that ranks add
+ *  them up. */
 struct StressSums {
   // For b = x, y, z: F_x r_b, F_y r_b, F_z r_b and the same with F_t; then contacts, sliding contacts, overlaps.
   std::array<double, 21> sums{};

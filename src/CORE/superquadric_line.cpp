@@ -7,14 +7,13 @@
 #include <cstdlib>
 #include <limits>
 
-namespace grainscope {
-namespace superquadric_line {
+namespace grainscope { namespace superquadric_line {
 namespace {
 
 enum Column { id, type, density, shape, blockiness = 6, position = 8, orientation = bare };
 
 const char *const names[] = {"id", "type", "density", "shapex", "shapey", "shapez", "blockiness1", "blockiness2",
-                             "x", "y", "z", "quatw", "quatx", "quaty", "quatz"};
+                             "x",  "y",    "z",       "quatw",  "quatx",  "quaty",  "quatz"};
 const char *const image_names[] = {"ix", "iy", "iz"};
 const char *const velocity_names[] = {"id", "vx", "vy", "vz", "omegax", "omegay", "omegaz"};
 
@@ -74,7 +73,8 @@ std::string complaint_of_grain(const std::vector<std::string> &words, int types,
   const int columns = columns_without_images(words.size());
   if (!columns)
     return "expected 11, 14, 15 or 18 columns (id type density shapex shapey shapez blockiness1 blockiness2 x y z, "
-           "then, if wanted, quatw quatx quaty quatz, then, if wanted, ix iy iz), got " + std::to_string(words.size());
+           "then, if wanted, quatw quatx quaty quatz, then, if wanted, ix iy iz), got " +
+           std::to_string(words.size());
   std::string complaint = whole_number_between("id", words[id], 1, INT_MAX);
   if (complaint.empty()) complaint = whole_number_between("type", words[type], 1, types);
   double length = 0.0;
@@ -116,5 +116,4 @@ std::string text_of(double value) {
   return text;
 }
 
-}
-}
+}}

@@ -10,8 +10,9 @@
 
 namespace grainscope {
 
-/** Springs K and dashpots C between grains, moved by kick, drift, kick with forces that see the velocity half a step ago, keep their energy bounded
- *  where the largest eigenvalue of M^-1 (dt^2 K + 2 dt C) is below 4. Two estimates of it; see doc/stability.md. */
+/** Springs K and dashpots C between grains, moved by kick, drift, kick with forces that see the velocity half a step
+ *  ago, keep their energy bounded where the largest eigenvalue of M^-1 (dt^2 K + 2 dt C) is below 4. Two estimates of
+ *  it; see doc/stability.md. */
 namespace time_step {
 
 constexpr double limit = 4.0;
@@ -23,7 +24,8 @@ inline double of_contact(const ContactMotion &m, const ContactLaw &law, double e
   return dt * (dt * law.tangent_stiffness(m) + 2.0 * m.damping_coefficient) / effective_mass;
 }
 
-/** One grain against its contacts, held still beyond them: twice its largest eigenvalue, over all grains, is never below the network's. */
+/** One grain against its contacts, held still beyond them: twice its largest eigenvalue, over all grains, is never
+ *  below the network's. */
 class GrainModes {
  public:
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
@@ -38,11 +40,13 @@ class GrainModes {
   }
 
   struct Mode {
-    double value = 0.0;               // 2 x eigenvalue of M^-1 (dt^2 K + 2 dt C) [-]
+    double value = 0.0;                     // 2 x eigenvalue of M^-1 (dt^2 K + 2 dt C) [-]
     double stiffness = 0.0, damping = 0.0;  // value = dt^2 stiffness + dt damping
 
     /** The time step at which it is at the limit. */
-    double largest_step() const { return 2.0 * limit / (std::sqrt(damping * damping + 4.0 * limit * stiffness) + damping); }
+    double largest_step() const {
+      return 2.0 * limit / (std::sqrt(damping * damping + 4.0 * limit * stiffness) + damping);
+    }
   };
 
   /** `inertia`: tensor in the laboratory frame. */
@@ -61,9 +65,7 @@ class GrainModes {
   /** B^T K B with B = (1, -[arm]x), which takes velocity and spin to the contact point. */
   static Matrix6 seen_from(const Eigen::Vector3d &arm, const Eigen::Matrix3d &k) {
     Eigen::Matrix<double, 3, 6> b;
-    b << 1.0, 0.0, 0.0, 0.0, arm[2], -arm[1],
-         0.0, 1.0, 0.0, -arm[2], 0.0, arm[0],
-         0.0, 0.0, 1.0, arm[1], -arm[0], 0.0;
+    b << 1.0, 0.0, 0.0, 0.0, arm[2], -arm[1], 0.0, 1.0, 0.0, -arm[2], 0.0, arm[0], 0.0, 0.0, 1.0, arm[1], -arm[0], 0.0;
     return b.transpose() * k * b;
   }
 };

@@ -6,8 +6,7 @@
 #include "spheroid_pair.h"
 #include "symmetric_tensor.h"
 
-namespace grainscope {
-namespace contact_solver {
+namespace grainscope { namespace contact_solver {
 
 inline double support(const Triaxial &body, const double *n) {
   double sum = 0.0;
@@ -77,8 +76,8 @@ class TriaxialPair {
     for (int k = 0; k < 3; k++) x[k] *= m;
   }
 
-  void surface(const State &s, int which, double share, double inside, double length, double inverse_length, double &depth,
-               double &curvature) const {
+  void surface(const State &s, int which, double share, double inside, double length, double inverse_length,
+               double &depth, double &curvature) const {
     const Triaxial &body = which ? two_ : one_;
     const double *t = which ? s.t2 : s.t1, shared = share * length;
     double inverse = 0.0;
@@ -136,7 +135,6 @@ class TriaxialPair {
   double l10_, l20_, l21_, pivot_[3], b1p_[3], b2p_[3], w_[3], v_[3];
 };
 
-}
-}
+}}
 
 #endif

@@ -30,7 +30,8 @@ struct SavedRecord {
 
 }
 
-FixGrainRecord::FixGrainRecord(LAMMPS *lmp, int narg, char **arg) : InternalFix(lmp, narg, arg, "the computes that need it") {
+FixGrainRecord::FixGrainRecord(LAMMPS *lmp, int narg, char **arg)
+    : InternalFix(lmp, narg, arg, "the computes that need it") {
   width_ = atoi(arg[3]);
   shared_.assign(atoi(arg[4]), 0.0);
   meaning_ = atof(arg[5]);
@@ -74,15 +75,19 @@ void FixGrainRecord::note_changed_box() {
   std::fill(flips_, flips_ + 3, 0.0);
 }
 
-FixGrainRecord *FixGrainRecord::make(LAMMPS *lmp, const char *id, int igroup, int width, int shared, const std::string &meaning, int step_at) {
-  FixGrainRecord *made = static_cast<FixGrainRecord *>(
-      record.make(lmp, id, igroup, {std::to_string(width), std::to_string(shared), std::to_string(grainscope::checksum_as_double(meaning))}));
+FixGrainRecord *FixGrainRecord::make(LAMMPS *lmp, const char *id, int igroup, int width, int shared,
+                                     const std::string &meaning, int step_at) {
+  FixGrainRecord *made = static_cast<FixGrainRecord *>(record.make(
+      lmp, id, igroup,
+      {std::to_string(width), std::to_string(shared), std::to_string(grainscope::checksum_as_double(meaning))}));
   made->step_at_ = step_at;
   made->require_room();
   return made;
 }
 
-FixGrainRecord *FixGrainRecord::find(LAMMPS *lmp, const char *id) { return static_cast<FixGrainRecord *>(record.find(lmp, id)); }
+FixGrainRecord *FixGrainRecord::find(LAMMPS *lmp, const char *id) {
+  return static_cast<FixGrainRecord *>(record.find(lmp, id));
+}
 
 void FixGrainRecord::forget(LAMMPS *lmp, const char *id) { record.remove(lmp, id); }
 
@@ -91,8 +96,9 @@ void FixGrainRecord::require_room() const {
   for (int k = 0; k < modify->nfix; k++)
     if (const FixGrainRecord *one = dynamic_cast<const FixGrainRecord *>(modify->fix[k])) numbers += one->width_;
   if (numbers > most_numbers)
-    error->all(FLERR, ("all computes together must remember at most " + std::to_string(most_numbers) + " numbers per grain, got " +
-                       std::to_string(numbers) + ": take fewer 'lags'").c_str());
+    error->all(FLERR, ("all computes together must remember at most " + std::to_string(most_numbers) +
+                       " numbers per grain, got " + std::to_string(numbers) + ": take fewer 'lags'")
+                          .c_str());
 }
 
 double FixGrainRecord::memory_usage() { return (values_.capacity() + shared_.capacity()) * sizeof(double); }
@@ -123,7 +129,8 @@ void FixGrainRecord::unpack_restart(int i, int nth) {
   const double *numbers = grainscope::restart_numbers(atom, i, nth, width_);
   if (!numbers)
     error->one(FLERR, (std::string(id) + ": the restart file does not hold the " + std::to_string(width_) +
-                       " numbers of each grain").c_str());
+                       " numbers of each grain")
+                          .c_str());
   std::copy(numbers, numbers + width_, of(i));
 }
 
@@ -137,8 +144,10 @@ void FixGrainRecord::write_restart(FILE *file) {
 void FixGrainRecord::restart(char *buffer) {
   const SavedRecord saved = grainscope::read_state<SavedRecord>(lmp, *this, style, buffer);
   if (saved.meaning != meaning_ || saved.shared_numbers != shared_.size()) {
-    const std::string message = std::string(id) + ": the restart file holds the memory of another compute: give the compute the style, group and "
-                                "keywords that it had, or another ID";
+    const std::string message =
+        std::string(id) +
+        ": the restart file holds the memory of another compute: give the compute the style, group and "
+        "keywords that it had, or another ID";
     error->all(FLERR, message.c_str());
   }
   std::copy(saved.flips, saved.flips + 3, flips_);

@@ -14,10 +14,11 @@ FixStyle(grain/record,FixGrainRecord)
 
 namespace LAMMPS_NS {
 
-/** The memory of a compute: `width` numbers per grain, which follow the grain from rank to rank, and numbers that all ranks share; both
- *  are kept in restart files. New grains have zeros. It also notes the box of each force evaluation, the one that image flags count in (a
- *  fix that deforms the box at the end of the step moves it on before computes are asked), and counts box flips.
- *  Made by computes, not by input scripts: arguments are width, shared size, and a number that stands for what is remembered. */
+/** The memory of a compute: `width` numbers per grain, which follow the grain from rank to rank, and numbers that all
+ *  ranks share; both are kept in restart files. New grains have zeros. It also notes the box of each force evaluation,
+ *  the one that image flags count in (a fix that deforms the box at the end of the step moves it on before computes are
+ *  asked), and counts box flips. Made by computes, not by input scripts: arguments are width, shared size, and a number
+ *  that stands for what is remembered. */
 class FixGrainRecord : public grainscope::InternalFix {
  public:
   FixGrainRecord(class LAMMPS *lmp, int narg, char **arg);
@@ -27,11 +28,11 @@ class FixGrainRecord : public grainscope::InternalFix {
   void setup_pre_force(int) override { note_box(); }
   void pre_force(int) override { note_box(); }
 
-  /** Makes the record of compute `id`, in its constructor; what a restart file holds of it is restored, and refused when `meaning` (style
-   *  and keywords of the compute) was another. `step_at`: where the shared numbers hold a step, which `reset_timestep` renumbers.
-   *  Collective. */
-  static FixGrainRecord *make(class LAMMPS *lmp, const char *id, int igroup, int width, int shared, const std::string &meaning,
-                              int step_at = -1);
+  /** Makes the record of compute `id`, in its constructor; what a restart file holds of it is restored, and refused
+   *  when `meaning` (style and keywords of the compute) was another. `step_at`: where the shared numbers hold a step,
+   *  which `reset_timestep` renumbers. Collective. */
+  static FixGrainRecord *make(class LAMMPS *lmp, const char *id, int igroup, int width, int shared,
+                              const std::string &meaning, int step_at = -1);
   /** The record that was made, or an error when it is gone. */
   static FixGrainRecord *find(class LAMMPS *lmp, const char *id);
   /** To be called by the compute's destructor. */
@@ -41,7 +42,8 @@ class FixGrainRecord : public grainscope::InternalFix {
   std::vector<double> &shared() { return shared_; }
   /** Edges (upper triangle: xx yy zz yz xz xy) of the box at the last force evaluation. */
   const double *edges() const { return edges_; }
-  /** How often the box was flipped since this was asked last, by the tilts yz, xz, xy: in edges, positive where the tilt grew. */
+  /** How often the box was flipped since this was asked last, by the tilts yz, xz, xy: in edges, positive where the
+   *  tilt grew. */
   void take_box_flips(double flips[3]);
   /** The box was changed between runs, which is no flip: image flags now count the edges of this one. */
   void note_changed_box();

@@ -34,9 +34,9 @@ const grainscope::ComputeFix record{"ledger/record", "_ledger", "ledger", "keeps
 /** In restart files; sums over ranks, so that any number of them may continue. */
 struct SavedLedger {
   static constexpr std::uint32_t version = 1;
-  double started;              // whether there was a step yet
+  double started;  // whether there was a step yet
   double state[std::tuple_size<EnergyLedger::State>::value];
-  double gradient[9], centre[3], edge_lengths[3], edge_rates[3];   // of the frame
+  double gradient[9], centre[3], edge_lengths[3], edge_rates[3];  // of the frame
 
   void set_frame(const grainscope::LedgerFrame &frame) {
     Map<Matrix3d>(gradient + 0) = frame.velocity_gradient;
@@ -45,11 +45,14 @@ struct SavedLedger {
     Map<Vector3d>(edge_rates + 0) = frame.edge_rates;
   }
   grainscope::LedgerFrame frame() const {
-    return {Map<const Matrix3d>(gradient), Map<const Vector3d>(centre), Map<const Vector3d>(edge_lengths), Map<const Vector3d>(edge_rates)};
+    return {Map<const Matrix3d>(gradient), Map<const Vector3d>(centre), Map<const Vector3d>(edge_lengths),
+            Map<const Vector3d>(edge_rates)};
   }
 };
 
-EnergyLedger::Grain grain(const Atom *atom, int i) { return {i, atom->rmass[i], atom->x[i], atom->v[i], atom->f[i], atom->torque[i]}; }
+EnergyLedger::Grain grain(const Atom *atom, int i) {
+  return {i, atom->rmass[i], atom->x[i], atom->v[i], atom->f[i], atom->torque[i]};
+}
 
 grainscope::LedgerFrame frame_of(LAMMPS *lmp) {
   const BoxState box(lmp);
@@ -61,9 +64,10 @@ grainscope::LedgerFrame frame_of(LAMMPS *lmp) {
 struct FixLedgerRecord::Impl {
   EnergyLedger ledger;
   PairGranInsitu *pair = nullptr;
-  std::string name;             // of the compute, for messages
-  double arrived = 0.0;         // grains on this rank at the ends of steps less those at their beginnings: over all ranks 0
-  bool stepping = false;        // between the two
+  std::string name;  // of the compute, for messages
+  // grains on this rank at the ends of steps less those at their beginnings: over all ranks 0
+  double arrived = 0.0;
+  bool stepping = false;  // between the two
   double dt = 0.0;
 
   /** The state of all ranks together: the first one keeps it. */
@@ -104,7 +108,9 @@ void FixLedgerRecord::init() {
   impl_->dt = update->dt;
 }
 
-void FixLedgerRecord::begin_contacts() { impl_->ledger.begin_evaluation(atom->nlocal, impl_->pair->observer().repeats()); }
+void FixLedgerRecord::begin_contacts() {
+  impl_->ledger.begin_evaluation(atom->nlocal, impl_->pair->observer().repeats());
+}
 
 void FixLedgerRecord::add_contacts(grainscope::ContactSpan contacts) {
   const bool springs_move = impl_->pair->observer().springs_move();
@@ -117,8 +123,8 @@ double FixLedgerRecord::moment_of_inertia(int i) const {
   return (domain->dimension == 2 ? 0.5 : 0.4) * atom->rmass[i] * atom->radius[i] * atom->radius[i];
 }
 
-/** Angular momentum now, and angular velocity after the kick of the coming half step. Spheroids: from the angular momentum, which the
- *  integrators keep; the host's `velocity setAngular` leaves omega at odds with it. */
+/** Angular momentum now, and angular velocity after the kick of the coming half step. Spheroids: from the angular
+ *  momentum, which the integrators keep; the host's `velocity setAngular` leaves omega at odds with it. */
 void FixLedgerRecord::coming_spin(int i, double momentum[3], double omega_after[3]) const {
   const double half = 0.5 * update->dt, *torque = atom->torque[i];
   double kicked[3];
@@ -135,9 +141,11 @@ void FixLedgerRecord::coming_spin(int i, double momentum[3], double omega_after[
     kicked[k] = momentum[k] + half * torque[k];
   }
   const double *inertia = atom->inertia[i];
-  if (grainscope::is_symmetric_top(inertia)) return grainscope::angular_velocity(inertia, kicked, atom->quaternion[i], omega_after);
+  if (grainscope::is_symmetric_top(inertia))
+    return grainscope::angular_velocity(inertia, kicked, atom->quaternion[i], omega_after);
   const Matrix3d r = grainscope::orientation(*atom, i).toRotationMatrix();
-  Map<Vector3d>(omega_after + 0) = r * (r.transpose() * Map<const Vector3d>(kicked)).cwiseQuotient(Map<const Vector3d>(inertia));
+  Map<Vector3d>(omega_after + 0) =
+      r * (r.transpose() * Map<const Vector3d>(kicked)).cwiseQuotient(Map<const Vector3d>(inertia));
 }
 
 /** The number of grains. */
@@ -157,7 +165,8 @@ double FixLedgerRecord::start_step(EnergyLedger &ledger) const {
 
 void FixLedgerRecord::pre_initial_integrate() {
   if (!impl_->ledger.pending() && impl_->dt != update->dt)
-    fail("the time step changed from " + grainscope::Arguments::text(impl_->dt) + " to " + grainscope::Arguments::text(update->dt) +
+    fail("the time step changed from " + grainscope::Arguments::text(impl_->dt) + " to " +
+         grainscope::Arguments::text(update->dt) +
          " without a new set-up of the run: the forces of one belong to the half steps of the other");
   impl_->dt = update->dt;
   impl_->arrived -= start_step(impl_->ledger);
@@ -191,7 +200,9 @@ grainscope::LedgerAccount FixLedgerRecord::account() const {
   }
   const E &ledger = ahead ? *ahead : impl_->ledger;
   double values[2 * E::entries + 2 * E::stores + 2], *at = values;
-  const auto put = [&at](const auto &numbers) { for (double one : numbers) *at++ = one; };
+  const auto put = [&at](const auto &numbers) {
+    for (double one : numbers) *at++ = one;
+  };
   put(ledger.totals());
   put(ledger.last());
   put(ledger.stored());
@@ -200,14 +211,18 @@ grainscope::LedgerAccount FixLedgerRecord::account() const {
   *at++ = impl_->stepping ? 0.0 : impl_->arrived;
   MPI_Allreduce(MPI_IN_PLACE, values, at - values, MPI_DOUBLE, MPI_SUM, world);
   at = values;
-  const auto take = [&at](auto &numbers) { for (double &one : numbers) one = *at++; };
+  const auto take = [&at](auto &numbers) {
+    for (double &one : numbers) one = *at++;
+  };
   take(sum.totals);
   take(sum.last);
   take(sum.stored);
   take(sum.change);
   if (at[1] != 0.0)
-    fail("the group changed by " + std::to_string(static_cast<long>(at[1])) + " grains in the middle of a run: the ledger "
-         "follows grains that stay. Define it after insertion; if none was inserted or deleted, grains were lost: look at the time step");
+    fail("the group changed by " + std::to_string(static_cast<long>(at[1])) +
+         " grains in the middle of a run: the ledger "
+         "follows grains that stay. Define it after insertion; if none was inserted or deleted, grains were lost: look "
+         "at the time step");
   double change = 0.0, last_change = 0.0;
   for (int k = 0; k < E::stores; k++) {
     change += sum.stored[k];
@@ -225,10 +240,13 @@ grainscope::LedgerAccount FixLedgerRecord::account() const {
 }
 
 FixLedgerRecord *FixLedgerRecord::make(LAMMPS *lmp, const char *id, int igroup, const std::string &style) {
-  return static_cast<FixLedgerRecord *>(record.make(lmp, id, igroup, {std::string("compute ") + id + " (" + style + ")"}));
+  return static_cast<FixLedgerRecord *>(
+      record.make(lmp, id, igroup, {std::string("compute ") + id + " (" + style + ")"}));
 }
 
-FixLedgerRecord *FixLedgerRecord::find(LAMMPS *lmp, const char *id) { return static_cast<FixLedgerRecord *>(record.find(lmp, id)); }
+FixLedgerRecord *FixLedgerRecord::find(LAMMPS *lmp, const char *id) {
+  return static_cast<FixLedgerRecord *>(record.find(lmp, id));
+}
 
 void FixLedgerRecord::forget(LAMMPS *lmp, const char *id) { record.remove(lmp, id); }
 

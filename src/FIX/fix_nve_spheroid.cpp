@@ -16,7 +16,8 @@ using namespace LAMMPS_NS;
 FixNVESpheroid::FixNVESpheroid(LAMMPS *lmp, int narg, char **arg) : FixNVE(lmp, narg, arg) {
   grainscope::Arguments arguments(lmp, "fix nve/spheroid", 3, narg, arg);
   arguments.require_none();
-  if (!atom->superquadric_flag) arguments.fail("needs atom_style superquadric, got '" + std::string(atom->atom_style) + "'");
+  if (!atom->superquadric_flag)
+    arguments.fail("needs atom_style superquadric, got '" + std::string(atom->atom_style) + "'");
 }
 
 int FixNVESpheroid::setmask() { return FixNVE::setmask() | FixConst::PRE_NEIGHBOR; }
@@ -26,19 +27,23 @@ void FixNVESpheroid::init() {
   for (int k = 0; k < modify->nfix; k++) {
     if (strcmp(modify->fix[k]->style, "couple/cfd/force/implicit") != 0) continue;
     const std::string coupling = std::string("fix ") + modify->fix[k]->id + " (couple/cfd/force/implicit)";
-    error->all(FLERR, ("fix nve/spheroid: " + coupling + " leaves its torque to the integrator, and this one knows nothing of it: "
-                       "use fix nve/superquadric").c_str());
+    error->all(FLERR, ("fix nve/spheroid: " + coupling +
+                       " leaves its torque to the integrator, and this one knows nothing of it: "
+                       "use fix nve/superquadric")
+                          .c_str());
   }
 }
 
 int FixNVESpheroid::grains() const { return igroup == atom->firstgroup ? atom->nfirst : atom->nlocal; }
 
-/** Asked with every neighbour list, and so whenever grains were inserted. Collective: every rank names the same grain. */
+/** Asked with every neighbour list, and so whenever grains were inserted. Collective: every rank names the same
+ *  grain. */
 void FixNVESpheroid::require_symmetric_tops() const {
   int first = INT_MAX, at = 0;
   const int n = grains();
   for (int i = 0; i < n; i++)
-    if ((atom->mask[i] & groupbit) && atom->tag[i] < first && !grainscope::is_symmetric_top(atom->inertia[i])) first = atom->tag[at = i];
+    if ((atom->mask[i] & groupbit) && atom->tag[i] < first && !grainscope::is_symmetric_top(atom->inertia[i]))
+      first = atom->tag[at = i];
   const int mine = first;
   MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, world);
   if (first == INT_MAX) return;
@@ -50,8 +55,9 @@ void FixNVESpheroid::require_symmetric_tops() const {
   }
   MPI_Allreduce(MPI_IN_PLACE, shape, 5, MPI_DOUBLE, MPI_SUM, world);
   std::ostringstream message;
-  message << "fix nve/spheroid: grain " << first << " has three different moments of inertia (semi-axes " << shape[0] << " " << shape[1]
-          << " " << shape[2] << ", blockiness " << shape[3] << " " << shape[4] << "): use fix nve/superquadric";
+  message << "fix nve/spheroid: grain " << first << " has three different moments of inertia (semi-axes " << shape[0]
+          << " " << shape[1] << " " << shape[2] << ", blockiness " << shape[3] << " " << shape[4]
+          << "): use fix nve/superquadric";
   error->all(FLERR, message.str().c_str());
 }
 

@@ -12,8 +12,9 @@ FixStyle(nve/spheroid,FixNVESpheroid)
 
 namespace LAMMPS_NS {
 
-/** Moves grains of two equal moments of inertia by kick, drift, kick; the drift turns them exactly (spheroid_rotation.h).
- *  Velocities and angular momenta are kicked by f dt/2m and torque dt/2, before and after. No output, no state. */
+/** Moves grains of two equal moments of inertia by kick, drift, kick; the drift turns them exactly
+ *  (spheroid_rotation.h). Velocities and angular momenta are kicked by f dt/2m and torque dt/2, before and after. No
+ *  output, no state. */
 class FixNVESpheroid : public FixNVE {
  public:
   FixNVESpheroid(class LAMMPS *lmp, int narg, char **arg);

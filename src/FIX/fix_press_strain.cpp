@@ -16,8 +16,8 @@
 #include <cstring>
 
 using namespace LAMMPS_NS;
-using grainscope::NetworkResponse;
 using grainscope::Fluctuations;
+using grainscope::NetworkResponse;
 using grainscope::press_strain_error;
 using grainscope::Tilt;
 using Every = grainscope::PressStrainSettings::Every;
@@ -31,7 +31,7 @@ struct SavedControl {
   static constexpr std::uint32_t version = 1;
   double strain, velocity, averaged_pressure, inputs, clipped;
   double window_steps, window_pressure, window_stiffness, window_damping;
-  double every, interval, passed, next;   // how inputs are counted, and how far
+  double every, interval, passed, next;  // how inputs are counted, and how far
 };
 
 }
@@ -49,13 +49,13 @@ struct FixPressStrain::Impl {
   const grainscope::ContactLaw *law = nullptr;
   bool flip_pending = false;
 
-  NetworkResponse now;             // this rank's sums of the last evaluation, over volume
-  NetworkResponse window;          // the same since the last input
+  NetworkResponse now;     // this rank's sums of the last evaluation, over volume
+  NetworkResponse window;  // the same since the last input
   double window_steps = 0.0;
   double strain = 0.0, velocity = 0.0, averaged_pressure = 0.0, inputs = 0.0, clipped = 0.0;
-  double recently_clipped = 1.0;   // of about a hundred inputs: a start is clipped
+  double recently_clipped = 1.0;                        // of about a hundred inputs: a start is clipped
   double recently_turned = 0.0, velocity_before = 0.0;  // clipped, and against the input before
-  bool settled = false;            // clipping has ceased once
+  bool settled = false;                                 // clipping has ceased once
   grainscope::RangeWarning clipping;
   bigint pressure_step = -1;
   double pressure = 0.0;
@@ -86,13 +86,14 @@ const std::vector<FixPressStrain::Impl::Element> &FixPressStrain::Impl::elements
 
 grainscope::Outputs FixPressStrain::Impl::declared() {
   grainscope::Outputs outputs;
-  outputs.scalar = {{"P_mean", "pressure", grainscope::Extent::intensive,
-                     "pressure averaged over the last completed interval"}};
+  outputs.scalar = {
+      {"P_mean", "pressure", grainscope::Extent::intensive, "pressure averaged over the last completed interval"}};
   for (const Element &one : elements()) outputs.vector.add(one.output);
   return outputs;
 }
 
-/** What the base class is told: a deformation at rate zero of the box parameters that this fix moves, with velocities remapped. */
+/** What the base class is told: a deformation at rate zero of the box parameters that this fix moves, with velocities
+ *  remapped. */
 struct FixPressStrain::HostArguments {
   std::vector<std::string> words;
   std::vector<char *> pointers;
@@ -103,8 +104,8 @@ struct FixPressStrain::HostArguments {
     for (int k = 3; k + 1 < narg; k++) {
       if (!strcmp(arg[k], "axis") && strlen(arg[k + 1]) == 1 && strchr("xyz", arg[k + 1][0])) axis = arg[k + 1];
       for (const Tilt &tilt : grainscope::tilts)
-        if (!strcmp(arg[k], "shear") && !strcmp(arg[k + 1], tilt.name) && domain->triclinic && domain->boundary[tilt.gradient][0] < 2 &&
-            domain->boundary[tilt.gradient][1] < 2)
+        if (!strcmp(arg[k], "shear") && !strcmp(arg[k + 1], tilt.name) && domain->triclinic &&
+            domain->boundary[tilt.gradient][0] < 2 && domain->boundary[tilt.gradient][1] < 2)
           shear = tilt.name;
     }
     const int *boundary = domain->boundary[axis[0] - 'x'];
@@ -116,7 +117,8 @@ struct FixPressStrain::HostArguments {
   }
 };
 
-FixPressStrain::FixPressStrain(LAMMPS *lmp, int narg, char **arg) : FixPressStrain(lmp, narg, arg, HostArguments(lmp, narg, arg)) {}
+FixPressStrain::FixPressStrain(LAMMPS *lmp, int narg, char **arg)
+    : FixPressStrain(lmp, narg, arg, HostArguments(lmp, narg, arg)) {}
 
 FixPressStrain::FixPressStrain(LAMMPS *lmp, int narg, char **arg, const HostArguments &host)
     : FixDeform(lmp, host.pointers.size(), const_cast<char **>(host.pointers.data())), impl_(new Impl(lmp, narg, arg)) {
@@ -144,7 +146,8 @@ void FixPressStrain::init() {
   my.observer->add(this);
   my.law = &pair->law();
   if (my.settings.control.automatic && !my.law->knows_stiffness())
-    press_strain_error(lmp, std::string("'gain auto' knows the stiffness of the normal models ") + my.law->elastic_models() + " only: give a number");
+    press_strain_error(lmp, std::string("'gain auto' knows the stiffness of the normal models ") +
+                                my.law->elastic_models() + " only: give a number");
   my.settings.evaluate_rate(lmp);
   my.box.set_rates(my.velocity, my.settings.rate.value);
   plan_flip();
@@ -214,7 +217,8 @@ void FixPressStrain::end_of_step() {
   evaluate_variables();
   if (my.settings.shear) my.strain += std::fabs(my.settings.rate.value) * update->dt;
   if (my.intervals.advance(progress_of_a_step())) take_input();
-  // The box moves as its images will be told to move in the coming step: the springs of contacts across faces follow velocities, overlaps the box.
+  // The box moves as its images will be told to move in the coming step: the springs of contacts across faces follow
+  // velocities, overlaps the box.
   my.box.set_rates(my.velocity, my.settings.rate.value);
   my.box.advance();
   my.box.set_rates(my.velocity, my.settings.rate.value);
@@ -248,8 +252,10 @@ void FixPressStrain::take_input() {
   my.recently_turned += 0.01 * ((turned ? 1.0 : 0.0) - my.recently_turned);
   my.velocity_before = input.velocity;
   my.clipping.watch(lmp, (my.settled && my.recently_clipped > often_clipped) || my.recently_turned > often_clipped,
-                    "fix press/strain: %.2g of the last hundred inputs were clipped (limit %g), long after the start or one way and the other: the "
-                    "pressure is not under control. Use gain auto, a smaller gain or a shorter interval, or raise 'limit' and 'maxrate'",
+                    "fix press/strain: %.2g of the last hundred inputs were clipped (limit %g), long after the start "
+                    "or one way and the other: the "
+                    "pressure is not under control. Use gain auto, a smaller gain or a shorter interval, or raise "
+                    "'limit' and 'maxrate'",
                     my.recently_clipped, often_clipped);
 }
 
@@ -279,10 +285,12 @@ void FixPressStrain::write_restart(FILE *file) {
   MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, world);
   my.window = NetworkResponse();
   if (comm->me != 0) return;
-  my.window = {sums[0], sums[1], sums[2]};  // as a continued run will have it: the run that goes on stays equal to it, bit by bit
-  grainscope::write_state(file, SavedControl{my.strain, my.velocity, my.averaged_pressure, my.inputs, my.clipped, my.window_steps,
-                                            sums[0], sums[1], sums[2], static_cast<double>(my.settings.every), my.settings.interval,
-                                            my.intervals.passed(), my.intervals.next()});
+  // as a continued run will have it: the run that goes on stays equal to it, bit by bit
+  my.window = {sums[0], sums[1], sums[2]};
+  grainscope::write_state(file, SavedControl{my.strain, my.velocity, my.averaged_pressure, my.inputs, my.clipped,
+                                             my.window_steps, sums[0], sums[1], sums[2],
+                                             static_cast<double>(my.settings.every), my.settings.interval,
+                                             my.intervals.passed(), my.intervals.next()});
 }
 
 void FixPressStrain::restart(char *buffer) {

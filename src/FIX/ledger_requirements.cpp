@@ -35,7 +35,8 @@ void LedgerRequirements::fail(const std::string &message) const {
 void LedgerRequirements::require_known_contacts(PairGranInsitu &pair) const {
   const ContactLaw &law = pair.law();
   if (!law.keeps_past())
-    fail("needs 'ledger on' in pair_style gran/insitu, which remembers what each contact stored, got '" + pair.models() + "'");
+    fail("needs 'ledger on' in pair_style gran/insitu, which remembers what each contact stored, got '" +
+         pair.models() + "'");
   if (!law.why_no_energy().empty()) fail(law.why_no_energy());
   if (pair.renumbered())
     fail("grains were given other IDs, and what is known of contacts goes by ID: say 'compress no' to delete_atoms");
@@ -58,10 +59,12 @@ void LedgerRequirements::require_moved_by_verlet() const {
     const Fix *fix = modify->fix[k];
     if (one_of(fix->style, {"nve/sphere", "nve/superquadric", "nve/spheroid", "freeze"})) {
       moved |= fix->groupbit;
-    } else if (fix->time_integrate || fix->rigid_flag || strstr(fix->style, "multisphere") || !strcmp(fix->style, "move")) {
+    } else if (fix->time_integrate || fix->rigid_flag || strstr(fix->style, "multisphere") ||
+               !strcmp(fix->style, "move")) {
       if (shares_grains(fix->groupbit))
-        fail(std::string("knows grains that are moved by fix nve/sphere, nve/superquadric or nve/spheroid, or frozen, got fix ") + fix->id + " of style " +
-             fix->style);
+        fail(std::string("knows grains that are moved by fix nve/sphere, nve/superquadric or nve/spheroid, or frozen, "
+                         "got fix ") +
+             fix->id + " of style " + fix->style);
     }
   }
   int loose = 0;
@@ -69,8 +72,9 @@ void LedgerRequirements::require_moved_by_verlet() const {
     if ((atom->mask[i] & groupbit_) && !(atom->mask[i] & moved)) loose++;
   MPI_Allreduce(MPI_IN_PLACE, &loose, 1, MPI_INT, MPI_SUM, world);
   if (loose)
-    fail("every grain of the group must be moved by fix nve/sphere, nve/superquadric or nve/spheroid, or be frozen, got " + std::to_string(loose) +
-         " that are not");
+    fail("every grain of the group must be moved by fix nve/sphere, nve/superquadric or nve/spheroid, or be frozen, "
+         "got " +
+         std::to_string(loose) + " that are not");
 }
 
 void LedgerRequirements::require_flowing_box() const {
@@ -78,7 +82,8 @@ void LedgerRequirements::require_flowing_box() const {
     const Fix *fix = modify->fix[k];
     if (!fix->box_change_size && !fix->box_change_shape) continue;
     const std::string which = std::string("fix ") + fix->id + " (" + fix->style + ")";
-    if (!domain->deform_vremap) fail("needs a box that carries velocities along where it deforms, 'remap v', got " + which + " without");
+    if (!domain->deform_vremap)
+      fail("needs a box that carries velocities along where it deforms, 'remap v', got " + which + " without");
     if (domain->deform_groupbit != 1)
       fail("needs a box that deforms for the group all, got " + which + " for the group " + group->names[fix->igroup]);
   }

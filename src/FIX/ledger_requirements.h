@@ -5,7 +5,9 @@
 #include "pointers.h"
 #include <string>
 
-namespace LAMMPS_NS { class PairGranInsitu; }
+namespace LAMMPS_NS {
+class PairGranInsitu;
+}
 
 namespace grainscope {
 
@@ -14,7 +16,8 @@ namespace grainscope {
 class LedgerRequirements : private LAMMPS_NS::Pointers {
  public:
   /** `who`: for messages. */
-  LedgerRequirements(LAMMPS_NS::LAMMPS *lmp, int groupbit, const std::string &who) : Pointers(lmp), groupbit_(groupbit), who_(who) {}
+  LedgerRequirements(LAMMPS_NS::LAMMPS *lmp, int groupbit, const std::string &who)
+      : Pointers(lmp), groupbit_(groupbit), who_(who) {}
 
   void require_known_contacts(LAMMPS_NS::PairGranInsitu &pair) const;
   void require_moved_by_verlet() const;

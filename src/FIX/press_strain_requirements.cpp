@@ -30,14 +30,16 @@ bool pushes_along(PrimitiveWall *wall, int axis) {
 void PressStrainRequirements::require_controllable_box(const ShearedBox &box) const {
   const int periodic[3] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
   if (!periodic[settings_.axis])
-    press_strain_error(lmp, std::string("cannot move box edges along '") + "xyz"[settings_.axis] + "': the box must be periodic there");
+    press_strain_error(lmp, std::string("cannot move box edges along '") + "xyz"[settings_.axis] +
+                                "': the box must be periodic there");
   if (settings_.shear) {
     const std::string shear = std::string("'shear ") + settings_.shear->name + "'";
     if (!periodic[settings_.shear->flow] || !periodic[settings_.shear->gradient])
       press_strain_error(lmp, shear + " needs a box periodic along both axes");
     for (const Tilt &tilt : tilts)
       if (&tilt != settings_.shear && box.tilt(tilt) != 0.0)
-        press_strain_error(lmp, "with " + shear + " the tilt " + tilt.name + " must be 0, got " + Arguments::text(box.tilt(tilt)));
+        press_strain_error(lmp, "with " + shear + " the tilt " + tilt.name + " must be 0, got " +
+                                    Arguments::text(box.tilt(tilt)));
   }
   require_alone();
 }
@@ -48,8 +50,10 @@ void PressStrainRequirements::require_alone() const {
     if (fix == fix_ || !fix) continue;
     const std::string which = std::string("(fix ") + fix->id + ")";
     if (!strcmp(fix->style, "deform"))
-      press_strain_error(lmp, "another fix already deforms the box " + which + ": only one fix deform or press/strain at a time");
-    if (fix->rigid_flag || strstr(fix->style, "multisphere")) press_strain_error(lmp, "does not work with rigid bodies " + which);
+      press_strain_error(lmp, "another fix already deforms the box " + which +
+                                  ": only one fix deform or press/strain at a time");
+    if (fix->rigid_flag || strstr(fix->style, "multisphere"))
+      press_strain_error(lmp, "does not work with rigid bodies " + which);
     if (!strncmp(fix->style, "wall/", 5)) require_no_wall_on_axis(fix);
   }
 }
@@ -58,10 +62,11 @@ void PressStrainRequirements::require_no_wall_on_axis(Fix *fix) const {
   const char axis = "xyz"[settings_.axis];
   FixWallGran *wall = dynamic_cast<FixWallGran *>(fix);
   if (!wall || wall->is_mesh_wall())
-    press_strain_error(lmp, std::string("cannot move a box that holds a wall of style ") + fix->style + " (fix " + fix->id +
-                                "): only primitive walls of wall/gran on another axis");
+    press_strain_error(lmp, std::string("cannot move a box that holds a wall of style ") + fix->style + " (fix " +
+                                fix->id + "): only primitive walls of wall/gran on another axis");
   if (wall->primitiveWall() && pushes_along(wall->primitiveWall(), settings_.axis))
-    press_strain_error(lmp, std::string("cannot move box edges along '") + axis + "': fix " + fix->id + " is a wall on that axis");
+    press_strain_error(lmp, std::string("cannot move box edges along '") + axis + "': fix " + fix->id +
+                                " is a wall on that axis");
 }
 
 void PressStrainRequirements::require_group(const char *name, int groupbit) const {

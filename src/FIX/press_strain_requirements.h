@@ -4,7 +4,9 @@
 
 #include "pointers.h"
 
-namespace LAMMPS_NS { class Fix; }
+namespace LAMMPS_NS {
+class Fix;
+}
 
 namespace grainscope {
 

@@ -19,10 +19,10 @@ struct PressStrainSettings {
   enum class Every { strain, time, step };
 
   int axis = 1;
-  const Tilt *shear = nullptr;     // null: no shear
+  const Tilt *shear = nullptr;  // null: no shear
   Quantity target, rate;
   Every every = Every::strain;
-  double interval = 0.0;           // strain, time or steps between two inputs
+  double interval = 0.0;  // strain, time or steps between two inputs
   PressureControl control;
   bool max_rate_given = false;
   bool remove_momentum = true, kinetic = false;

@@ -12,7 +12,8 @@ Arguments::Arguments(LAMMPS_NS::LAMMPS *lmp, const std::string &style, int first
     : lmp_(lmp), style_(style), words_(arg + std::min(first, narg), arg + narg) {}
 
 std::string Arguments::word(const std::string &wanted) {
-  if (done()) fail("expected " + wanted + (at_ ? " after '" + words_[at_ - 1] + "'" : "") + ", got the end of the command");
+  if (done())
+    fail("expected " + wanted + (at_ ? " after '" + words_[at_ - 1] + "'" : "") + ", got the end of the command");
   return words_[at_++];
 }
 
@@ -39,7 +40,8 @@ std::string Arguments::choice(const std::string &keyword, const std::vector<std:
 bool Arguments::is_number(const std::string &text, double &value) {
   char *end = nullptr;
   value = std::strtod(text.c_str(), &end);
-  return !text.empty() && text.find_first_not_of("0123456789+-.eE") == std::string::npos && *end == '\0' && std::isfinite(value);
+  return !text.empty() && text.find_first_not_of("0123456789+-.eE") == std::string::npos && *end == '\0' &&
+         std::isfinite(value);
 }
 
 std::string Arguments::text(double value) {
@@ -60,13 +62,18 @@ int Arguments::multiple(const std::string &keyword, int of, int low, int high, c
   const std::string requirement = what + " from " + std::to_string(low) + " to " + std::to_string(high);
   const std::string got = word(requirement);
   double value;
-  if (!is_number(got, value) || value < low || value > high || value != of * std::floor(value / of)) fail(keyword, requirement, got);
+  if (!is_number(got, value) || value < low || value > high || value != of * std::floor(value / of))
+    fail(keyword, requirement, got);
   return static_cast<int>(value);
 }
 
-int Arguments::whole_number(const std::string &keyword, int low, int high) { return multiple(keyword, 1, low, high, "a whole number"); }
+int Arguments::whole_number(const std::string &keyword, int low, int high) {
+  return multiple(keyword, 1, low, high, "a whole number");
+}
 
-int Arguments::even_number(const std::string &keyword, int low, int high) { return multiple(keyword, 2, low, high, "an even whole number"); }
+int Arguments::even_number(const std::string &keyword, int low, int high) {
+  return multiple(keyword, 2, low, high, "an even whole number");
+}
 
 void Arguments::fail(const std::string &keyword, const std::string &requirement, const std::string &got) const {
   fail("'" + keyword + "' must be " + requirement + ", got '" + got + "'");

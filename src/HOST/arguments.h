@@ -6,15 +6,18 @@
 #include <string>
 #include <vector>
 
-namespace LAMMPS_NS { class LAMMPS; }
+namespace LAMMPS_NS {
+class LAMMPS;
+}
 
 namespace grainscope {
 
 /** Ends the run on all ranks with `message`. Apart from what reads words, which the fuzzer takes without the host. */
 [[noreturn]] void end_run(LAMMPS_NS::LAMMPS *lmp, const std::string &message);
 
-/** The words of one command, read in order. Every error names the style, the keyword, the requirement and the value received:
- *  `compute dissipation: 'mode' must be instantaneous or step, got 'fast'`. Errors are collective: all ranks read the same words. */
+/** The words of one command, read in order. Every error names the style, the keyword, the requirement and the value
+ *  received: `compute dissipation: 'mode' must be instantaneous or step, got 'fast'`. Errors are collective: all ranks
+ *  read the same words. */
 class Arguments {
  public:
   Arguments(LAMMPS_NS::LAMMPS *lmp, const std::string &style, int first, int narg, char **arg);
@@ -24,7 +27,8 @@ class Arguments {
   bool done() const { return at_ == words_.size(); }
   /** The next word; an error that names `wanted` when there is none. */
   std::string word(const std::string &wanted);
-  /** The next keyword (or, for messages, the next `kind` of word), one of `keywords`; an error when it was read before. */
+  /** The next keyword (or, for messages, the next `kind` of word), one of `keywords`; an error when it was read
+   *  before. */
   std::string keyword(const std::vector<std::string> &keywords, const std::string &kind = "keyword");
   /** For a style without keywords: an error when there is a word. */
   void require_none();

@@ -17,10 +17,15 @@ Eigen::Matrix3d upper_triangular(const double *h) {
 
 BoxState::BoxState(LAMMPS_NS::LAMMPS *lmp) {
   const LAMMPS_NS::Domain *domain = lmp->domain;
-  const double h[6] = {domain->xprd, domain->yprd, domain->zprd, domain->triclinic ? domain->yz : 0.0,
-                       domain->triclinic ? domain->xz : 0.0, domain->triclinic ? domain->xy : 0.0};
+  const double h[6] = {domain->xprd,
+                       domain->yprd,
+                       domain->zprd,
+                       domain->triclinic ? domain->yz : 0.0,
+                       domain->triclinic ? domain->xz : 0.0,
+                       domain->triclinic ? domain->xy : 0.0};
   edges = upper_triangular(h);
-  // With `remap x` the host moves grains along with the box behind their velocities' back: these are then peculiar already.
+  // With `remap x` the host moves grains along with the box behind their velocities' back: these are then peculiar
+  // already.
   if (domain->deform_vremap) edge_velocities = upper_triangular(domain->h_rate);
   velocity_gradient = edge_velocities * edges.inverse();
   centre = Eigen::Map<const Eigen::Vector3d>(domain->boxlo) + 0.5 * edges.rowwise().sum();
@@ -37,8 +42,6 @@ int BoxState::layer(const Eigen::Vector3d &x, int k, int layers) const {
   return nearest_bin_index((periodic[k] ? s - std::floor(s) : s) * layers, layers);
 }
 
-double BoxState::height(int k) const {
-  return volume / edges.col((k + 1) % 3).cross(edges.col((k + 2) % 3)).norm();
-}
+double BoxState::height(int k) const { return volume / edges.col((k + 1) % 3).cross(edges.col((k + 2) % 3)).norm(); }
 
 }

@@ -5,16 +5,18 @@
 #include "affine_flow.h"
 #include <array>
 
-namespace LAMMPS_NS { class LAMMPS; }
+namespace LAMMPS_NS {
+class LAMMPS;
+}
 
 namespace grainscope {
 
 /** Box edges in columns from the host's h or h_rate: xx yy zz yz xz xy. */
 Eigen::Matrix3d upper_triangular(const double *h);
 
-/** The simulation box at one moment, and the affine flow of its grains about its centre. H holds the edge vectors in its
- *  columns, dH/dt their velocities; the velocity gradient is dH/dt H^-1 and includes the motion of a box edge that is being
- *  moved. Zero for a box that does not deform, or deforms without `remap v`. */
+/** The simulation box at one moment, and the affine flow of its grains about its centre. H holds the edge vectors in
+ *  its columns, dH/dt their velocities; the velocity gradient is dH/dt H^-1 and includes the motion of a box edge that
+ *  is being moved. Zero for a box that does not deform, or deforms without `remap v`. */
 struct BoxState : AffineFlow {
   Eigen::Matrix3d edges = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d edge_velocities = Eigen::Matrix3d::Zero();

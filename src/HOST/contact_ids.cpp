@@ -23,7 +23,8 @@ bool knows(FixContactHistory *history, int i, int id) {
 bool contacts_know_their_grains(LAMMPS_NS::LAMMPS *lmp) {
   LAMMPS_NS::Atom *atom = lmp->atom;
   const bool kept = lmp->modify->n_fixes_style_strict("contacthistory") > 0 && atom->map_style;
-  auto *history = kept ? dynamic_cast<FixContactHistory *>(lmp->modify->find_fix_style_strict("contacthistory", 0)) : nullptr;
+  auto *history =
+      kept ? dynamic_cast<FixContactHistory *>(lmp->modify->find_fix_style_strict("contacthistory", 0)) : nullptr;
   int one_sided = 0;
   for (int i = 0; history && i < atom->nlocal; i++)
     for (int k = 0; k < history->n_partner(i); k++) {

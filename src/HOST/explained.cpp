@@ -87,7 +87,7 @@ bool may_fit(const Reference &r, const Owner &owner) {
   if (r.indices.size() > 1)
     return within(owner.array_flag, owner.size_array_cols) && r.indices[0] <= owner.size_array_rows;
   return within(owner.vector_flag, owner.size_vector) || within(owner.array_flag, owner.size_array_cols) ||
-      within(owner.peratom_flag, owner.size_peratom_cols) || within(owner.local_flag, owner.size_local_cols);
+         within(owner.peratom_flag, owner.size_peratom_cols) || within(owner.local_flag, owner.size_local_cols);
 }
 
 struct Description {
@@ -145,10 +145,19 @@ std::string about_style(LAMMPS *lmp, const std::string &message) {
 std::string explained(LAMMPS *lmp, const char *message) {
   std::string text = message;
   if (!lmp->input || !lmp->modify) return text;
-  static const char *const about_names[] = {"accessed out-of-range", "is not large enough", "does not compute",
-                                            "does not calculate", "Mismatched compute", "Mismatched fix", "Could not find",
-                                            "Compute ID for", "Fix ID for", "Invalid compute ID", "Invalid fix ID",
-                                            "must be an index", "between brackets in variable",
+  static const char *const about_names[] = {"accessed out-of-range",
+                                            "is not large enough",
+                                            "does not compute",
+                                            "does not calculate",
+                                            "Mismatched compute",
+                                            "Mismatched fix",
+                                            "Could not find",
+                                            "Compute ID for",
+                                            "Fix ID for",
+                                            "Invalid compute ID",
+                                            "Invalid fix ID",
+                                            "must be an index",
+                                            "between brackets in variable",
                                             "variable brackets must be positive"};
   const auto contains = [&text](const char *words) { return text.find(words) != std::string::npos; };
   if (contains("group ID")) return text;
@@ -163,8 +172,9 @@ int index_in_brackets(LAMMPS *lmp, const char *brackets) {
   const char *digits = brackets + 1, *end = digits + std::strspn(digits, "0123456789");
   const int index = end - digits < 10 ? std::atoi(digits) : 0;
   if (index < 1 || std::strcmp(end, "]"))
-    lmp->error->all(FLERR, ("what is in brackets must be an index, a whole number from 1 up, got '" +
-                            std::string(brackets) + "'").c_str());
+    lmp->error->all(
+        FLERR, ("what is in brackets must be an index, a whole number from 1 up, got '" + std::string(brackets) + "'")
+                   .c_str());
   return index;
 }
 

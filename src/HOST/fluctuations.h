@@ -7,14 +7,17 @@
 #include <string>
 #include <vector>
 
-namespace LAMMPS_NS { class LAMMPS; }
+namespace LAMMPS_NS {
+class LAMMPS;
+}
 
 namespace grainscope {
 
 class Arguments;
 
-/** What is taken for the mean flow: the affine flow of the box; a given rate; the straight line fitted to the velocities; or the mean
- *  of each of `layers` layers across the gradient. The group's mean (by mass) is taken out in each case. */
+/** What is taken for the mean flow: the affine flow of the box; a given rate; the straight line fitted to the
+ *  velocities; or the mean of each of `layers` layers across the gradient. The group's mean (by mass) is taken out in
+ *  each case. */
 struct MeanFlow {
   enum class Kind { box, rate, fit, layers } kind = Kind::box;
   double rate = 0.0;
@@ -25,13 +28,13 @@ struct MeanFlow {
   void read(Arguments &arguments);
 };
 
-/** How the grains of a group move and spin against a mean flow: u = v - flow, dv = u - <u> by mass, dw = omega - <omega>, where the
- *  means are those of the group, or with flow layers of each layer. Collective. */
+/** How the grains of a group move and spin against a mean flow: u = v - flow, dv = u - <u> by mass, dw = omega -
+ *  <omega>, where the means are those of the group, or with flow layers of each layer. Collective. */
 class Fluctuations {
  public:
   struct Grain {
-    int index;              // local index of the host
-    int layer;              // 0 without layers
+    int index;  // local index of the host
+    int layer;  // 0 without layers
     double mass;
     Eigen::Vector3d u;
   };
@@ -60,7 +63,7 @@ class Fluctuations {
 
   LAMMPS_NS::LAMMPS *lmp_;
   std::vector<Grain> local_;
-  std::vector<Mean> means_;   // of each layer
+  std::vector<Mean> means_;  // of each layer
   double grains_ = 0.0;
   Eigen::Vector3d slope_ = Eigen::Vector3d::Zero();
 

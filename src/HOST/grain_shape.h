@@ -15,7 +15,9 @@ inline Eigen::Vector3d semi_axes(const LAMMPS_NS::Atom &atom, int i) {
 }
 
 /** Diameter of the sphere of the ellipsoid's volume. */
-inline double equivalent_diameter(const LAMMPS_NS::Atom &atom, int i) { return 2.0 * std::cbrt(semi_axes(atom, i).prod()); }
+inline double equivalent_diameter(const LAMMPS_NS::Atom &atom, int i) {
+  return 2.0 * std::cbrt(semi_axes(atom, i).prod());
+}
 
 /** Turns the frame of the principal axes of superquadric i into the laboratory's. */
 inline Eigen::Quaterniond orientation(const LAMMPS_NS::Atom &atom, int i) {
@@ -25,7 +27,8 @@ inline Eigen::Quaterniond orientation(const LAMMPS_NS::Atom &atom, int i) {
 
 /** Inertia tensor in the laboratory frame. */
 inline Eigen::Matrix3d inertia_tensor(const LAMMPS_NS::Atom &atom, int i) {
-  if (!atom.superquadric_flag) return 0.4 * atom.rmass[i] * atom.radius[i] * atom.radius[i] * Eigen::Matrix3d::Identity();
+  if (!atom.superquadric_flag)
+    return 0.4 * atom.rmass[i] * atom.radius[i] * atom.radius[i] * Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d r = orientation(atom, i).toRotationMatrix();
   return r * Eigen::Map<const Eigen::Vector3d>(atom.inertia[i]).asDiagonal() * r.transpose();
 }

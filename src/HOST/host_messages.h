@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace LAMMPS_NS { class LAMMPS; }
+namespace LAMMPS_NS {
+class LAMMPS;
+}
 
 /** What cmake/mends/messages.cmake puts into the host: no message is lost, and one about a wrong name or index says
  *  what there is. */
@@ -17,7 +19,8 @@ namespace grainscope {
 void begin_messages(LAMMPS_NS::LAMMPS *lmp);
 /** Lines of a screen or log file arrive when they end, at its end. None: nothing. */
 void write_by_line(FILE *file);
-/** Every rank keeps the names of the log file and of the file that `-screen` names, which rank 0 writes; none: "none". */
+/** Every rank keeps the names of the log file and of the file that `-screen` names, which rank 0 writes; none:
+ *  "none". */
 void log_goes_to(const char *path);
 void screen_goes_to(const char *path);
 

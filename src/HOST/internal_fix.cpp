@@ -29,7 +29,8 @@ void require_free(LAMMPS *lmp, const std::string &id, const std::string &why) {
 
 }
 
-InternalFix::InternalFix(LAMMPS *lmp, int narg, char **arg, const char *makers) : Fix(lmp, narg, arg), words_(arg, arg + narg) {
+InternalFix::InternalFix(LAMMPS *lmp, int narg, char **arg, const char *makers)
+    : Fix(lmp, narg, arg), words_(arg, arg + narg) {
   if (!making) error->all(FLERR, ("fix " + words_[2] + ": is made by " + makers + ", not by an input script").c_str());
 }
 
@@ -53,7 +54,8 @@ InternalFix *InternalFix::make_last(LAMMPS *lmp, const Words &words, const std::
 InternalFix *InternalFix::find(LAMMPS *lmp, const std::string &id, const char *style) {
   Modify *modify = lmp->modify;
   const int found = modify && modify->nfix ? modify->find_fix(id.c_str()) : -1;
-  return found < 0 || strcmp(modify->fix[found]->style, style) ? nullptr : static_cast<InternalFix *>(modify->fix[found]);
+  return found < 0 || strcmp(modify->fix[found]->style, style) ? nullptr
+                                                               : static_cast<InternalFix *>(modify->fix[found]);
 }
 
 void InternalFix::remove(LAMMPS *lmp, const std::string &id, const char *style) {
@@ -63,14 +65,16 @@ void InternalFix::remove(LAMMPS *lmp, const std::string &id, const char *style) 
 InternalFix *ComputeFix::make(LAMMPS *lmp, const char *compute, int igroup, const InternalFix::Words &further) const {
   InternalFix::Words words{id(compute), lmp->group->names[igroup], style};
   words.insert(words.end(), further.begin(), further.end());
-  return InternalFix::make(lmp, words, "compute " + std::string(compute) + " needs the fix ID '" + words[0] + "' for its " + purpose);
+  return InternalFix::make(
+      lmp, words, "compute " + std::string(compute) + " needs the fix ID '" + words[0] + "' for its " + purpose);
 }
 
 InternalFix *ComputeFix::find(LAMMPS *lmp, const char *compute) const {
   InternalFix *fix = InternalFix::find(lmp, id(compute), style);
   if (!fix)
     lmp->error->all(FLERR, ("fix " + id(compute) + ", which " + holds + " of compute " + compute +
-                            ", is gone: uncompute it and compute again").c_str());
+                            ", is gone: uncompute it and compute again")
+                               .c_str());
   return fix;
 }
 

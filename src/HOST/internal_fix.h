@@ -42,8 +42,8 @@ class InternalFix : public LAMMPS_NS::Fix {
  *  destructor. */
 struct ComputeFix {
   const char *style, *suffix;
-  const char *purpose;   // "memory", as in: needs the fix ID for its memory
-  const char *holds;     // "holds the memory", as in: the fix, which holds the memory of the compute, is gone
+  const char *purpose;  // "memory", as in: needs the fix ID for its memory
+  const char *holds;    // "holds the memory", as in: the fix, which holds the memory of the compute, is gone
 
   InternalFix *make(LAMMPS_NS::LAMMPS *lmp, const char *compute, int igroup, const InternalFix::Words &further) const;
   /** An error when it is gone. */

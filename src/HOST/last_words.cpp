@@ -16,7 +16,7 @@ namespace grainscope {
 
 namespace {
 
-std::string log_path, screen_path;   // absolute: the input script may change the folder
+std::string log_path, screen_path;  // absolute: the input script may change the folder
 LAMMPS *running = nullptr;
 
 /** Whether two open files, given by descriptor or path, are one place that output can be read at. */
@@ -68,8 +68,7 @@ std::string absolute(const std::string &path) {
     if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
   } catch (const std::exception &thrown) {
     what = thrown.what();
-  } catch (...) {
-  }
+  } catch (...) {}
   const int rank = running->universe->me;
   if (FILE *screen = running->screen)
     fprintf(screen, "ERROR on proc %d: an exception ended the program: %s\n", rank, what.c_str());
@@ -82,7 +81,7 @@ std::string absolute(const std::string &path) {
 
 void begin_messages(LAMMPS *lmp) {
   running = lmp;
-  lmp->input = nullptr;   // the host sets them later, and complains before
+  lmp->input = nullptr;  // the host sets them later, and complains before
   lmp->modify = nullptr;
   write_by_line(stdout);
   std::set_terminate(report_exception);

@@ -29,18 +29,22 @@ void MeshCorrelation::plan(const std::array<int, 3> &size) {
   std::ptrdiff_t transposed_planes, transposed_first;
   mesh_.size = size;
   mesh_.row = 2 * half;
-  numbers_ = 2 * fftw_mpi_local_size_3d_transposed(size[0], size[1], half, world_, &mesh_.planes, &mesh_.first_plane, &transposed_planes,
-                                                   &transposed_first);
+  numbers_ = 2 * fftw_mpi_local_size_3d_transposed(size[0], size[1], half, world_, &mesh_.planes, &mesh_.first_plane,
+                                                   &transposed_planes, &transposed_first);
   modes_ = transposed_planes * size[0] * half;
   field_ = fftw_alloc_real(numbers_);
   fftw_complex *modes = reinterpret_cast<fftw_complex *>(field_);
-  forward_ = fftw_mpi_plan_dft_r2c_3d(size[0], size[1], size[2], field_, modes, world_, FFTW_ESTIMATE | FFTW_MPI_TRANSPOSED_OUT);
-  backward_ = fftw_mpi_plan_dft_c2r_3d(size[0], size[1], size[2], modes, field_, world_, FFTW_ESTIMATE | FFTW_MPI_TRANSPOSED_IN);
+  forward_ = fftw_mpi_plan_dft_r2c_3d(size[0], size[1], size[2], field_, modes, world_,
+                                      FFTW_ESTIMATE | FFTW_MPI_TRANSPOSED_OUT);
+  backward_ = fftw_mpi_plan_dft_c2r_3d(size[0], size[1], size[2], modes, field_, world_,
+                                       FFTW_ESTIMATE | FFTW_MPI_TRANSPOSED_IN);
 
   std::vector<std::ptrdiff_t> planes(ranks_);
   first_.resize(ranks_);
-  MPI_Allgather(&mesh_.planes, sizeof(std::ptrdiff_t), MPI_BYTE, planes.data(), sizeof(std::ptrdiff_t), MPI_BYTE, world_);
-  MPI_Allgather(&mesh_.first_plane, sizeof(std::ptrdiff_t), MPI_BYTE, first_.data(), sizeof(std::ptrdiff_t), MPI_BYTE, world_);
+  MPI_Allgather(&mesh_.planes, sizeof(std::ptrdiff_t), MPI_BYTE, planes.data(), sizeof(std::ptrdiff_t), MPI_BYTE,
+                world_);
+  MPI_Allgather(&mesh_.first_plane, sizeof(std::ptrdiff_t), MPI_BYTE, first_.data(), sizeof(std::ptrdiff_t), MPI_BYTE,
+                world_);
   owner_.assign(size[0], 0);
   for (int rank = 0; rank < ranks_; rank++)
     std::fill_n(owner_.begin() + (planes[rank] > 0 ? first_[rank] : 0), planes[rank], rank);
@@ -53,7 +57,8 @@ std::vector<MeshCorrelation::Deposit> MeshCorrelation::slab_deposits(const Point
     const std::array<int, 3> cell = mesh_.cell_of(points, i);
     if (*std::min_element(cell.begin(), cell.end()) < 0) continue;
     const int rank = owner_[cell[0]];
-    outgoing[rank].push_back({(cell[0] - first_[rank]) * mesh_.size[1] * mesh_.row + mesh_.in_plane(cell), points.value[i]});
+    outgoing[rank].push_back(
+        {(cell[0] - first_[rank]) * mesh_.size[1] * mesh_.row + mesh_.in_plane(cell), points.value[i]});
   }
   std::vector<int> sent(ranks_), received(ranks_), sent_at(ranks_), received_at(ranks_);
   for (int rank = 0; rank < ranks_; rank++) sent[rank] = static_cast<int>(outgoing[rank].size() * sizeof(Deposit));
@@ -62,8 +67,8 @@ std::vector<MeshCorrelation::Deposit> MeshCorrelation::slab_deposits(const Point
   std::partial_sum(received.begin(), received.end() - 1, received_at.begin() + 1);
   std::vector<Deposit> packed, deposits((received_at.back() + received.back()) / sizeof(Deposit));
   for (const auto &part : outgoing) packed.insert(packed.end(), part.begin(), part.end());
-  MPI_Alltoallv(packed.data(), sent.data(), sent_at.data(), MPI_BYTE, deposits.data(), received.data(), received_at.data(), MPI_BYTE,
-                world_);
+  MPI_Alltoallv(packed.data(), sent.data(), sent_at.data(), MPI_BYTE, deposits.data(), received.data(),
+                received_at.data(), MPI_BYTE, world_);
   return deposits;
 }
 

@@ -20,8 +20,8 @@ enum class Extent { intensive, extensive, whole };
 
 /** One number that a compute or fix gives, or one column. */
 struct NamedOutput {
-  std::string name;     // letters, digits and underscores: variables end with it; each once in a style
-  std::string unit;     // "-": none
+  std::string name;  // letters, digits and underscores: variables end with it; each once in a style
+  std::string unit;  // "-": none
   Extent extent;
   std::string meaning;  // one line
 };
@@ -38,11 +38,11 @@ class OutputList : public std::vector<NamedOutput> {
 
 /** All that a compute or fix gives. */
 struct Outputs {
-  OutputList scalar;   // one or none; with the name of an element of the vector: the same number
+  OutputList scalar;  // one or none; with the name of an element of the vector: the same number
   OutputList vector;
   OutputList columns;  // of the array
   int rows;
-  std::string row;     // what one row of the array is
+  std::string row;  // what one row of the array is
   OutputList per_grain, local;
 
   Outputs() : rows(0) {}
@@ -87,7 +87,8 @@ class DeclaresOutputs {
   Rows rows_;
   double **array_ = nullptr;
 
-  template <class Style> void set_flags(Style *style);
+  template <class Style>
+  void set_flags(Style *style);
   void require_good_names() const;
   void put(const double *values, std::size_t n, double *to, const OutputList &declared, const char *what) const;
 };

@@ -9,8 +9,8 @@
 
 namespace grainscope {
 
-/** Says once that a quantity has left the range in which results can be trusted, with its value and the limit: when it was outside ten times in
- *  succession, as a start passes through much that does not last. */
+/** Says once that a quantity has left the range in which results can be trusted, with its value and the limit: when it
+ *  was outside ten times in succession, as a start passes through much that does not last. */
 class RangeWarning {
  public:
   /** `format` takes the two numbers. All ranks may call; rank 0 speaks. */

@@ -13,8 +13,8 @@ namespace grainscope {
 inline void require_finite(LAMMPS_NS::LAMMPS *lmp, const std::string &who, double count, const std::string &what,
                            const std::string &of) {
   if (count == 0.0) return;
-  Arguments(lmp, who)
-      .fail("step " + std::to_string(lmp->update->ntimestep) + ": " + what + " of " + Arguments::text(count) + " " + of);
+  Arguments(lmp, who).fail("step " + std::to_string(lmp->update->ntimestep) + ": " + what + " of " +
+                           Arguments::text(count) + " " + of);
 }
 
 }

@@ -8,7 +8,8 @@
 
 namespace grainscope {
 
-ShearedBox::ShearedBox(LAMMPS_NS::LAMMPS *lmp, int axis, const Tilt *shear) : Pointers(lmp), axis_(axis), shear_(shear) {
+ShearedBox::ShearedBox(LAMMPS_NS::LAMMPS *lmp, int axis, const Tilt *shear)
+    : Pointers(lmp), axis_(axis), shear_(shear) {
   if (shear) irregular_.reset(new LAMMPS_NS::Irregular(lmp));
 }
 

@@ -15,8 +15,7 @@
 
 namespace SignalHandler = LAMMPS_NS::SignalHandler;
 
-namespace grainscope {
-namespace stop_signal {
+namespace grainscope { namespace stop_signal {
 
 namespace {
 
@@ -81,8 +80,10 @@ int noted() { return (wants_quit ? quit : 0) | (wants_restart ? restart : 0); }
 void forward_to_host(LAMMPS_NS::LAMMPS *lmp, int all) {
   if (!(all & (quit | restart))) return;
   wants_restart = 0;
-  if ((all & quit) && !SignalHandler::request_quit) say(lmp, "SIGINT or SIGTERM: the run ends after the coming step, or after this one when it is its last");
-  if (!(all & quit) && !SignalHandler::enable_restart_writing) return say(lmp, "SIGUSR1: no restart file, because of write_restart_on_signal no");
+  if ((all & quit) && !SignalHandler::request_quit)
+    say(lmp, "SIGINT or SIGTERM: the run ends after the coming step, or after this one when it is its last");
+  if (!(all & quit) && !SignalHandler::enable_restart_writing)
+    return say(lmp, "SIGUSR1: no restart file, because of write_restart_on_signal no");
   SignalHandler::request_write_restart = SignalHandler::enable_restart_writing;
   SignalHandler::request_quit = all & quit;
   // The host prints a row of thermo output on the step: what it shows must be ready. In the last one it is.
@@ -90,5 +91,4 @@ void forward_to_host(LAMMPS_NS::LAMMPS *lmp, int all) {
   else lmp->output->restart_requested(lmp->update->ntimestep);
 }
 
-}
-}
+}}

@@ -4,7 +4,9 @@
 
 #include <vector>
 
-namespace LAMMPS_NS { class LAMMPS; }
+namespace LAMMPS_NS {
+class LAMMPS;
+}
 
 namespace grainscope {
 

@@ -18,25 +18,36 @@
 namespace grainscope {
 
 const std::vector<StyleNames> &style_names() {
-  static const std::vector<StyleNames> all = {
-      {"atom", 0, {
+  static const std::vector<StyleNames> all = {{"atom",
+                                               0,
+                                               {
 #include "style_atom.h"
-      }},
-      {"compute", 2, {
+                                               }},
+                                              {"compute",
+                                               2,
+                                               {
 #include "style_compute.h"
-      }},
-      {"dump", 2, {
+                                               }},
+                                              {"dump",
+                                               2,
+                                               {
 #include "style_dump.h"
-      }},
-      {"fix", 2, {
+                                               }},
+                                              {"fix",
+                                               2,
+                                               {
 #include "style_fix.h"
-      }},
-      {"pair", 0, {
+                                               }},
+                                              {"pair",
+                                               0,
+                                               {
 #include "style_pair.h"
-      }},
-      {"region", 1, {
+                                               }},
+                                              {"region",
+                                               1,
+                                               {
 #include "style_region.h"
-      }}};
+                                               }}};
   return all;
 }
 

@@ -9,8 +9,8 @@ namespace grainscope {
 
 /** The names of all styles that one command knows, the host's and ours. */
 struct StyleNames {
-  const char *command;   // or `<command>_style`
-  int place;             // of the style among its words
+  const char *command;  // or `<command>_style`
+  int place;            // of the style among its words
   std::vector<std::string> names;
 };
 

@@ -11,9 +11,9 @@
 
 namespace grainscope {
 
-/** Between those that read contacts from the host's models (ContactReader) and the sinks: asks the sinks before each force evaluation, and
- *  hands them its contacts, a batch at a time. Inactive (no sink wants the step, or the host re-evaluates for its own output)
- *  it costs one branch per contact. */
+/** Between those that read contacts from the host's models (ContactReader) and the sinks: asks the sinks before each
+ *  force evaluation, and hands them its contacts, a batch at a time. Inactive (no sink wants the step, or the host
+ *  re-evaluates for its own output) it costs one branch per contact. */
 class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers {
  public:
   explicit ContactObserver(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
@@ -31,8 +31,8 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   /** A run has ended: the sinks compute what they are asked for afterwards. */
   void end_run() const;
 
-  /** Asks the sinks, before a force evaluation. `springs_move`: false in the first of a run. `repeats`: it repeats the last evaluation of the
-   *  previous run. Returns true if one of the sinks needs image shifts. */
+  /** Asks the sinks, before a force evaluation. `springs_move`: false in the first of a run. `repeats`: it repeats the
+   *  last evaluation of the previous run. Returns true if one of the sinks needs image shifts. */
   bool begin(bool springs_move, bool repeats);
   void end();
   bool active() const { return active_; }
@@ -54,13 +54,15 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   const double *const *positions() const { return x_; }
   int local_grains() const { return n_local_; }
 
-  /** A contact to be filled in, where another of this evaluation may have been; sinks see it at the latest when the evaluation ends. */
+  /** A contact to be filled in, where another of this evaluation may have been; sinks see it at the latest when the
+   *  evaluation ends. */
   Contact &next() {
     if (next_ == batch_.data() + batch_.size()) hand_over();
     return *next_++;
   }
 
-  /** Image shift of atom j, three integers as doubles: x_j = x_owner + H . shift. Valid when a sink asked for images. */
+  /** Image shift of atom j, three integers as doubles: x_j = x_owner + H . shift. Valid when a sink asked for
+   *  images. */
   const double *image_shift(int j) const { return &image_shifts_[3 * j]; }
   std::vector<double> &image_shifts() { return image_shifts_; }
   /** Velocity of ghost j less its owner's, dH/dt . shift, where the box deforms with `remap v`. */
@@ -78,9 +80,10 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   bool springs_move_ = true;
   bool repeats_ = false;
   long runs_ = 0;
-  double stamp_ = -1.0, stamp_before_ = -1.0;   // of this evaluation and the one before: step, and a fraction that tells runs apart
+  // of this evaluation and the one before: step, and a fraction that tells runs apart
+  double stamp_ = -1.0, stamp_before_ = -1.0;
   BoxState box_;
-  double **x_ = nullptr;           // of the evaluation under way, as the two below
+  double **x_ = nullptr;  // of the evaluation under way, as the two below
   int n_local_ = 0;
   double dt_ = 0.0;
   std::vector<double> image_shifts_;

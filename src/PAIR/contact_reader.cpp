@@ -9,11 +9,11 @@ namespace grainscope {
 using Eigen::Map;
 using Eigen::Vector3d;
 
-/** The spring as it was before the friction limit. The host's model must be repeated for that: it shortens a spring in place and keeps neither
- *  its length nor a mark that it was cut, and the length cut is what friction dissipates. In the host's own operations and order, so
- *  that a spring that was not cut compares equal to the last bit. In the first evaluation of a run the host moves no spring: a cut
- *  then means that the force was limited, and slip is what would have been cut; where it repeats an evaluation, springs
- *  have been cut. */
+/** The spring as it was before the friction limit. The host's model must be repeated for that: it shortens a spring in
+ *  place and keeps neither its length nor a mark that it was cut, and the length cut is what friction dissipates. In
+ *  the host's own operations and order, so that a spring that was not cut compares equal to the last bit. In the first
+ *  evaluation of a run the host moves no spring: a cut then means that the force was limited, and slip is what would
+ *  have been cut; where it repeats an evaluation, springs have been cut. */
 inline void ContactReader::judge_spring(const Surfaces &s, Friction &friction) const {
   double x = spring_[0], y = spring_[1], z = spring_[2];
   if (observer_.springs_move()) {
@@ -72,8 +72,8 @@ Vector3d ContactReader::friction_force(const Surfaces &s, const Friction &fricti
 }
 
 const char *ContactReader::past_column(int k) {
-  static const char *const names[past_columns] = {"past_stamp", "past_overlap", "past_elastic_force", "past_kt", "past_elastic_work",
-                                                  "past_spring_work"};
+  static const char *const names[past_columns] = {"past_stamp", "past_overlap",      "past_elastic_force",
+                                                  "past_kt",    "past_elastic_work", "past_spring_work"};
   return names[k];
 }
 
@@ -133,7 +133,8 @@ inline void ContactReader::add_rolling(const Surfaces &s, const Forces &force_on
 void ContactReader::after(const Surfaces &s, const Forces &force_on_i) {
   const double *const *x = observer_.positions();
   const Map<const Vector3d> xi(x[s.i]), xj(x[s.j]);
-  const Vector3d normal(s.en[0], s.en[1], s.en[2]), force(force_on_i.delta_F[0], force_on_i.delta_F[1], force_on_i.delta_F[2]);
+  const Vector3d normal(s.en[0], s.en[1], s.en[2]),
+      force(force_on_i.delta_F[0], force_on_i.delta_F[1], force_on_i.delta_F[2]);
   const double normal_force = force.dot(normal), coefficient = law_.friction_coefficient(s.itype, s.jtype);
   const Friction friction = judge_friction(s, ContactLaw::friction_limit(coefficient, s.Fn));
 

@@ -15,7 +15,8 @@ class ObservedModel {
   ~ObservedModel() = default;
 };
 
-/** Turns the working data of one contact model of the host into Contacts, and gives them to the observer. Called before and after the model. */
+/** Turns the working data of one contact model of the host into Contacts, and gives them to the observer. Called before
+ *  and after the model. */
 class ContactReader {
  public:
   using Surfaces = LIGGGHTS::ContactModels::SurfacesIntersectData;
@@ -38,7 +39,8 @@ class ContactReader {
     if (law_.tangential != TangentialLaw::spring) return;
     double *spring = s.contact_history + law_.spring_column;
     for (int k = 0; k < 3; k++) {
-      // Springs that were cut to the limit are at it, but for rounding: in a repetition a touch more keeps them sliding. It is not kept.
+      // Springs that were cut to the limit are at it, but for rounding: in a repetition a touch more keeps them
+      // sliding. It is not kept.
       if (observer_.repeats()) spring[k] *= 1.0 + 1e-12;
       spring_[k] = spring[k];
     }
@@ -53,12 +55,12 @@ class ContactReader {
 
   /** What friction made of one contact. */
   struct Friction {
-    double limit;                       // of the force
-    bool cut = false;                   // the spring was, or the force of a law without springs
-    bool beyond = false;                // not cut, but kept to the limit by damping, or beyond it: in first evaluations
+    double limit;         // of the force
+    bool cut = false;     // the spring was, or the force of a law without springs
+    bool beyond = false;  // not cut, but kept to the limit by damping, or beyond it: in first evaluations
     double slip = 0.0;
-    double damping = 0.0;               // the coefficient that acts where it is not cut
-    double spring[3] = {0.0, 0.0, 0.0}; // before the cut
+    double damping = 0.0;                // the coefficient that acts where it is not cut
+    double spring[3] = {0.0, 0.0, 0.0};  // before the cut
   };
   Friction judge_friction(const Surfaces &s, double limit) const;
   void judge_spring(const Surfaces &s, Friction &friction) const;

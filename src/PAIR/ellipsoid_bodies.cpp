@@ -44,7 +44,9 @@ void EllipsoidBodies::read_shapes(int n) {
 /** The host takes a blockiness within 0.01 of 2 for an ellipsoid's; so do we. */
 void EllipsoidBodies::refuse_other_blockiness() {
   const int none = std::numeric_limits<int>::max();
-  struct { int tag, rank; } mine{none, comm->me}, first;
+  struct {
+    int tag, rank;
+  } mine{none, comm->me}, first;
   int found = -1;
   for (int i = 0; i < atom->nlocal; i++) {
     const double *b = atom->blockiness[i];
@@ -59,7 +61,8 @@ void EllipsoidBodies::refuse_other_blockiness() {
   if (first.rank == comm->me) std::copy(atom->blockiness[found], atom->blockiness[found] + 2, blockiness);
   MPI_Bcast(blockiness, 2, MPI_DOUBLE, first.rank, world);
   char message[200];
-  snprintf(message, sizeof message, "surface ellipsoid needs blockiness 2 2 of every grain, got %g %g of grain %d: use surface superquadric",
+  snprintf(message, sizeof message,
+           "surface ellipsoid needs blockiness 2 2 of every grain, got %g %g of grain %d: use surface superquadric",
            blockiness[0], blockiness[1], first.tag);
   error->all(FLERR, message);
 }
@@ -72,9 +75,12 @@ void EllipsoidBodies::refuse_other_than_spheres() {
     if (!is_sphere(i)) first = std::min(first, atom->tag[i]);
   MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, world);
   if (first == none) return;
-  const std::string message = "surface ellipsoid: '" + sphere_model_ + "' knows the distance of spheres only, and "
-      "grain " + std::to_string(first) + " is none: use cohesion sjkr or sjkr2, whose area surface ellipsoid "
-      "provides, or spheres";
+  const std::string message = "surface ellipsoid: '" + sphere_model_ +
+                              "' knows the distance of spheres only, and "
+                              "grain " +
+                              std::to_string(first) +
+                              " is none: use cohesion sjkr or sjkr2, whose area surface ellipsoid "
+                              "provides, or spheres";
   error->all(FLERR, message.c_str());
 }
 
@@ -136,13 +142,16 @@ void EllipsoidBodies::count(const Query &query, EllipsoidContact &contact) {
   if (warned_) return;
   warned_ = true;
   char message[200];
-  snprintf(message, sizeof message, "surface ellipsoid: no regular contact of grains %d and %d (concentric?), their normal is arbitrary "
-           "(told once per rank; compute contact/solver counts)", atom->tag[query.i], atom->tag[query.j]);
+  snprintf(message, sizeof message,
+           "surface ellipsoid: no regular contact of grains %d and %d (concentric?), their normal is arbitrary "
+           "(told once per rank; compute contact/solver counts)",
+           atom->tag[query.i], atom->tag[query.j]);
   error->warning(FLERR, message);
 }
 
 double EllipsoidBodies::mean_curvature(int i, const double y[3]) const {
-  return grains_[i].triaxial ? grainscope::mean_curvature(frame(i), y) : grainscope::mean_curvature(grains_[i].spheroid, y);
+  return grains_[i].triaxial ? grainscope::mean_curvature(frame(i), y)
+                             : grainscope::mean_curvature(grains_[i].spheroid, y);
 }
 
 }

@@ -13,12 +13,12 @@ namespace grainscope {
 
 /** What the solver did on this rank, since the pair style was defined. */
 struct SolverCounts {
-  double listed = 0.0;     // pairs in neighbour lists, once per force evaluation (own loop only)
-  double solved = 0.0;     // pairs that the solver was asked for
+  double listed = 0.0;  // pairs in neighbour lists, once per force evaluation (own loop only)
+  double solved = 0.0;  // pairs that the solver was asked for
   double touching = 0.0;
-  double steps = 0.0;      // Newton steps
-  double most_steps = 0.0; // in one pair
-  double fallbacks = 0.0;  // contacts whose answer is not the regular one
+  double steps = 0.0;       // Newton steps
+  double most_steps = 0.0;  // in one pair
+  double fallbacks = 0.0;   // contacts whose answer is not the regular one
 };
 
 /** Tells whether neighbour lists, or grains between two runs, have changed since it was asked last. All ranks alike. */
@@ -35,7 +35,8 @@ class NeighbourListWatch {
   LAMMPS_NS::bigint built_ = -1, run_ = -1;
 };
 
-/** Every owned and ghost grain as an ellipsoid: shapes are read once per neighbour list and run, orientations once per force evaluation. */
+/** Every owned and ghost grain as an ellipsoid: shapes are read once per neighbour list and run, orientations once per
+ *  force evaluation. */
 class EllipsoidBodies : private LAMMPS_NS::Pointers {
  public:
   explicit EllipsoidBodies(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
@@ -47,7 +48,10 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
   void set_sphere_model(const std::string &model) { sphere_model_ = model; }
 
   /** Grains i and j, d = x_j - x_i, and a start as in ellipsoid_contact(). */
-  struct Query { int i, j; double d[3], start; };
+  struct Query {
+    int i, j;
+    double d[3], start;
+  };
   void solve(int n, const Query *queries, EllipsoidContact *contacts);
   /** At a point y of the surface of grain i, from its centre [1/length]. */
   double mean_curvature(int i, const double y[3]) const;
@@ -55,7 +59,8 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
   double equivalent_radius(int i) const { return grains_[i].equivalent_radius; }
   /** sphere_contact() of two grains of a packing of only_spheres(). */
   EllipsoidContact solve_spheres(int i, int j, const double d[3], double d2) {
-    const double radius1 = grains_[i].across, radius2 = grains_[j].across, small = 1e-10 * (radius1 < radius2 ? radius1 : radius2);
+    const double radius1 = grains_[i].across, radius2 = grains_[j].across,
+                 small = 1e-10 * (radius1 < radius2 ? radius1 : radius2);
     if (d2 < small * small) {  // perhaps concentric
       const Query query{i, j, {d[0], d[1], d[2]}, 0.0};
       EllipsoidContact contact;
@@ -85,7 +90,7 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
   bool only_spheres_ = false, some_triaxial_ = false;
   NeighbourListWatch lists_;
   std::vector<EllipsoidPair> pairs_;
-  std::vector<int> place_;                 // of each of them among the queries
+  std::vector<int> place_;  // of each of them among the queries
   std::vector<EllipsoidContact> solved_;
   bool warned_ = false;
   std::string sphere_model_;

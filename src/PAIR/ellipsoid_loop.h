@@ -16,9 +16,10 @@
 
 namespace grainscope {
 
-/** The pair loop of `surface ellipsoid` under gran/insitu: the host's, for what sheared packings need of it, in the host's order and to
- *  the host's last bit, but neighbours that are surely apart are not looked at. Whatever else is asked of the loop (rigid bodies,
- *  multicontact, stored contact forces, compute pair/gran/local) goes the host's way. */
+/** The pair loop of `surface ellipsoid` under gran/insitu: the host's, for what sheared packings need of it, in the
+ *  host's order and to the host's last bit, but neighbours that are surely apart are not looked at. Whatever else is
+ *  asked of the loop (rigid bodies, multicontact, stored contact forces, compute pair/gran/local) goes the host's
+ *  way. */
 template <class Model>
 class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model>, public ResetsOpenedSprings {
   using Host = LIGGGHTS::PairStyles::Granular<Model>;
@@ -26,7 +27,8 @@ class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model>, public Reset
 
  public:
   EllipsoidLoop(LAMMPS_NS::LAMMPS *lmp, PairGran *pair, int64_t hash)
-      : Host(lmp, pair, hash), lmp_(lmp), pair_(pair), model_(static_cast<Model &>(*static_cast<LAMMPS_NS::PairGranInsitu *>(pair)->reader().model())),
+      : Host(lmp, pair, hash), lmp_(lmp), pair_(pair),
+        model_(static_cast<Model &>(*static_cast<LAMMPS_NS::PairGranInsitu *>(pair)->reader().model())),
         bodies_(static_cast<LAMMPS_NS::PairGranInsitu *>(pair)->ellipsoid_bodies()),
         surface_(static_cast<LAMMPS_NS::PairGranInsitu *>(pair)->ellipsoid_surface()) {}
 
@@ -54,8 +56,8 @@ class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model>, public Reset
     bool may_touch;    // their bounding spheres do
     int *flags;        // of the contact history, and its columns
     double *history;
-    int number;        // of the pair in the neighbour list
-    double motion;     // of its two grains, so far
+    int number;     // of the pair in the neighbour list
+    double motion;  // of its two grains, so far
   };
   static constexpr std::size_t BATCH = 512;  // contacts solved at a time: their data stay in the second cache
 
@@ -81,7 +83,7 @@ class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model>, public Reset
   SeparationMemory apart_;
   std::vector<int> first_pair_;  // of each grain in the neighbour list
   NeighbourListWatch lists_;
-  std::vector<int> look_;        // neighbours of one grain that may touch it, by place in its list
+  std::vector<int> look_;  // neighbours of one grain that may touch it, by place in its list
   std::vector<NeighbourPair> to_solve_;
   std::vector<EllipsoidBodies::Query> queries_;
   std::vector<EllipsoidContact> contacts_;
@@ -103,7 +105,8 @@ void EllipsoidLoop<Model>::own_compute_force(int eflag, int vflag) {
 
 /** Grain i and the neighbour of place jj in its list. */
 template <class Model>
-inline typename EllipsoidLoop<Model>::NeighbourPair EllipsoidLoop<Model>::neighbour(const Lists &lists, int i, int jj) const {
+inline typename EllipsoidLoop<Model>::NeighbourPair EllipsoidLoop<Model>::neighbour(const Lists &lists, int i,
+                                                                                    int jj) const {
   NeighbourPair pair;
   pair.i = i;
   pair.j = lists.neighbours[jj] & NEIGHMASK;
@@ -122,8 +125,12 @@ inline typename EllipsoidLoop<Model>::NeighbourPair EllipsoidLoop<Model>::neighb
 
 template <class Model>
 inline typename EllipsoidLoop<Model>::Lists EllipsoidLoop<Model>::lists_of(int i) const {
-  return {pair_->list->firstneigh[i], pair_->listgranhistory->firstneigh[i], pair_->listgranhistory->firstdouble[i], pair_->dnum(),
-          lmp_->atom->x, lmp_->atom->radius};
+  return {pair_->list->firstneigh[i],
+          pair_->listgranhistory->firstneigh[i],
+          pair_->listgranhistory->firstdouble[i],
+          pair_->dnum(),
+          lmp_->atom->x,
+          lmp_->atom->radius};
 }
 
 /** Nothing but spheres: their distance is all that there is to know. */
@@ -218,7 +225,8 @@ void EllipsoidLoop<Model>::solve_batch() {
 
 /** One contact: the model's forces on its two grains. False if they do not touch. */
 template <class Model>
-inline __attribute__((always_inline)) bool EllipsoidLoop<Model>::enter(const NeighbourPair &pair, const EllipsoidContact &contact) {
+inline __attribute__((always_inline)) bool EllipsoidLoop<Model>::enter(const NeighbourPair &pair,
+                                                                       const EllipsoidContact &contact) {
   LAMMPS_NS::Atom *atom = lmp_->atom;
   const int i = pair.i, j = pair.j;
   s_.i = i;
@@ -265,8 +273,8 @@ inline __attribute__((always_inline)) bool EllipsoidLoop<Model>::enter(const Nei
     }
   }
   if (pair_->evflag)
-    pair_->ev_tally_xyz(i, j, atom->nlocal, 0, 0.0, 0.0, on_i_.delta_F[0], on_i_.delta_F[1], on_i_.delta_F[2], s_.delta[0], s_.delta[1],
-                        s_.delta[2]);
+    pair_->ev_tally_xyz(i, j, atom->nlocal, 0, 0.0, 0.0, on_i_.delta_F[0], on_i_.delta_F[1], on_i_.delta_F[2],
+                        s_.delta[0], s_.delta[1], s_.delta[2]);
   return true;
 }
 

@@ -26,7 +26,8 @@ struct EllipsoidSurface {
 
   double start(const double *history) const { return history[lambda] == 0.0 ? 0.0 : history[lambda] + 0.5; }
 
-  /** Enters a contact into the history, and into `s` if it touches; else s.deltan is minus a lower bound of the distance. */
+  /** Enters a contact into the history, and into `s` if it touches; else s.deltan is minus a lower bound of the
+   *  distance. */
   inline __attribute__((always_inline)) bool enter(const EllipsoidContact &c, Sides &s, const EllipsoidBodies &bodies,
                                                    const LAMMPS_NS::Atom *atom) const {
     if (!c.touching) {
@@ -35,7 +36,8 @@ struct EllipsoidSurface {
       return false;
     }
     // Two spheres take the models' shorter formulas, but where a limit makes them softer than spheres.
-    s.is_non_spherical = !bodies.is_sphere(s.i) || !bodies.is_sphere(s.j) || (curvature_limit > 0.0 && curvature_limit < 1.0);
+    s.is_non_spherical =
+        !bodies.is_sphere(s.i) || !bodies.is_sphere(s.j) || (curvature_limit > 0.0 && curvature_limit < 1.0);
     s.reff = s.radi * s.radj / (s.radi + s.radj);
     if (curvature_limit > 0.0 && s.is_non_spherical) {
       double ki = c.curvature[0], kj = c.curvature[1];
@@ -71,7 +73,8 @@ struct EllipsoidSurface {
     std::copy(values, values + columns, s.contact_history + first);
   }
 
-  /** Velocities of i against j at the contact point, and its distances from the centres (of spheres entered already). */
+  /** Velocities of i against j at the contact point, and its distances from the centres (of spheres entered
+   *  already). */
   void move(Sides &s, const LAMMPS_NS::Atom *atom) const {
     using Vector = Eigen::Map<const Eigen::Vector3d>;
     const Vector normal(s.en), point(s.contact_point), spin_i(s.omega_i), spin_j(s.omega_j);

@@ -6,14 +6,16 @@
 
 namespace grainscope {
 
-/** The last force evaluation, as `setup neutral` remembers it: what the pair style needs to repeat it when a run begins. */
+/** The last force evaluation, as `setup neutral` remembers it: what the pair style needs to repeat it when a run
+ *  begins. */
 class EvaluationMemory {
  public:
   virtual ~EvaluationMemory() = default;
 
   /** Whether the evaluation under way repeats the last one. */
   virtual bool repeats() const = 0;
-  /** Exchanges box, positions and velocities with those of the last evaluation, ghosts included; a second time, back. */
+  /** Exchanges box, positions and velocities with those of the last evaluation, ghosts included; a second time,
+   *  back. */
   virtual void swap() = 0;
   /** Of the last evaluation; see ContactObserver. */
   virtual double stamp() const = 0;

@@ -21,14 +21,14 @@ IGranularPairStyle *create(LAMMPS_NS::LAMMPS *lmp, LAMMPS_NS::PairGran *pair, in
   // Cohesion acts on grains that do not touch: every neighbour must be looked at.
   if constexpr (int(Style::SURFACE) == int(SURFACE_ELLIPSOID) && int(Style::COHESION) == int(COHESION_OFF))
     return new EllipsoidLoop<Model>(lmp, pair, hash);
-  else
-    return new LIGGGHTS::PairStyles::Granular<Model>(lmp, pair, hash);
+  else return new LIGGGHTS::PairStyles::Granular<Model>(lmp, pair, hash);
 }
 
 std::unordered_map<int64_t, Creator> compiled_loops() {
   using namespace LIGGGHTS::ContactModels;
   std::unordered_map<int64_t, Creator> loops;
-#define GRAN_MODEL(N, T, C, R, S) loops[int64_t(GranStyle<N, T, C, R, S>::HASHCODE)] = &create<GranStyle<N, T, C, R, S>>;
+#define GRAN_MODEL(N, T, C, R, S) \
+  loops[int64_t(GranStyle<N, T, C, R, S>::HASHCODE)] = &create<GranStyle<N, T, C, R, S>>;
 #include "style_contact_model.h"
 #undef GRAN_MODEL
   return loops;

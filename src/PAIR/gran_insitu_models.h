@@ -6,14 +6,16 @@
 
 namespace grainscope {
 
-/** A loop of ours that resets the spring of a contact when it opens; the host's may keep it until the next neighbour list. */
+/** A loop of ours that resets the spring of a contact when it opens; the host's may keep it until the next neighbour
+ *  list. */
 struct ResetsOpenedSprings {
   virtual ~ResetsOpenedSprings() {}
 };
 
-/** The observed pair loop for the contact-model combination `hash`: compiled for every combination of the whitelist, the host's
- *  dynamic path for all others. */
-LIGGGHTS::PairStyles::IGranularPairStyle *create_observed_loop(int64_t hash, LAMMPS_NS::LAMMPS *lmp, LAMMPS_NS::PairGran *pair);
+/** The observed pair loop for the contact-model combination `hash`: compiled for every combination of the whitelist,
+ *  the host's dynamic path for all others. */
+LIGGGHTS::PairStyles::IGranularPairStyle *create_observed_loop(int64_t hash, LAMMPS_NS::LAMMPS *lmp,
+                                                               LAMMPS_NS::PairGran *pair);
 
 }
 

@@ -8,11 +8,13 @@
 
 namespace grainscope {
 
-/** Puts the contact history back as it was, so that an evaluation for its output alone leaves the trajectory as it is. */
+/** Puts the contact history back as it was, so that an evaluation for its output alone leaves the trajectory as it
+ *  is. */
 class KeptHistory {
  public:
   /** `history` may be null: then there is none to keep. */
-  KeptHistory(LAMMPS_NS::NeighList *history, const LAMMPS_NS::NeighList *list, int width) : history_(history), list_(list), width_(width) {
+  KeptHistory(LAMMPS_NS::NeighList *history, const LAMMPS_NS::NeighList *list, int width)
+      : history_(history), list_(list), width_(width) {
     if (!history_) return;
     for (int ii = 0; ii < list_->inum; ii++) {
       const int i = list_->ilist[ii], n = list_->numneigh[i];

@@ -11,7 +11,8 @@ namespace grainscope {
 /** Whether the contact models of a pair style or wall have model `name` of `kind`, as in ("normal", "hertz"). */
 using HasModel = std::function<bool(const char *kind, const char *name)>;
 
-/** What follows from the names of the models alone; what depends on numbers and columns is left at its default. `models`: the words of the command. */
+/** What follows from the names of the models alone; what depends on numbers and columns is left at its default.
+ *  `models`: the words of the command. */
 ContactLaw law_of_models(const std::string &models, const HasModel &has);
 
 }

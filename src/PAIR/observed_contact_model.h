@@ -8,9 +8,9 @@
 
 namespace grainscope {
 
-/** A LIGGGHTS contact model with a reader around it. It shadows two members of the model that the host's pair loop calls, so
- *  the loop stays the host's own. It also restores sidata.delta = x_i - x_j, which the surface model of non-spherical grains
- *  overwrites with the overlap vector and the host's virial then takes for the branch vector. */
+/** A LIGGGHTS contact model with a reader around it. It shadows two members of the model that the host's pair loop
+ *  calls, so the loop stays the host's own. It also restores sidata.delta = x_i - x_j, which the surface model of
+ *  non-spherical grains overwrites with the overlap vector and the host's virial then takes for the branch vector. */
 template <class ContactModel>
 class Observed : public ContactModel, public ObservedModel {
  public:

@@ -23,7 +23,8 @@ namespace {
 struct RestartData : Modify {
   static const char *of(Modify *modify, const char *id) {
     for (int k = 0; k < modify->*(&RestartData::nfix_restart_global); k++)
-      if (!strcmp((modify->*(&RestartData::id_restart_global))[k], id)) return (modify->*(&RestartData::state_restart_global))[k];
+      if (!strcmp((modify->*(&RestartData::id_restart_global))[k], id))
+        return (modify->*(&RestartData::state_restart_global))[k];
     return nullptr;
   }
 };
@@ -36,13 +37,18 @@ void PairChecks::require_same_columns_in_restart(int wanted, int past, bool ledg
   double columns[2];  // the host writes the number of columns, and one more
   memcpy(columns, state, sizeof columns);
   const int found = static_cast<int>(whole_count(columns[0], 1e6));
-  const std::string numbers = std::to_string(found) + " numbers per contact, and this pair_style has " + std::to_string(wanted) + ": ";
+  const std::string numbers =
+      std::to_string(found) + " numbers per contact, and this pair_style has " + std::to_string(wanted) + ": ";
   if (found == wanted) return;
   if (found == wanted - past && ledger)
-    error->all(FLERR, ("pair_style gran/insitu: the restart file holds " + numbers + "it was written without 'ledger on', so the ledger cannot "
-                       "be continued from it. Say 'ledger off', or write the restart file with 'ledger on'").c_str());
+    error->all(FLERR, ("pair_style gran/insitu: the restart file holds " + numbers +
+                       "it was written without 'ledger on', so the ledger cannot "
+                       "be continued from it. Say 'ledger off', or write the restart file with 'ledger on'")
+                          .c_str());
   if (found == wanted + past && !ledger)
-    error->all(FLERR, ("pair_style gran/insitu: the restart file holds " + numbers + "it was written with 'ledger on'. Say 'ledger on'").c_str());
+    error->all(FLERR, ("pair_style gran/insitu: the restart file holds " + numbers +
+                       "it was written with 'ledger on'. Say 'ledger on'")
+                          .c_str());
 }
 
 void PairChecks::warn_of_stale_springs() {
@@ -56,8 +62,10 @@ void PairChecks::warn_of_stale_springs() {
   if (!any) return;
   warned_of_stale_springs_ = true;
   if (comm->me == 0)
-    error->warning(FLERR, "spheres at contact distance factor 1.0 keep the tangential spring of a contact that has opened, until the "
-                          "next neighbour list: add the line 'neigh_modify contact_distance_factor 1.05'");
+    error->warning(
+        FLERR,
+        "spheres at contact distance factor 1.0 keep the tangential spring of a contact that has opened, until the "
+        "next neighbour list: add the line 'neigh_modify contact_distance_factor 1.05'");
 }
 
 void PairChecks::warn_of_sphere_model(const std::string &model) {
@@ -66,9 +74,12 @@ void PairChecks::warn_of_sphere_model(const std::string &model) {
   for (int i = 0; i < atom->nlocal && !any; i++) any = symmetry_axis(atom->shape[i]).shape != Shape::sphere;
   MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, world);
   if (!any) return;
-  const std::string message = "pair_style gran/insitu: '" + model + "' takes its geometry from the "
+  const std::string message =
+      "pair_style gran/insitu: '" + model +
+      "' takes its geometry from the "
       "distance of centres and the radii of spheres: with surface superquadric its forces on grains that are no "
-      "spheres are wrong. Say 'surface ellipsoid', which gives sjkr and sjkr2 the contact's own overlap and effective radius";
+      "spheres are wrong. Say 'surface ellipsoid', which gives sjkr and sjkr2 the contact's own overlap and effective "
+      "radius";
   if (comm->me == 0) error->warning(FLERR, message.c_str());
   warned_of_sphere_model_ = true;
 }
@@ -80,8 +91,10 @@ void PairChecks::require_box_large_enough() const {
   for (int k = 0; k < 3; k++)
     if (periodic[k] && box.height(k) < needed) {
       char message[256];
-      snprintf(message, sizeof message, "pair_style gran/insitu: the periodic box must be at least 2 x (largest diameter x contact distance "
-               "factor + skin) = %g high along %c, got %g: two images of one grain could touch the same neighbour", needed, "xyz"[k], box.height(k));
+      snprintf(message, sizeof message,
+               "pair_style gran/insitu: the periodic box must be at least 2 x (largest diameter x contact distance "
+               "factor + skin) = %g high along %c, got %g: two images of one grain could touch the same neighbour",
+               needed, "xyz"[k], box.height(k));
       error->all(FLERR, message);
     }
 }

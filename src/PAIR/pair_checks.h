@@ -7,12 +7,14 @@
 
 namespace grainscope {
 
-/** What pair_style gran/insitu looks at before a run or at a new neighbour list, and what the host would not say. All are collective. */
+/** What pair_style gran/insitu looks at before a run or at a new neighbour list, and what the host would not say. All
+ *  are collective. */
 class PairChecks : private LAMMPS_NS::Pointers {
  public:
   explicit PairChecks(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
 
-  /** The restart file that is to be continued must hold `wanted` numbers per contact; `past`: those of them that `ledger on` adds. */
+  /** The restart file that is to be continued must hold `wanted` numbers per contact; `past`: those of them that
+   *  `ledger on` adds. */
   void require_same_columns_in_restart(int wanted, int past, bool ledger) const;
   /** Contact history is keyed by grain ID: with two images of one grain within reach of another it is ambiguous. */
   void require_box_large_enough() const;

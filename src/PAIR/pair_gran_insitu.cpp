@@ -43,15 +43,15 @@ struct PairGranInsitu::Impl {
   grainscope::PairChecks checks;
   std::unique_ptr<LIGGGHTS::PairStyles::IGranularPairStyle> loop;
   double **friction = nullptr;
-  int past_column = -1;            // first of the ledger's columns of the contact history, or -1
-  std::string models;              // the words of the command, for messages
+  int past_column = -1;  // first of the ledger's columns of the contact history, or -1
+  std::string models;    // the words of the command, for messages
   bool ledger = false;
   bool neutral = false;
   std::weak_ptr<grainscope::EvaluationMemory> memory;
-  std::string sphere_model;        // that is given grains which may be no spheres, or ""
+  std::string sphere_model;  // that is given grains which may be no spheres, or ""
   bool sending_images = false;
-  bigint grains = 0;               // in the last evaluation
-  bool renumbered = false;         // since then
+  bigint grains = 0;        // in the last evaluation
+  bool renumbered = false;  // since then
   bigint images_of_build = -1;
 };
 
@@ -83,10 +83,11 @@ PairGranInsitu *PairGranInsitu::required_by(LAMMPS *lmp, const char *who) {
   PairGranInsitu *pair = dynamic_cast<PairGranInsitu *>(lmp->force->pair);
   if (!pair) {
     const std::string message = std::string(who) + " requires pair_style gran/insitu, got '" +
-        (lmp->force->pair ? lmp->force->pair_style : "no pair style") + "'";
+                                (lmp->force->pair ? lmp->force->pair_style : "no pair style") + "'";
     lmp->error->all(FLERR, message.c_str());
   }
-  if (lmp->force->newton_pair) lmp->error->all(FLERR, (std::string(who) + " requires 'newton off', got 'newton on'").c_str());
+  if (lmp->force->newton_pair)
+    lmp->error->all(FLERR, (std::string(who) + " requires 'newton off', got 'newton on'").c_str());
   return pair;
 }
 
@@ -95,17 +96,23 @@ void PairGranInsitu::settings(int narg, char **arg) {
   impl_->ledger = take_setting(words, "ledger", "off", "on");
   impl_->neutral = take_setting(words, "setup", "host", "neutral");
   if (force->pair != this)
-    error->all(FLERR, "pair_style gran/insitu cannot be a sub-style of hybrid: contact history works with one granular style only; "
-                      "use it alone");
+    error->all(
+        FLERR,
+        "pair_style gran/insitu cannot be a sub-style of hybrid: contact history works with one granular style only; "
+        "use it alone");
   narg = words.size();
   arg = words.data();
   std::string received;
   for (int k = 0; k < narg; k++) received += std::string(k ? " " : "") + arg[k];
   impl_->models = received;
-  const int64_t hash = LIGGGHTS::PairStyles::Factory::instance().selectVariant("gran", narg, arg, force->custom_contact_models);
+  const int64_t hash =
+      LIGGGHTS::PairStyles::Factory::instance().selectVariant("gran", narg, arg, force->custom_contact_models);
   if (hash == -1)
-    error->all(FLERR, ("pair_style gran/insitu: invalid contact model (check for typos, and enable at least one model), got '" + received +
-                       "'").c_str());
+    error->all(
+        FLERR,
+        ("pair_style gran/insitu: invalid contact model (check for typos, and enable at least one model), got '" +
+         received + "'")
+            .c_str());
   history_arg.clear();
   impl_->past_column = -1;
   dnum_pairgran = 0;
@@ -144,19 +151,23 @@ void PairGranInsitu::add_past_columns() {
   if (comm->me != 0) return;
   for (FILE *out : {screen, logfile})
     if (out)
-      fprintf(out, "pair_style gran/insitu: 'ledger on' keeps %d numbers more for every pair of neighbours (%d instead of %d); restart files "
-              "with and without them are not interchangeable\n", ContactReader::past_columns, dnum_pairgran,
-              dnum_pairgran - ContactReader::past_columns);
+      fprintf(out,
+              "pair_style gran/insitu: 'ledger on' keeps %d numbers more for every pair of neighbours (%d instead of "
+              "%d); restart files "
+              "with and without them are not interchangeable\n",
+              ContactReader::past_columns, dnum_pairgran, dnum_pairgran - ContactReader::past_columns);
 }
 
 void PairGranInsitu::init_style() {
   impl_->observer.remove_all();
   impl_->observer.begin_run();
   impl_->images_of_build = -1;
-  if (history && !fix_history) impl_->checks.require_same_columns_in_restart(dnum_pairgran, ContactReader::past_columns, impl_->ledger);
+  if (history && !fix_history)
+    impl_->checks.require_same_columns_in_restart(dnum_pairgran, ContactReader::past_columns, impl_->ledger);
   impl_->renumbered = atom->natoms < impl_->grains && !grainscope::contacts_know_their_grains(lmp);
   if (impl_->renumbered && comm->me == 0)
-    error->warning(FLERR, "grains were given other IDs, and the host keeps tangential springs by ID: some are now those of other contacts. Say "
+    error->warning(FLERR, "grains were given other IDs, and the host keeps tangential springs by ID: some are now "
+                          "those of other contacts. Say "
                           "'compress no' to delete_atoms");
   const std::string ledger = impl_->ledger ? " ledger on" : "", setup = impl_->neutral ? " setup neutral" : "";
   grainscope::require_surface_models(lmp, this, impl_->models + ledger + setup);
@@ -170,7 +181,8 @@ void PairGranInsitu::init_style() {
 
 void PairGranInsitu::init_granular() {
   impl_->loop->init_granular();
-  ContactLaw law = grainscope::law_of_models(impl_->models, [this](const char *kind, const char *name) { return contact_match(kind, name); });
+  ContactLaw law = grainscope::law_of_models(
+      impl_->models, [this](const char *kind, const char *name) { return contact_match(kind, name); });
   law.exponent = stressStrainExponent();
   law.past_column = impl_->past_column;
   if (law.tangential == TangentialLaw::spring) law.spring_column = column_of("shearx");
@@ -189,8 +201,9 @@ void PairGranInsitu::init_granular() {
 int PairGranInsitu::column_of(const std::string &name) const {
   for (std::size_t k = 0; k < history_arg.size(); k++)
     if (history_arg[k].name == name) return static_cast<int>(k);
-  error->all(FLERR, ("pair_style gran/insitu: the contact history must have a column '" + name + "' for the tangential spring, got '" + impl_->models +
-                     "'").c_str());
+  error->all(FLERR, ("pair_style gran/insitu: the contact history must have a column '" + name +
+                     "' for the tangential spring, got '" + impl_->models + "'")
+                        .c_str());
   return -1;
 }
 
@@ -229,13 +242,16 @@ void PairGranInsitu::set_tangential_bound() {
   TangentialBound::get().set(!first ? Mode::off : impl_->neutral ? Mode::bound : Mode::watch);
 }
 
-/** The host re-evaluates all contacts for compute pair/gran/local, and its surface model writes to the contact history while at it. */
+/** The host re-evaluates all contacts for compute pair/gran/local, and its surface model writes to the contact history
+ *  while at it. */
 void PairGranInsitu::compute_pgl(int eflag, int vflag) {
   const grainscope::KeptHistory kept(listgranhistory, list, dnum());
   PairGran::compute_pgl(eflag, vflag);
 }
 
-void PairGranInsitu::compute_force(int eflag, int vflag, int addflag) { impl_->loop->compute_force(this, eflag, vflag, addflag); }
+void PairGranInsitu::compute_force(int eflag, int vflag, int addflag) {
+  impl_->loop->compute_force(this, eflag, vflag, addflag);
+}
 
 void PairGranInsitu::write_restart_settings(FILE *file) { impl_->loop->write_restart_settings(file); }
 
@@ -250,8 +266,8 @@ bool PairGranInsitu::contact_match(const std::string kind, const std::string mod
   return impl_->loop->contact_match(kind, model);
 }
 
-/** Which periodic image each ghost is, in whole box edges. The swaps know it exactly; positions do not, because grains drift out of
- *  the box between two neighbour lists. Once per neighbour list that is observed. */
+/** Which periodic image each ghost is, in whole box edges. The swaps know it exactly; positions do not, because grains
+ *  drift out of the box between two neighbour lists. Once per neighbour list that is observed. */
 void PairGranInsitu::update_image_shifts() {
   if (impl_->images_of_build == neighbor->lastcall) return;
   impl_->images_of_build = neighbor->lastcall;
@@ -264,7 +280,8 @@ void PairGranInsitu::update_image_shifts() {
 int PairGranInsitu::pack_comm(int n, int *list, double *buf, int pbc_flag, int *pbc) {
   if (!impl_->sending_images) return PairGran::pack_comm(n, list, buf, pbc_flag, pbc);
   for (int k = 0; k < n; k++)
-    for (int d = 0; d < 3; d++) buf[3 * k + d] = impl_->observer.image_shifts()[3 * list[k] + d] + (pbc_flag ? pbc[d] : 0);
+    for (int d = 0; d < 3; d++)
+      buf[3 * k + d] = impl_->observer.image_shifts()[3 * list[k] + d] + (pbc_flag ? pbc[d] : 0);
   return 3;
 }
 

@@ -2,8 +2,7 @@
 #include "run_fixes.h"
 #include "internal_fix.h"
 
-namespace grainscope {
-namespace run_fixes {
+namespace grainscope { namespace run_fixes {
 
 namespace {
 
@@ -16,7 +15,9 @@ InternalFix *make_last(LAMMPS_NS::LAMMPS *lmp, const InternalFix::Words &words) 
 
 }
 
-void make_guard(LAMMPS_NS::LAMMPS *lmp, const std::string &settings) { make_last(lmp, {guard_id, "all", guard, settings}); }
+void make_guard(LAMMPS_NS::LAMMPS *lmp, const std::string &settings) {
+  make_last(lmp, {guard_id, "all", guard, settings});
+}
 
 std::weak_ptr<EvaluationMemory> make_setup_memory(LAMMPS_NS::LAMMPS *lmp) {
   return dynamic_cast<KeepsEvaluation &>(*make_last(lmp, {memory_id, "all", memory})).evaluation();
@@ -27,5 +28,4 @@ void remove(LAMMPS_NS::LAMMPS *lmp) {
   InternalFix::remove(lmp, memory_id, memory);
 }
 
-}
-}
+}}

@@ -5,7 +5,9 @@
 #include "evaluation_memory.h"
 #include <string>
 
-namespace LAMMPS_NS { class LAMMPS; }
+namespace LAMMPS_NS {
+class LAMMPS;
+}
 
 namespace grainscope {
 

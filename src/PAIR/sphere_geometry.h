@@ -5,7 +5,11 @@
 #include "contact_interface.h"
 #include <string>
 
-namespace LAMMPS_NS { class Atom; class LAMMPS; class PairGran; }
+namespace LAMMPS_NS {
+class Atom;
+class LAMMPS;
+class PairGran;
+}
 
 namespace grainscope {
 

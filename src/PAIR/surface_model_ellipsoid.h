@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #ifdef SURFACE_MODEL
+// clang-format off
 SURFACE_MODEL(SURFACE_ELLIPSOID,ellipsoid,11)
+// clang-format on
 #else
 #ifndef GRAINSCOPE_SURFACE_MODEL_ELLIPSOID_H
 #define GRAINSCOPE_SURFACE_MODEL_ELLIPSOID_H
@@ -12,11 +14,10 @@ SURFACE_MODEL(SURFACE_ELLIPSOID,ellipsoid,11)
 #include "surface_model_superquadric.h"
 #include <memory>
 
-namespace LIGGGHTS {
-namespace ContactModels {
+namespace LIGGGHTS { namespace ContactModels {
 
-/** Grains of atom_style superquadric with blockiness 2 2, by the exact contact of ellipsoids: `surface superquadric` in keywords,
- *  physics and history columns, walls included; but models that know spheres only are given spheres
+/** Grains of atom_style superquadric with blockiness 2 2, by the exact contact of ellipsoids: `surface superquadric` in
+ *  keywords, physics and history columns, walls included; but models that know spheres only are given spheres
  *  (sphere_geometry.h). See doc/surface_ellipsoid.md. */
 template <>
 class SurfaceModel<SURFACE_ELLIPSOID> : public SurfaceModelBase {
@@ -24,7 +25,8 @@ class SurfaceModel<SURFACE_ELLIPSOID> : public SurfaceModelBase {
   SurfaceModel(LAMMPS *lmp, IContactHistorySetup *setup, ContactModelBase *model)
       : SurfaceModelBase(lmp, setup, model), setup_(setup) {
     if (!atom->superquadric_flag)
-      error->all(FLERR, "surface ellipsoid needs atom_style superquadric (spheres are ellipsoids with three equal semi-axes)");
+      error->all(FLERR,
+                 "surface ellipsoid needs atom_style superquadric (spheres are ellipsoids with three equal semi-axes)");
     surface_.first = setup->add_history_value("inequality_obb", "0");
     for (const char *name : {"touching", "cpx", "cpy", "cpz", "a1"}) setup->add_history_value(name, "0");
     surface_.lambda = setup->add_history_value("lambda", "1");
@@ -46,11 +48,14 @@ class SurfaceModel<SURFACE_ELLIPSOID> : public SurfaceModelBase {
   void postSettings(IContactHistorySetup *, ContactModelBase *) {
     if (!(surface_.curvature_limit >= 0.0)) {
       char message[128];
-      snprintf(message, sizeof message, "surface ellipsoid: curvatureLimitFactor must be at least 0, got %g", surface_.curvature_limit);
+      snprintf(message, sizeof message, "surface ellipsoid: curvatureLimitFactor must be at least 0, got %g",
+               surface_.curvature_limit);
       error->all(FLERR, message);
     }
     if (surface_.mean && surface_.gaussian)
-      error->all(FLERR, "surface ellipsoid: meanCurvature and gaussianCurvature cannot both be yes: the radius is one or the other");
+      error->all(
+          FLERR,
+          "surface ellipsoid: meanCurvature and gaussianCurvature cannot both be yes: the radius is one or the other");
     if (owner_) owner_->ellipsoid_surface() = surface_;
   }
 
@@ -64,7 +69,8 @@ class SurfaceModel<SURFACE_ELLIPSOID> : public SurfaceModelBase {
   }
 
   bool checkSurfaceIntersect(SurfacesIntersectData &s) {
-    const grainscope::EllipsoidBodies::Query query{s.i, s.j, {-s.delta[0], -s.delta[1], -s.delta[2]}, surface_.start(s.contact_history)};
+    const grainscope::EllipsoidBodies::Query query{
+        s.i, s.j, {-s.delta[0], -s.delta[1], -s.delta[2]}, surface_.start(s.contact_history)};
     grainscope::EllipsoidContact contact;
     bodies_->solve(1, &query, &contact);
     const bool for_output = !s.computeflag;
@@ -107,8 +113,7 @@ class SurfaceModel<SURFACE_ELLIPSOID> : public SurfaceModelBase {
   }
 };
 
-}
-}
+}}
 
 #endif
 #endif

@@ -4,7 +4,10 @@
 
 #include <string>
 
-namespace LAMMPS_NS { class LAMMPS; class PairGran; }
+namespace LAMMPS_NS {
+class LAMMPS;
+class PairGran;
+}
 
 namespace grainscope {
 

@@ -67,7 +67,10 @@ void TimeStepWatch::judge_grains() {
     if (mode.value > worst.value) worst = mode;
   }
   grains_.clear();
-  struct { double value; int rank; } largest = {worst.value, comm->me};
+  struct {
+    double value;
+    int rank;
+  } largest = {worst.value, comm->me};
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
   if (largest.value <= std::max(time_step::limit, 2.0 * warned_of_)) return;
   warned_of_ = largest.value;
@@ -77,9 +80,11 @@ void TimeStepWatch::judge_grains() {
   if (comm->me != 0) return;
   char message[512];
   snprintf(message, sizeof message,
-           "pair_style gran/insitu: the time step %g is too long for the stiffest contacts: b = dt^2 K + 2 dt C over the mass is %.3g, limit %g: "
+           "pair_style gran/insitu: the time step %g is too long for the stiffest contacts: b = dt^2 K + 2 dt C over "
+           "the mass is %.3g, limit %g: "
            "energy may be made%s. Take a time step below %.3g, or stiffer grains%s (doc/stability.md)",
-           update->dt, largest.value, time_step::limit, damped_ ? ", and with tangential damping the motion does not show it" : "", step,
+           update->dt, largest.value, time_step::limit,
+           damped_ ? ", and with tangential damping the motion does not show it" : "", step,
            damped_ ? ", or 'tangential_damping off'" : "");
   error->warning(FLERR, message);
 }

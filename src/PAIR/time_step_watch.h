@@ -11,8 +11,9 @@
 
 namespace grainscope {
 
-/** Looks once in a thousand steps, whatever runs they are of, whether the time step is short enough for the contacts that there are, and
- *  warns when it is not; again only when it is twice as bad. First at single contacts; where those come near, in the next step, at grains. */
+/** Looks once in a thousand steps, whatever runs they are of, whether the time step is short enough for the contacts
+ *  that there are, and warns when it is not; again only when it is twice as bad. First at single contacts; where those
+ *  come near, in the next step, at grains. */
 class TimeStepWatch : public ContactSink, private LAMMPS_NS::Pointers {
  public:
   explicit TimeStepWatch(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
@@ -27,11 +28,11 @@ class TimeStepWatch : public ContactSink, private LAMMPS_NS::Pointers {
  private:
   enum class Look { none, contacts, grains } look_ = Look::none;
   ContactLaw law_;
-  double warned_of_ = 0.0;                    // the value of b
-  int steps_ = 0;                             // since the last look
-  bool grains_next_ = false;                  // the next look is at grains
-  double largest_ = 0.0;                      // of this rank's contacts
-  int damped_ = 0;                            // one of them has tangential damping
+  double warned_of_ = 0.0;    // the value of b
+  int steps_ = 0;             // since the last look
+  bool grains_next_ = false;  // the next look is at grains
+  double largest_ = 0.0;      // of this rank's contacts
+  int damped_ = 0;            // one of them has tangential damping
   std::vector<time_step::GrainModes> grains_;
 
   void judge_contacts();

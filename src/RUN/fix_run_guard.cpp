@@ -32,8 +32,8 @@ struct SavedGuard {
   double length;
 };
 
-const int fixed_face = 1; // of the host's numbers for p f s m
-const int seldom = 100;   // steps between looks at what a run can do without for a while
+const int fixed_face = 1;  // of the host's numbers for p f s m
+const int seldom = 100;    // steps between looks at what a run can do without for a while
 
 struct Quantity {
   const char *name;
@@ -56,7 +56,8 @@ std::ostream &operator<<(std::ostream &out, const Quantity &quantity) { return o
 }
 
 FixRunGuard::FixRunGuard(LAMMPS *lmp, int narg, char **arg)
-    : InternalFix(lmp, narg, arg, "pair_style gran/insitu"), settings_(arg[3]), warned_of_damping_(std::make_shared<bool>(false)) {
+    : InternalFix(lmp, narg, arg, "pair_style gran/insitu"), settings_(arg[3]),
+      warned_of_damping_(std::make_shared<bool>(false)) {
   restart_global = restart_file = 1;
   nevery = 1;
 }
@@ -126,10 +127,14 @@ void FixRunGuard::fail_together(const std::string &trouble) const {
 /** A force that is not finite is met in its own step, before it moves a grain out of the world. */
 std::string FixRunGuard::not_finite(bool forces) const {
   const int n = atom->nlocal;
-  const Quantity state[] = {{"position", atom->x, 3}, {"velocity", atom->v, 3}, {"angular velocity", atom->omega, 3},
+  const Quantity state[] = {{"position", atom->x, 3},
+                            {"velocity", atom->v, 3},
+                            {"angular velocity", atom->omega, 3},
                             {"quaternion", atom->superquadric_flag ? atom->quaternion : nullptr, 4}};
   const Quantity loads[] = {{"force", atom->f, 3}, {"torque", atom->torque, 3}};
-  const auto wrong = [n](const Quantity &one) { return n > 0 && one.values && !finite(one.values[0], static_cast<std::size_t>(n) * one.width); };
+  const auto wrong = [n](const Quantity &one) {
+    return n > 0 && one.values && !finite(one.values[0], static_cast<std::size_t>(n) * one.width);
+  };
   const Quantity *first = nullptr;
   if (forces)
     for (const Quantity &one : loads)
@@ -148,7 +153,9 @@ std::string FixRunGuard::not_finite(bool forces) const {
   }
   if (all > 5) message << " and " << all - 5 << " more";
   message << " is not finite";
-  if (forces) message << ". Look at the time step (doc/stability.md), at overlaps of grains that were just inserted, and at the material's constants";
+  if (forces)
+    message << ". Look at the time step (doc/stability.md), at overlaps of grains that were just inserted, and at the "
+               "material's constants";
   else message << ": look at the commands that set it";
   return message.str();
 }
@@ -172,8 +179,10 @@ void FixRunGuard::pre_neighbor() {
   MPI_Allreduce(MPI_IN_PLACE, &lost, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (lost <= 0) return;
   std::ostringstream message;
-  message << "step " << update->ntimestep << ": " << lost << " grains were lost though the box is periodic: they moved farther than its length "
-          << "between two neighbour lists. Look at the time step (doc/stability.md) and at overlaps of grains that were just inserted";
+  message << "step " << update->ntimestep << ": " << lost
+          << " grains were lost though the box is periodic: they moved farther than its length "
+          << "between two neighbour lists. Look at the time step (doc/stability.md) and at overlaps of grains that "
+             "were just inserted";
   error->all(FLERR, message.str().c_str());
 }
 
@@ -184,7 +193,8 @@ std::string FixRunGuard::not_written() const {
   const bool written = fflush(nullptr) == 0 && !lost_a_line(logfile) && !lost_a_line(screen);
   if (written || screen_is_gone) return "";
   const std::string reason = strerror(errno);
-  return "step " + std::to_string(update->ntimestep) + ": output of this run (dumps, tables, log) cannot be written: " + reason;
+  return "step " + std::to_string(update->ntimestep) +
+         ": output of this run (dumps, tables, log) cannot be written: " + reason;
 }
 
 /** The words of the pair style: what contact history is made of. In a run the host would write springs as they were
@@ -202,7 +212,9 @@ void FixRunGuard::restart(char *buffer) {
   const SavedGuard saved = grainscope::read_state<SavedGuard>(lmp, *this, style, buffer);
   const std::string written(grainscope::state_block::tail(buffer), grainscope::whole_count(saved.length, 1e6));
   if (written.empty() || written == settings_ || comm->me != 0) return;
-  error->warning(FLERR, ("pair_style gran/insitu: the restart file was written with '" + written + "', and now it is '" + settings_ + "'").c_str());
+  error->warning(FLERR, ("pair_style gran/insitu: the restart file was written with '" + written +
+                         "', and now it is '" + settings_ + "'")
+                            .c_str());
 }
 
 void FixRunGuard::write_restart_file(char *file) {

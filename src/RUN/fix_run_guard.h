@@ -36,13 +36,15 @@ class FixRunGuard : public grainscope::InternalFix {
 
  protected:
   std::shared_ptr<void> state() override { return warned_of_damping_; }
-  void take_state(const std::shared_ptr<void> &state) override { warned_of_damping_ = std::static_pointer_cast<bool>(state); }
+  void take_state(const std::shared_ptr<void> &state) override {
+    warned_of_damping_ = std::static_pointer_cast<bool>(state);
+  }
 
  private:
-  std::string settings_;         // the words of the pair style
-  std::shared_ptr<bool> warned_of_damping_;   // since there is a pair style of ours
+  std::string settings_;                     // the words of the pair style
+  std::shared_ptr<bool> warned_of_damping_;  // since there is a pair style of ours
   bool running_ = false;
-  bigint grains_ = 0;            // on this rank, before they are dealt out to the ranks
+  bigint grains_ = 0;  // on this rank, before they are dealt out to the ranks
 
   /** What is wrong on this rank, or "". */
   std::string not_finite(bool forces) const;

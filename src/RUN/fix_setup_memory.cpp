@@ -62,7 +62,9 @@ std::weak_ptr<grainscope::EvaluationMemory> FixSetupMemory::evaluation() {
 
 std::shared_ptr<void> FixSetupMemory::state() { return impl_->memory; }
 
-void FixSetupMemory::take_state(const std::shared_ptr<void> &state) { impl_->memory = std::static_pointer_cast<Memory>(state); }
+void FixSetupMemory::take_state(const std::shared_ptr<void> &state) {
+  impl_->memory = std::static_pointer_cast<Memory>(state);
+}
 
 int FixSetupMemory::setmask() { return FixConst::PRE_EXCHANGE | FixConst::PRE_FORCE; }
 

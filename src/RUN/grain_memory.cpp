@@ -12,12 +12,13 @@ namespace grainscope {
 
 using LAMMPS_NS::tagint;
 
-static_assert(sizeof(RememberedGrain) == GrainMemory::width * sizeof(double) && std::is_trivially_copyable<RememberedGrain>::value,
+static_assert(sizeof(RememberedGrain) == GrainMemory::width * sizeof(double) &&
+                  std::is_trivially_copyable<RememberedGrain>::value,
               "nothing but doubles");
 
 namespace {
 
-const double same_position = 1e-9;   // of the box: what the host's wrapping may change, and no command means
+const double same_position = 1e-9;  // of the box: what the host's wrapping may change, and no command means
 
 tagint image_of(const RememberedGrain &grain) {
   tagint image;
@@ -91,8 +92,8 @@ bool GrainMemory::unchanged(int i) const {
   if (before == atom->image[i] && grain.velocity_hash != velocity_hash(atom, i)) return false;
   int n[3];
   edges_crossed(before, atom->image[i], n);
-  const double shift[3] = {n[0] * domain->xprd + n[1] * domain->xy + n[2] * domain->xz, n[1] * domain->yprd + n[2] * domain->yz,
-                           n[2] * domain->zprd};
+  const double shift[3] = {n[0] * domain->xprd + n[1] * domain->xy + n[2] * domain->xz,
+                           n[1] * domain->yprd + n[2] * domain->yz, n[2] * domain->zprd};
   for (int k = 0; k < 3; k++)
     if (!(std::fabs(atom->x[i][k] - grain.end_position[k] + shift[k]) <= same_position * domain->prd[k])) return false;
   return true;

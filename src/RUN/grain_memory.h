@@ -11,12 +11,12 @@ namespace grainscope {
 
 /** What `setup neutral` remembers of a grain, in restart files too: numbers, all doubles. */
 struct RememberedGrain {
-  double known;                                    // 1 once there is anything
-  double position[3], velocity[3], spin[3];        // at the last force evaluation
-  double force[3], torque[3];                      // of that evaluation
-  double end_position[3];                          // at the end of its step
-  double end_image;                                // the bits of the image flag, then
-  double velocity_hash, state_hash;                // then; see grain_state.h
+  double known;                              // 1 once there is anything
+  double position[3], velocity[3], spin[3];  // at the last force evaluation
+  double force[3], torque[3];                // of that evaluation
+  double end_position[3];                    // at the end of its step
+  double end_image;                          // the bits of the image flag, then
+  double velocity_hash, state_hash;          // then; see grain_state.h
 };
 
 /** The remembered grains of this rank, in the host's order. */

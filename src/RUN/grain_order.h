@@ -21,7 +21,7 @@ class GrainOrder : private LAMMPS_NS::Pointers {
   void sort_by_id();
 
  private:
-  int sort_every_ = 0;   // the host's number, while it is not to sort
+  int sort_every_ = 0;  // the host's number, while it is not to sort
 };
 
 }

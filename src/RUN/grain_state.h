@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <string>
 
-namespace LAMMPS_NS { class Atom; }
+namespace LAMMPS_NS {
+class Atom;
+}
 
 namespace grainscope {
 

@@ -2,15 +2,17 @@
 #ifndef GRAINSCOPE_HOST_BOX_H
 #define GRAINSCOPE_HOST_BOX_H
 
-namespace LAMMPS_NS { class Domain; }
+namespace LAMMPS_NS {
+class Domain;
+}
 
 namespace grainscope {
 
 /** The host's box and its rates: of its numbers those that tell where ghosts are and how they move. Part of restart
  *  files. */
 struct HostBox {
-  double low[3] = {}, high[3] = {}, tilts[3] = {};   // tilts yz, xz, xy
-  double rates[6] = {}, low_rates[3] = {};           // rates xx yy zz yz xz xy
+  double low[3] = {}, high[3] = {}, tilts[3] = {};  // tilts yz, xz, xy
+  double rates[6] = {}, low_rates[3] = {};          // rates xx yy zz yz xz xy
 
   static HostBox of(const LAMMPS_NS::Domain *domain);
   void set(LAMMPS_NS::Domain *domain) const;

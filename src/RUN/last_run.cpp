@@ -54,14 +54,15 @@ bool LastRun::same_box(const LAMMPS *lmp) const {
 }
 
 bool LastRun::goes_on(LAMMPS *lmp, const GrainMemory &memory) const {
-  int changed = grains != static_cast<double>(lmp->atom->natoms) || time_step != lmp->update->dt || movers != movers_of(lmp) || !same_box(lmp);
+  int changed = grains != static_cast<double>(lmp->atom->natoms) || time_step != lmp->update->dt ||
+                movers != movers_of(lmp) || !same_box(lmp);
   for (int i = 0; i < lmp->atom->nlocal && !changed; i++) changed = !memory.unchanged(i);
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, lmp->world);
   if (changed && !there_was_none() && lmp->comm->me == 0)
     for (FILE *out : {lmp->screen, lmp->logfile})
       if (out)
         fprintf(out, "pair_style gran/insitu: grains, box, time step or fixes were changed since the last run: "
-                "forces are recomputed with the velocities of whole steps, within the friction limit\n");
+                     "forces are recomputed with the velocities of whole steps, within the friction limit\n");
   return !changed;
 }
 

@@ -4,7 +4,9 @@
 
 #include "host_box.h"
 
-namespace LAMMPS_NS { class LAMMPS; }
+namespace LAMMPS_NS {
+class LAMMPS;
+}
 
 namespace grainscope {
 
@@ -14,10 +16,10 @@ class GrainMemory;
  *  changed. Doubles throughout, as it stands in restart files. */
 struct LastRun {
   HostBox box;
-  double grains = -1.0;        // -1 before the first run
+  double grains = -1.0;  // -1 before the first run
   double time_step = 0.0;
-  double steps_to_sorting = 0.0;   // until the host sorts grains by position
-  double movers = 0.0;         // checksum of the fixes that push or move grains
+  double steps_to_sorting = 0.0;  // until the host sorts grains by position
+  double movers = 0.0;            // checksum of the fixes that push or move grains
 
   static LastRun ending_now(LAMMPS_NS::LAMMPS *lmp);
   bool there_was_none() const { return grains < 0.0; }

@@ -28,7 +28,7 @@ std::vector<std::string> matching(const std::string &name) {
 
 struct Choice {
   std::string file;
-  std::string message;   // an error when there is no file
+  std::string message;  // an error when there is no file
 };
 
 /** The newest of the files that are whole. */
@@ -37,7 +37,8 @@ Choice choose(const std::vector<std::string> &names) {
   std::vector<std::string> files;
   for (const std::string &name : names) {
     if (name.find('*') == std::string::npos) files.push_back(name);
-    else for (const std::string &one : matching(name)) files.push_back(one);
+    else
+      for (const std::string &one : matching(name)) files.push_back(one);
   }
   std::int64_t newest = -1;
   std::string refused;
@@ -50,17 +51,21 @@ Choice choose(const std::vector<std::string> &names) {
       choice.file = file;
     }
   }
-  if (choice.file.empty()) choice.message = "read_restart: " + (refused.empty() ? "no file matches '" + names[0] + "'" : refused);
+  if (choice.file.empty())
+    choice.message = "read_restart: " + (refused.empty() ? "no file matches '" + names[0] + "'" : refused);
   else if (names.size() > 1 || !refused.empty())
     choice.message = "read_restart: taking '" + choice.file + "', of step " + std::to_string(newest) +
-        (refused.empty() ? "" : "; passed over: " + refused);
+                     (refused.empty() ? "" : "; passed over: " + refused);
   return choice;
 }
 
 }
 
 void ReadRestartSealed::command(int narg, char **arg) {
-  if (narg < 1) error->all(FLERR, "read_restart: expected the name of a file, or several to take the newest of, got the end of the command");
+  if (narg < 1)
+    error->all(
+        FLERR,
+        "read_restart: expected the name of a file, or several to take the newest of, got the end of the command");
   if (domain->box_exist) error->all(FLERR, "read_restart: must come before the box is defined, and one is");
   const std::vector<std::string> names(arg, arg + narg);
   std::string file = names[0];

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Every way to ask for the measures gives the same numbers: thermo, variables, fix ave/time (scalars and vectors), dumps; computes come and
-go; and the host's own list of contacts agrees with ours."""
+"""Every way to ask for the measures gives the same numbers: thermo, variables, fix ave/time (scalars and vectors),
+dumps; computes come and go; and the host's own list of contacts agrees with ours."""
 from dataclasses import replace
 
 import numpy as np
@@ -50,12 +50,18 @@ def every(watched, entries):
 
 
 def scalars(ranks):
-    """fix ave/time mode scalar, once every 5 steps, where nothing else asks: the compute is announced by the fix alone."""
-    entries = [f"c_{w.name}" for w in GLOBAL if w.scalar] + [f"c_{w.name}[{w.vector}]" for w in GLOBAL] + [C_FABRIC["angle"]]
+    """fix ave/time mode scalar, once every 5 steps, where nothing else asks: the compute is announced by the fix
+    alone."""
+    entries = (
+        [f"c_{w.name}" for w in GLOBAL if w.scalar] + [f"c_{w.name}[{w.vector}]" for w in GLOBAL] + [C_FABRIC["angle"]]
+    )
     # What adds up over calls is asked at other steps here, and left out.
     entries = [e for e in entries if not e.startswith(("c_moved", "c_memory"))]
     expected = every(GLOBAL, entries)
-    result = run(asked(f"fix mean all ave/time {EVERY} 1 {EVERY} {' '.join(entries)} file mean.txt", "thermo_style custom step"), ranks)
+    result = run(
+        asked(f"fix mean all ave/time {EVERY} 1 {EVERY} {' '.join(entries)} file mean.txt", "thermo_style custom step"),
+        ranks,
+    )
     table = result.averages("mean.txt")
     require(list(table["TimeStep"]) == list(range(0, STEPS + 1, EVERY)), f"steps {table['TimeStep']}")
     for k, step in enumerate(table["TimeStep"]):
@@ -69,7 +75,10 @@ def means(ranks):
     """The mean over five steps that nothing else asks for."""
     entries = [C_FABRIC["F_xx"], "c_fabric", C_MOVING["dw_x"], C_SURFACE["P"]]
     expected = every(GLOBAL, entries)
-    result = run(asked(f"fix mean all ave/time 1 {EVERY} {EVERY} {' '.join(entries)} file mean.txt", "thermo_style custom step"), ranks)
+    result = run(
+        asked(f"fix mean all ave/time 1 {EVERY} {EVERY} {' '.join(entries)} file mean.txt", "thermo_style custom step"),
+        ranks,
+    )
     table = result.averages("mean.txt")
     for k, step in enumerate(table["TimeStep"]):
         if step == 0:
@@ -86,23 +95,46 @@ def vectors(ranks):
     fabric = [f"c_fabric[{k}]" for k in range(1, FABRIC.vector + 1)]
     expected = every(GLOBAL, entries + fabric)
     bins = " ".join(f"c_surface[{c}]" for c in range(1, columns + 1))
-    result = run(asked(f"fix bins all ave/time {EVERY} 1 {EVERY} {bins} mode vector file bins.txt",
-                       f"fix axes all ave/time {EVERY} 1 {EVERY} c_fabric mode vector file axes.txt", "thermo_style custom step"), ranks)
+    result = run(
+        asked(
+            f"fix bins all ave/time {EVERY} 1 {EVERY} {bins} mode vector file bins.txt",
+            f"fix axes all ave/time {EVERY} 1 {EVERY} c_fabric mode vector file axes.txt",
+            "thermo_style custom step",
+        ),
+        ranks,
+    )
     tables, lists = blocks(result.file("bins.txt")), blocks(result.file("axes.txt"))
     require(sorted(tables) == sorted(lists) == list(range(0, STEPS + 1, EVERY)), f"steps {sorted(tables)}")
     for step, table in tables.items():
-        told = expected[step][:rows * columns].reshape(rows, columns)
+        told = expected[step][: rows * columns].reshape(rows, columns)
         for c in range(columns):
-            require_close(table[:, c], told[:, c], PRINTED, f"step {step}, column {c + 1}", max(np.abs(told[:, c]).max(), 1e-300))
-        require_close(lists[step][:, 0], expected[step][rows * columns:], PRINTED, f"step {step}, c_fabric", 1.0)
+            require_close(
+                table[:, c], told[:, c], PRINTED, f"step {step}, column {c + 1}", max(np.abs(told[:, c]).max(), 1e-300)
+            )
+        require_close(lists[step][:, 0], expected[step][rows * columns :], PRINTED, f"step {step}, c_fabric", 1.0)
 
 
 def variables(ranks):
-    """Equal-style variables of a scalar, an entry of a vector and one of an array; a per-grain column summed by compute reduce."""
-    lines = ["variable scalar equal 2*c_fabric", f"variable entry equal {C_MOVING['E_tr']}+{C_MOVING['E_rot']}", f"variable bin equal 3*{C_SURFACE[10, 'N_c']}",
-             f"compute contacts all reduce sum {C_GRAIN['N_c']}",
-             *thermo(5, "c_fabric", C_FABRIC["N_c"], C_MOVING["E_tr"], C_MOVING["E_rot"], C_SURFACE[10, "N_c"], "v_scalar", "v_entry", "v_bin",
-                     "c_contacts")]
+    """Equal-style variables of a scalar, an entry of a vector and one of an array; a per-grain column summed by compute
+    reduce."""
+    lines = [
+        "variable scalar equal 2*c_fabric",
+        f"variable entry equal {C_MOVING['E_tr']}+{C_MOVING['E_rot']}",
+        f"variable bin equal 3*{C_SURFACE[10, 'N_c']}",
+        f"compute contacts all reduce sum {C_GRAIN['N_c']}",
+        *thermo(
+            5,
+            "c_fabric",
+            C_FABRIC["N_c"],
+            C_MOVING["E_tr"],
+            C_MOVING["E_rot"],
+            C_SURFACE[10, "N_c"],
+            "v_scalar",
+            "v_entry",
+            "v_bin",
+            "c_contacts",
+        ),
+    ]
     table = run(asked(*lines), ranks).thermo()[-1]
     require_close(table["v_scalar"], 2.0 * table["c_fabric"], 1e-15, "variable of a scalar")
     require_close(table["v_entry"], table[C_MOVING["E_tr"]] + table[C_MOVING["E_rot"]], 1e-15, "variable of a vector")
@@ -120,17 +152,32 @@ def dumped(ranks):
 
 
 def come_and_go(ranks):
-    """Computes deleted between runs, defined again, and all of them in `clear`; what they kept of grains begins anew."""
+    """Computes deleted between runs, defined again, and all of them in `clear`; what they kept of grains begins
+    anew."""
     quantities = [q for w in GLOBAL for q in w.columns()]
     deck = Deck(dense_packing(1.5))
     define = [w.define("all") for w in [*GLOBAL, GRAIN]]
-    deck.body = [*strain_lines(RATE), shear(RATE), *define, *thermo(5, *quantities), "run 10", "thermo_style custom step",
-                 *(f"uncompute {w.name}" for w in [*GLOBAL, GRAIN]), "run 10", *define, *thermo(5, *quantities), "run 10", "clear"]
+    deck.body = [
+        *strain_lines(RATE),
+        shear(RATE),
+        *define,
+        *thermo(5, *quantities),
+        "run 10",
+        "thermo_style custom step",
+        *(f"uncompute {w.name}" for w in [*GLOBAL, GRAIN]),
+        "run 10",
+        *define,
+        *thermo(5, *quantities),
+        "run 10",
+        "clear",
+    ]
     blocks_of_thermo = run(deck, ranks).thermo()
     require(len(blocks_of_thermo) == 3, "runs are missing")
     again = blocks_of_thermo[2]
-    require(again[C_MEMORY["samples"]][0] == 1.0 and again[C_MOVED["strain"]][0] == 0.0,
-            "the new computes did not begin anew")
+    require(
+        again[C_MEMORY["samples"]][0] == 1.0 and again[C_MOVED["strain"]][0] == 0.0,
+        "the new computes did not begin anew",
+    )
     require(all(np.isfinite(values).all() for values in again.values()), "not finite")
 
 
@@ -139,34 +186,49 @@ def orthogonal_box(ranks):
     random = np.random.default_rng(4)
     packing = dense_packing(1.5)
     # Off the lattice, whose distances fall on the edges of bins.
-    packing = replace(packing, grains=[replace(g, position=tuple(g.position + 0.01 * random.normal(size=3))) for g in packing.grains])
+    packing = replace(
+        packing, grains=[replace(g, position=tuple(g.position + 0.01 * random.normal(size=3))) for g in packing.grains]
+    )
     quantities = [q for w in GLOBAL for q in w.columns()]
     body = [*strain_lines(RATE), *(w.define("all") for w in GLOBAL), *thermo(1, *quantities), "run 3"]
-    upright, triclinic = (run(Deck(replace(packing, triclinic=t), body=body), ranks).thermo()[-1] for t in (False, True))
+    upright, triclinic = (
+        run(Deck(replace(packing, triclinic=t), body=body), ranks).thermo()[-1] for t in (False, True)
+    )
     for name in quantities:
         # Contacts across faces see their ghosts in another order; the host's solver stops at about 1e-7.
         require_close(upright[name], triclinic[name], 1e-5, name, max(np.abs(triclinic[name]).max(), 1e-3))
 
 
 def as_pair_gran_local(packing, surface="superquadric"):
-    """After a run, `run 0`: the same contacts with the same forces and points in the host's list, which evaluates them again."""
+    """After a run, `run 0`: the same contacts with the same forces and points in the host's list, which evaluates them
+    again."""
     # The solver starts from another guess: the host's is then off by as much as 1e-5.
     solver = 1e-5 if surface == "superquadric" else 1e-10
 
     def case(ranks):
         deck = Deck(packing, extra="tangential_damping off", surface=surface)
-        deck.body = [shear(RATE), "run 100", "unfix shear", "compute pairs all pair/gran/local id force delta contactPoint",
-                     "compute rows all contact/local", "thermo_style custom step",
-                     *dump_local("pairs", 10, 1, "pairs"), *dump_local("rows", ROW_WIDTH, 1, "rows"), "run 0"]
+        deck.body = [
+            shear(RATE),
+            "run 100",
+            "unfix shear",
+            "compute pairs all pair/gran/local id force delta contactPoint",
+            "compute rows all contact/local",
+            "thermo_style custom step",
+            *dump_local("pairs", 10, 1, "pairs"),
+            *dump_local("rows", ROW_WIDTH, 1, "rows"),
+            "run 0",
+        ]
         # The host wants this compute before the first run.
         deck.body.insert(0, deck.body.pop(3))
         result = run(deck, ranks)
         rows = rows_of(result.dump("rows.dump")[0][1], "rows")
-        (_, pairs), = result.dump("pairs.dump")
+        ((_, pairs),) = result.dump("pairs.dump")
         pairs = np.stack([pairs[f"c_pairs[{k}]"] for k in range(1, 11)], axis=1)
         inside = pairs[pairs[:, 2] == 0.0]
-        theirs = {tuple(sorted((int(a), int(b)))): (force if a < b else -force, point, overlap)
-                  for (a, b, _), force, point, overlap in zip(inside[:, :3], inside[:, 3:6], inside[:, 7:10], inside[:, 6])}
+        theirs = {
+            tuple(sorted((int(a), int(b)))): (force if a < b else -force, point, overlap)
+            for (a, b, _), force, point, overlap in zip(inside[:, :3], inside[:, 3:6], inside[:, 7:10], inside[:, 6])
+        }
         size = np.abs(rows["force"]).max()
         compared = 0
         for k in np.flatnonzero(~rows["image"].any(axis=1)):
@@ -178,6 +240,7 @@ def as_pair_gran_local(packing, surface="superquadric"):
             require_close(rows["overlap"][k], overlap, solver, f"overlap of {pair}", 1.0)
             compared += 1
         require(compared == len(theirs) > 100, f"{compared} contacts, {len(theirs)} in the host's list")
+
     return case
 
 

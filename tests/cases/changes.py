@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Computes and fixes that live on while their surroundings change: box, time step, step number, pair style, grains, and after `clear`."""
+"""Computes and fixes that live on while their surroundings change: box, time step, step number, pair style, grains, and
+after `clear`."""
 from dataclasses import replace
 
 import numpy as np
@@ -35,11 +36,18 @@ def check_moment(moment, first):
     when = f"step {moment.step}"
     require_agreement(comparisons(moment, [], 0.0), EXACT, when)
     for watched, flow in FLUCTUATIONS.items():
-        compared = comparison_motion.of_fluctuation(moment.vector(watched), moment.array(watched), moment, flow, (0, 1), 6)
+        compared = comparison_motion.of_fluctuation(
+            moment.vector(watched), moment.array(watched), moment, flow, (0, 1), 6
+        )
         require_agreement(compared, EXACT, f"{when}, {watched.command}")
     expected = measures.stress_vector(moment.rows, moment.grains, moment.force_box, moment.chosen, 5e6, 1.0)
     found = moment.vector(STRESS)
-    for name, part in (("total", slice(0, 7)), ("kinetic", slice(19, 25)), ("P", slice(25, 26)), ("contacts, Z", slice(29, 31))):
+    for name, part in (
+        ("total", slice(0, 7)),
+        ("kinetic", slice(19, 25)),
+        ("P", slice(25, 26)),
+        ("contacts, Z", slice(29, 31)),
+    ):
         require_close(found[part], expected[part], EXACT, f"{when}, stress {name}")
     if first is not None:
         check_displacement(moment, first, when)
@@ -62,6 +70,7 @@ def check_displacement(moment, first, when):
 
 def still_right(packing, lines, box_at_rest=True, changed=None, **choices):
     """20 steps, the change, 20 steps: then everything is as the oracle has it."""
+
     def case(ranks):
         deck = Deck(packing, extra="tangential_damping off", body=strain_lines(0.05), **choices)
         computes = [FABRIC, DIRECTION, GRAIN, STRESS, DISPLACEMENT, *FLUCTUATIONS]
@@ -75,6 +84,7 @@ def still_right(packing, lines, box_at_rest=True, changed=None, **choices):
             check_moment(moment, moments[0] if box_at_rest else None)
         if changed:
             changed(moments)
+
     return case
 
 
@@ -82,20 +92,30 @@ def grains_changed(by):
     def check(moments):
         found = len(moments[-1].grains.ids) - len(moments[0].grains.ids)
         require(found == by if by else found < 0, f"{found} grains came")
+
     return check
 
 
 FEW = ["group few id 3:9 40"]
-LOST = "thermo_modify lost ignore format float %.17g norm no"  # the host counts before it has noted those that it inserts
-INSERT = ["region top block 0.5 12 0.5 12 0.5 12 units box",
-          "fix small all particletemplate/sphere 15485863 atom_type 1 density constant 1000 radius constant 0.2",
-          "fix kinds all particledistribution/discrete 15485867 1 small 1.0",
-          "fix insert chosen insert/rate/region seed 32452843 distributiontemplate kinds nparticles 30 particlerate 1000 insert_every 8 "
-          "vel constant 0 0 0 overlapcheck yes all_in yes region top", LOST]
+LOST = (
+    "thermo_modify lost ignore format float %.17g norm no"  # the host counts before it has noted those that it inserts
+)
+INSERT = [
+    "region top block 0.5 12 0.5 12 0.5 12 units box",
+    "fix small all particletemplate/sphere 15485863 atom_type 1 density constant 1000 radius constant 0.2",
+    "fix kinds all particledistribution/discrete 15485867 1 small 1.0",
+    "fix insert chosen insert/rate/region seed 32452843 distributiontemplate kinds nparticles 30 particlerate "
+    "1000 insert_every 8 "
+    "vel constant 0 0 0 overlapcheck yes all_in yes region top",
+    LOST,
+]
 LOSE = [LOST, "group few id 1:30", "velocity few set 0 0 2000 units box"]
 
 
-DUMPS = [*dump_grains(SPHERES, 5, columns=grain_columns(SPHERES, "ix", "iy", "iz", *GRAIN.atom_columns())), *dump_local("rows", ROW_WIDTH, 5, "rows")]
+DUMPS = [
+    *dump_grains(SPHERES, 5, columns=grain_columns(SPHERES, "ix", "iy", "iz", *GRAIN.atom_columns())),
+    *dump_local("rows", ROW_WIDTH, 5, "rows"),
+]
 
 
 def told(result, block=-1):
@@ -104,9 +124,13 @@ def told(result, block=-1):
 
 def asking(packing, press=True):
     """Everything, in a flow under fix press/strain; the ledger too."""
-    computes = [*(replace(w, command=w.command.replace(" strain v_strain", "")) if press else w for w in everything(packing)),
-                Watched("stress", "stress/contact", True, 35), Watched("power", "dissipation", True, 5),
-                Watched("books", "energy/ledger", True, 20), Watched("running", "velocity/correlation average running bins 6", True, 5, (6, 4))]
+    computes = [
+        *(replace(w, command=w.command.replace(" strain v_strain", "")) if press else w for w in everything(packing)),
+        Watched("stress", "stress/contact", True, 35),
+        Watched("power", "dissipation", True, 5),
+        Watched("books", "energy/ledger", True, 20),
+        Watched("running", "velocity/correlation average running bins 6", True, 5, (6, 4)),
+    ]
     quantities = [q for w in computes for q in w.columns()]
     flow = [PRESS] if press else strain_lines(0.05)
     state = F_PRESS.vector() if press else []
@@ -116,14 +140,23 @@ def asking(packing, press=True):
 def outputs(suffix):
     """Of contacts and grains."""
     rows = dump_local("rows", 8, 1, f"rows{suffix}")
-    return ["compute rows all contact/local id image normal", *rows, *dump_grains(SPHERES, 1, f"grains{suffix}", f"id x y z fx fy fz {C_GRAIN['N_c']}")]
+    return [
+        "compute rows all contact/local id image normal",
+        *rows,
+        *dump_grains(SPHERES, 1, f"grains{suffix}", f"id x y z fx fy fz {C_GRAIN['N_c']}"),
+    ]
 
 
 def clear_starts_afresh(packing, surface="superquadric"):
     """The same deck twice in one process: to the last bit the same."""
+
     def case(ranks):
-        once, again = (Deck(packing, surface=surface, extra="ledger on", body=[*asking(packing), *outputs(k), "run 10", "run 10"]).text()
-                       for k in (1, 2))
+        once, again = (
+            Deck(
+                packing, surface=surface, extra="ledger on", body=[*asking(packing), *outputs(k), "run 10", "run 10"]
+            ).text()
+            for k in (1, 2)
+        )
         result = run(f"{once}clear\n{again}", ranks)
         blocks = result.thermo()
         require(len(blocks) == 4 and blocks[0][C_STRESS["N_c"]].min() > 100, "too little was run")
@@ -131,12 +164,17 @@ def clear_starts_afresh(packing, surface="superquadric"):
             for name, values in before.items():
                 require_equal(after[name], values, f"{name} after 'clear'")
         for name in ("rows", "grains"):
-            require(result.file(f"{name}1.dump").read_text() == result.file(f"{name}2.dump").read_text(), f"{name}: another dump after 'clear'")
+            require(
+                result.file(f"{name}1.dump").read_text() == result.file(f"{name}2.dump").read_text(),
+                f"{name}: another dump after 'clear'",
+            )
+
     return case
 
 
 def same_as(change, plain, but=(), **choices):
     """Two bodies that must tell the same in their last run."""
+
     def case(ranks):
         deck = Deck(SPHERES, extra="ledger on", **choices)
         found, expected = (told(run(replace(deck, body=body), ranks)) for body in (change, plain))
@@ -144,19 +182,29 @@ def same_as(change, plain, but=(), **choices):
         for name, values in expected.items():
             if name != "step" and not name.startswith(but):
                 require_equal(found[name], values, name)
+
     return case
 
 
 def pair_style_twice(ranks):
     """The host forgets springs then: the trajectory is that of pair_style gran, and the ledger adds up."""
+
     def trajectory(style):
         words = Deck(SPHERES).model()
         middle = [f"pair_style {style} {words}", "pair_coeff * *"]
-        return run(Deck(SPHERES, pair=style, body=[*dump_grains(SPHERES, 5), "run 20", *middle, "run 20"]), ranks).dump("grains.dump")
+        return run(Deck(SPHERES, pair=style, body=[*dump_grains(SPHERES, 5), "run 20", *middle, "run 20"]), ranks).dump(
+            "grains.dump"
+        )
 
     require_same_snapshots(trajectory("gran/insitu"), trajectory("gran"), "pair_style twice")
     deck = Deck(SPHERES, extra="ledger on")
-    result = run(replace(deck, body=[*asking(SPHERES), "run 20", f"pair_style gran/insitu {deck.model()}", "pair_coeff * *", "run 20"]), ranks)
+    result = run(
+        replace(
+            deck,
+            body=[*asking(SPHERES), "run 20", f"pair_style gran/insitu {deck.model()}", "pair_coeff * *", "run 20"],
+        ),
+        ranks,
+    )
     require_close(told(result)["c_books"], 0.0 * told(result)["c_books"], 1e-12, "relative residual", 1.0)
 
 
@@ -164,8 +212,13 @@ def before_pair_style(ranks):
     """A compute may come before the pair style that it watches."""
     deck = Deck(SPHERES, body=[*thermo(1, "c_c", C_C["N_c"]), "run 20"])
     text, compute = deck.text(), "compute c all stress/contact\n"
-    late, early = (text.replace(line, put) for line, put in (("thermo_style custom step c_c", compute + "thermo_style custom step c_c"),
-                                                             ("pair_style", compute + "pair_style")))
+    late, early = (
+        text.replace(line, put)
+        for line, put in (
+            ("thermo_style custom step c_c", compute + "thermo_style custom step c_c"),
+            ("pair_style", compute + "pair_style"),
+        )
+    )
     found, expected = told(run(early, ranks)), told(run(late, ranks))
     for name, values in expected.items():
         require_equal(found[name], values, name)
@@ -174,34 +227,57 @@ def before_pair_style(ranks):
 
 def time_step_changes(lines):
     """The strain is the rate times the time that has passed, however it was cut into steps."""
+
     def case(ranks):
-        body = [PRESS.replace("every 7e-6", "every/step 3"), "compute moved all displacement/shear",
-                *thermo(1, "time", "dt", F_PRESS["strain"], C_MOVED["strain"]), "run 20", *lines]
+        body = [
+            PRESS.replace("every 7e-6", "every/step 3"),
+            "compute moved all displacement/shear",
+            *thermo(1, "time", "dt", F_PRESS["strain"], C_MOVED["strain"]),
+            "run 20",
+            *lines,
+        ]
         result = run(Deck(SPHERES, body=body), ranks)
         dts = np.concatenate([b["dt"] for b in result.thermo()])
         require(len(set(dts)) > 1, "the time step did not change")
         for block in result.thermo():
             require_close(block[F_PRESS["strain"]], 0.05 * block["time"], 1e-12, "strain")
             require_equal(block[C_MOVED["strain"]], block[F_PRESS["strain"]], "strain of the displacements")
+
     return case
 
 
 def loss_of_a_changing_step(ranks):
     """What slipped in a step is divided by the time that step took, not by that of the next."""
-    body = ["compute rows all contact/local", *dump_local("rows", ROW_WIDTH, 1, "rows"), "compute loss all dissipation",
-            *thermo(1, "dt", C_LOSS["P_t"]), "fix adapt all dt/reset 1 1e-9 1 1e-5 units box", "run 20"]
+    body = [
+        "compute rows all contact/local",
+        *dump_local("rows", ROW_WIDTH, 1, "rows"),
+        "compute loss all dissipation",
+        *thermo(1, "dt", C_LOSS["P_t"]),
+        "fix adapt all dt/reset 1 1e-9 1 1e-5 units box",
+        "run 20",
+    ]
     result = run(Deck(SPHERES, body=body), ranks)
     table, rows = told(result), [rows_of(columns, "rows") for _, columns in result.dump("rows.dump")]
     require(len(set(table["dt"])) > 10, "the time step did not change")
     for step in range(1, 21):
         expected = measures.friction_of_step(rows[step], table["dt"][step - 1])
-        require_close(table[C_LOSS["P_t"]][step], expected, EXACT, f"friction in step {step}", np.abs(table[C_LOSS["P_t"]]).max())
+        require_close(
+            table[C_LOSS["P_t"]][step], expected, EXACT, f"friction in step {step}", np.abs(table[C_LOSS["P_t"]]).max()
+        )
 
 
 def box_scaled(ranks):
-    """fix press/strain goes on with the box that it finds; what was displaced is displaced no further by a scaling of everything."""
-    body = [*asking(SPHERES), f"thermo_style custom step ly {C_MOVED['strain']} {C_MOVED['d2_x']} {C_MOVED['d2_y']} {C_MOVED['d2_z']} {F_PRESS['strain']} {F_PRESS['L']} c_books {C_STRESS['N_c']}",
-            "thermo_modify format float %.17g norm no", "run 20", "change_box all x scale 1.001 y scale 1.001 z scale 1.001 remap", "run 20"]
+    """fix press/strain goes on with the box that it finds; what was displaced is displaced no further by a scaling of
+    everything."""
+    body = [
+        *asking(SPHERES),
+        f"thermo_style custom step ly {C_MOVED['strain']} {C_MOVED['d2_x']} {C_MOVED['d2_y']} {C_MOVED['d2_z']} "
+        f"{F_PRESS['strain']} {F_PRESS['L']} c_books {C_STRESS['N_c']}",
+        "thermo_modify format float %.17g norm no",
+        "run 20",
+        "change_box all x scale 1.001 y scale 1.001 z scale 1.001 remap",
+        "run 20",
+    ]
     first, second = run(Deck(SPHERES, extra="ledger on", body=body), ranks).thermo()
     require_equal(second[F_PRESS["L"]], second["ly"], "length")
     require_close(second["ly"][0], 1.001 * first["ly"][-1], 1e-14, "length after the change")
@@ -214,19 +290,34 @@ def box_scaled(ranks):
 
 
 CASES = {
-    "box-turned-orthogonal": still_right(SPHERES, ["undump rows", "undump grains", "change_box all ortho", *DUMPS], box_at_rest=False),
-    "box-turned-triclinic": still_right(replace(SPHERES, triclinic=False), ["undump rows", "undump grains", "change_box all triclinic", *DUMPS],
-                                        box_at_rest=False),
+    "box-turned-orthogonal": still_right(
+        SPHERES, ["undump rows", "undump grains", "change_box all ortho", *DUMPS], box_at_rest=False
+    ),
+    "box-turned-triclinic": still_right(
+        replace(SPHERES, triclinic=False),
+        ["undump rows", "undump grains", "change_box all triclinic", *DUMPS],
+        box_at_rest=False,
+    ),
     "grains-deleted": still_right(LOOSE, [*FEW, "delete_atoms group few compress no"], changed=grains_changed(-8)),
-    "grains-deleted-and-renumbered": still_right(LOOSE, [*FEW, "delete_atoms group few"], box_at_rest=False, changed=grains_changed(-8)),
+    "grains-deleted-and-renumbered": still_right(
+        LOOSE, [*FEW, "delete_atoms group few"], box_at_rest=False, changed=grains_changed(-8)
+    ),
     "grains-inserted": still_right(LOOSE, INSERT, changed=grains_changed(30)),
     "grains-lost": still_right(LOOSE, LOSE, changed=grains_changed(0), boundary="p p f"),
     "clear-starts-afresh": clear_starts_afresh(SPHERES),
     "clear-starts-afresh-with-ellipsoids": clear_starts_afresh(SPHEROIDS, "ellipsoid"),
-    "steps-numbered-anew": same_as([*asking(SPHERES), "run 20", "reset_timestep 0", "run 20"], [*asking(SPHERES), "run 20", "run 20"]),
+    "steps-numbered-anew": same_as(
+        [*asking(SPHERES), "run 20", "reset_timestep 0", "run 20"], [*asking(SPHERES), "run 20", "run 20"]
+    ),
     "pair-style-twice-at-first": same_as(
-        [f"pair_style gran/insitu {Deck(SPHERES, extra='ledger on').model()}", "pair_coeff * *", *asking(SPHERES), "run 20"],
-        [*asking(SPHERES), "run 20"]),
+        [
+            f"pair_style gran/insitu {Deck(SPHERES, extra='ledger on').model()}",
+            "pair_coeff * *",
+            *asking(SPHERES),
+            "run 20",
+        ],
+        [*asking(SPHERES), "run 20"],
+    ),
     "pair-style-twice": pair_style_twice,
     "compute-before-pair-style": before_pair_style,
     "time-step-changed-between-runs": time_step_changes(["timestep 1e-5", "run 20"]),

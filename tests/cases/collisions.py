@@ -20,9 +20,11 @@ SPEED = 0.5
 def meeting(shape, offset=0.0, quaternions=((1, 0, 0, 0), (1, 0, 0, 0))):
     """Two grains a hair apart along x, about to meet at 2 x SPEED, their centres `offset` apart in y."""
     gap = 1e-3
-    reach = shape[0] if offset == 0.0 else math.sqrt(shape[0] ** 2 - 0.25 * offset ** 2)
-    grains = [Grain((side * (reach + gap), side * 0.5 * offset, 0.0), shape, q, (-side * SPEED, 0.0, 0.0))
-              for side, q in zip((-1, 1), quaternions)]
+    reach = shape[0] if offset == 0.0 else math.sqrt(shape[0] ** 2 - 0.25 * offset**2)
+    grains = [
+        Grain((side * (reach + gap), side * 0.5 * offset, 0.0), shape, q, (-side * SPEED, 0.0, 0.0))
+        for side, q in zip((-1, 1), quaternions)
+    ]
     style = "sphere" if len(set(shape)) == 1 else "superquadric"
     return Packing((24.0, 24.0, 24.0), grains, atom_style=style, origin=(-12.0, -12.0, -12.0))
 
@@ -39,7 +41,9 @@ def inertia(grains, k):
 
 def kinetic_energy(columns):
     g = grains_of(columns)
-    return sum(0.5 * g.mass[k] * g.v[k] @ g.v[k] + 0.5 * g.omega[k] @ inertia(g, k) @ g.omega[k] for k in range(len(g.ids)))
+    return sum(
+        0.5 * g.mass[k] * g.v[k] @ g.v[k] + 0.5 * g.omega[k] @ inertia(g, k) @ g.omega[k] for k in range(len(g.ids))
+    )
 
 
 def collide(packing, restitution, fraction, ranks, friction=0.4, extra="", mode="step"):
@@ -47,12 +51,24 @@ def collide(packing, restitution, fraction, ranks, friction=0.4, extra="", mode=
     smallest = min(packing.grains[0].semi_axes)
     # Hertz collision time, with margin for the slow parting at small e.
     largest = max(packing.grains[0].semi_axes)
-    duration = 3.0 * 2.94 * (5.0 * math.sqrt(2.0) * math.pi * 1000.0 / (8.0 * 5e6)) ** 0.4 / (2 * SPEED) ** 0.2 * largest
+    duration = (
+        3.0 * 2.94 * (5.0 * math.sqrt(2.0) * math.pi * 1000.0 / (8.0 * 5e6)) ** 0.4 / (2 * SPEED) ** 0.2 * largest
+    )
     dt = fraction * rayleigh_time(smallest)
     steps = math.ceil(duration / dt)
     vector = C_LOSS.vector()
-    deck = Deck(packing, material=Material(restitution=(restitution,), friction=(friction,)), timestep=dt, extra=extra,
-                body=[f"compute loss all dissipation mode {mode}", *thermo(1, *vector), *dump_grains(packing, steps), f"run {steps}"])
+    deck = Deck(
+        packing,
+        material=Material(restitution=(restitution,), friction=(friction,)),
+        timestep=dt,
+        extra=extra,
+        body=[
+            f"compute loss all dissipation mode {mode}",
+            *thermo(1, *vector),
+            *dump_grains(packing, steps),
+            f"run {steps}",
+        ],
+    )
     result = run(deck, ranks)
     table = result.thermo()[0]
     (_, before), (_, after) = result.dump("grains.dump")
@@ -65,16 +81,23 @@ SPHERE, PROLATE, OBLATE = (1.0, 1.0, 1.0), (1.0, 1.0, 1.5), (1.0, 1.0, 0.5)
 
 
 def single_contact(ranks):
-    """By hand. R = 1, E = 5e6, nu = 0.3, e = 0.5, mu = 0.1, overlap 0.02, approach at 1, tangential velocity 2 from spins, no_history:
+    """By hand. R = 1, E = 5e6, nu = 0.3, e = 0.5, mu = 0.1, overlap 0.02, approach at 1, tangential velocity 2 from
+    spins, no_history:
     E* = 2.747253e6, R* = 0.5, sqrt(R* d) = 0.1, m* = 2094.395, S_n = 2 E* 0.1 = 549450.5,
     gamma_n = 2 sqrt(5/6) 0.2154538 sqrt(S_n m*) = 13344.03, so P_n = gamma_n 1^2 = 13344.03;
-    F_n = 4/3 E* 0.1 0.02 + 13344.03 = 20670.04; the limit 2067.004 is below gamma_t 2 = 24218, so it slides: P_t = 2067.004 x 2."""
+    F_n = 4/3 E* 0.1 0.02 + 13344.03 = 20670.04; the limit 2067.004 is below gamma_t 2 = 24218, so it slides: P_t =
+    2067.004 x 2.
+    """
     spin = 1.0 / 0.99  # the lever is R - d/2
     grains = [Grain((0.99 * side, 0, 0), velocity=(-0.5 * side, 0, 0), omega=(0, 0, spin)) for side in (-1, 1)]
     packing = Packing((24.0, 24.0, 24.0), grains, atom_style="sphere", origin=(-12.0, -12.0, -12.0))
     vector = C_LOSS.vector()
-    deck = Deck(packing, tangential="no_history", material=Material(friction=(0.1,)),
-                body=["compute loss all dissipation mode instantaneous", *thermo(1, *vector), "run 0"])
+    deck = Deck(
+        packing,
+        tangential="no_history",
+        material=Material(friction=(0.1,)),
+        body=["compute loss all dissipation mode instantaneous", *thermo(1, *vector), "run 0"],
+    )
     table = run(deck, ranks).thermo()[0]
     require_close([table[q][0] for q in vector], [13344.03, 4134.008, 0.0, 1.0, 1.0], 1e-6, "powers of one contact")
 
@@ -91,13 +114,14 @@ def head_on(shape, restitution, mode="step", tolerance=1e-3):
         require(errors[1] <= tolerance, f"D_n is off by {errors[1]:.2e} at dt = 0.02 T_R, allowed {tolerance}")
         require(errors[1] < 0.7 * errors[0] or errors[1] < 1e-5, f"the error does not fall with dt: {errors}")
         energy_kept(packing, lost, restitution, mode)
+
     return case
 
 
 def energy_kept(packing, lost, restitution, mode):
-    before = sum(0.5 * g.mass() * SPEED ** 2 for g in packing.grains)
+    before = sum(0.5 * g.mass() * SPEED**2 for g in packing.grains)
     # The host's damping gives e to a few per cent only where the force may become attractive at the end (as here).
-    require_close(1.0 - lost / before, restitution ** 2, 0.06, "energy kept", 1.0)
+    require_close(1.0 - lost / before, restitution**2, 0.06, "energy kept", 1.0)
 
 
 def oblique(shape, tolerance):
@@ -106,12 +130,22 @@ def oblique(shape, tolerance):
         print(f"lost {lost:.6g}, D_n, D_t, D_t,damp = {losses}, sum off by {sum(losses) / lost - 1:+.2e}")
         require(losses[1] > 0.01 * lost and table[C_LOSS["N_sliding"]].max() == 1.0, "nothing slid")
         require_close(sum(losses), lost, tolerance, "light ledger of an oblique collision")
+
     return case
 
 
-CASES = {f"head-on-{name}-e-{e:g}": head_on(shape, e) for name, shape in
-         (("spheres", SPHERE), ("prolate", PROLATE), ("oblate", OBLATE)) for e in (0.1, 0.5, 0.9)}
-CASES.update({"single-contact": single_contact, "oblique-spheres": oblique(SPHERE, 0.05), "oblique-prolate": oblique(PROLATE, 0.05)})
+CASES = {
+    f"head-on-{name}-e-{e:g}": head_on(shape, e)
+    for name, shape in (("spheres", SPHERE), ("prolate", PROLATE), ("oblate", OBLATE))
+    for e in (0.1, 0.5, 0.9)
+}
+CASES.update(
+    {
+        "single-contact": single_contact,
+        "oblique-spheres": oblique(SPHERE, 0.05),
+        "oblique-prolate": oblique(PROLATE, 0.05),
+    }
+)
 
 if __name__ == "__main__":
     main(CASES)

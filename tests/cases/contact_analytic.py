@@ -6,10 +6,9 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_equal
-from deck import Deck, Material, thermo
+from deck import Deck, Material
 from oracle.surface import areas, spheroid_area
 from packing import Grain, Packing, dense_packing
-from run import run
 from watch import Watched, deforming, watch
 
 # Exact numbers, reached through square roots and one eigenvalue problem.
@@ -58,17 +57,26 @@ def pairs_along(*normals):
 
 
 X, Y, Z = (1, 0, 0), (0, 1, 0), (0, 0, 1)
-PLACES = {"f": slice(0, 6), "eigenvalues": slice(6, 9), "vectors": slice(9, 18), "deviator": slice(18, 19), "angle": slice(19, 20),
-          "ratio": slice(20, 21), "contacts": slice(21, 22)}
+PLACES = {
+    "f": slice(0, 6),
+    "eigenvalues": slice(6, 9),
+    "vectors": slice(9, 18),
+    "deviator": slice(18, 19),
+    "angle": slice(19, 20),
+    "ratio": slice(20, 21),
+    "contacts": slice(21, 22),
+}
 
 
 def fabric(normals, plane="xy", **parts):
     """`parts`: entries of PLACES."""
+
     def case(ranks):
         watched = Watched("fabric", f"fabric plane {plane}", True, 22)
         vector = ask(pairs_along(*normals), watched, ranks=ranks).vector(watched)
         for name, value in parts.items():
             require_close(vector[PLACES[name]], np.ravel(value).astype(float), 1e-12, name, 1.0)
+
     return case
 
 
@@ -79,7 +87,9 @@ def at_degrees(angle):
 def area(shape, angle, axis="auto"):
     def case(ranks):
         watched = Watched("surface", f"contact/surface angle {angle} axis {axis} bins 10", vector=3, array=(10, 17))
-        packing = Packing((40.0,) * 3, [Grain((10.0, 10.0, 10.0), shape), Grain((30.0, 30.0, 30.0), tuple(2.0 * s for s in shape))])
+        packing = Packing(
+            (40.0,) * 3, [Grain((10.0, 10.0, 10.0), shape), Grain((30.0, 30.0, 30.0), tuple(2.0 * s for s in shape))]
+        )
         moment = ask(packing, watched, ranks=ranks)
         # The second grain has four times the area of the first; the bins hold the mean.
         whole, found = 2.5 * spheroid_area(shape[0], shape[2]) if axis == "auto" else None, moment.array(watched)[:, 1]
@@ -88,6 +98,7 @@ def area(shape, angle, axis="auto"):
         require_close(found, expected, 1e-12, "areas")
         require_close(found.sum(), whole or expected.sum(), 1e-12, "sum of the areas")
         require_close(moment.vector(watched), [0.0, whole or expected.sum(), 2.0], 1e-12, "P, area, grains")
+
     return case
 
 
@@ -102,13 +113,20 @@ def rotated(q, v):
 
 
 def touching_at(psi, shape, angle, random):
-    """Two equal spheroids of equal orientation, each the other's image in the point where they touch, at `psi` on both."""
+    """Two equal spheroids of equal orientation, each the other's image in the point where they touch, at `psi` on
+    both."""
     a, c = shape[0], shape[2]
     parametric = psi if angle == "parametric" else math.atan2(c * math.sin(psi), a * math.cos(psi))
     if angle == "polar":
         parametric = math.atan2(math.sin(psi) / a, math.cos(psi) / c)
     around = random.uniform(0.0, 2.0 * math.pi)
-    point = np.array([a * math.sin(parametric) * math.cos(around), a * math.sin(parametric) * math.sin(around), c * math.cos(parametric)])
+    point = np.array(
+        [
+            a * math.sin(parametric) * math.cos(around),
+            a * math.sin(parametric) * math.sin(around),
+            c * math.cos(parametric),
+        ]
+    )
     q = quaternion_of(random)
     half = 0.99 * rotated(q, point)
     return [(-half, q), (half, q)]
@@ -116,6 +134,7 @@ def touching_at(psi, shape, angle, random):
 
 def every_bin(shape, angle, bins=10):
     """Bin j is hit by 1 + j % 3 pairs, in random orientations."""
+
     def case(ranks):
         random, grains = np.random.default_rng(3), []
         hits = [1 + j % 3 for j in range(bins)]
@@ -129,6 +148,7 @@ def every_bin(shape, angle, bins=10):
         share = np.array(hits) / sum(hits)
         require_close(table[:, 3], share / table[:, 1], ROUNDING, "rho_s")
         require_close(table[:, 4] * table[:, 1] / table[:, 1].sum(), share, ROUNDING, "rho_s A_p: surface integral 1")
+
     return case
 
 
@@ -144,7 +164,8 @@ def pole_on_equator(ranks):
 
 
 def statistics_of_spheres(ranks):
-    """Contacts of randomly turned spheres are anywhere on them: rho_s A_p is 1 in every bin, within the scatter of numbers."""
+    """Contacts of randomly turned spheres are anywhere on them: rho_s A_p is 1 in every bin, within the scatter of
+    numbers."""
     random = np.random.default_rng(11)
     packing = dense_packing(1.0, minimum=1000)
     for grain in packing.grains:
@@ -153,12 +174,17 @@ def statistics_of_spheres(ranks):
     table = ask(packing, watched, ranks=ranks).array(watched)
     expected = table[:, 2].sum() * table[:, 1] / table[:, 1].sum()
     require(table[:, 2].sum() > 10000, f"only {table[:, 2].sum()} contacts")
-    # 12 contacts of a grain sit on one lattice, so that they are not independent: twice the scatter of independent ones, five times.
-    require(bool((np.abs(table[:, 2] - expected) < 10.0 * np.sqrt(expected)).all()), f"{table[:, 2]}, expected about {expected}")
+    # 12 contacts of a grain sit on one lattice, so that they are not independent: twice the scatter of independent
+    # ones, five times.
+    require(
+        bool((np.abs(table[:, 2] - expected) < 10.0 * np.sqrt(expected)).all()),
+        f"{table[:, 2]}, expected about {expected}",
+    )
 
 
 def opposite_bins(packing):
     """Each contact counts at beta and beta + pi: the two halves of the table are equal to the last bit."""
+
     def case(ranks):
         watched = Watched("direction", "contact/direction", array=(72, 9))
         moments = watch(Deck(packing), [watched], deforming(0.05), ranks, settle=100, contacts=False)
@@ -168,11 +194,13 @@ def opposite_bins(packing):
             require_equal(table[:36, 1:], table[36:, 1:], "beta and beta + pi")
             # One for all contacts, but for those whose normal stands on the plane: none here.
             require_close(table[:, 2].sum() * 2 * math.pi / 72, 1.0, ROUNDING, "integral of the density")
+
     return case
 
 
 def powers_add_up(packing, material=Material()):
     """Over bins, and over grains, to compute dissipation mode instantaneous."""
+
     def case(ranks):
         power = Watched("power", "dissipation mode instantaneous", True, 5)
         surface = Watched("surface", "contact/surface", vector=3, array=(10, 17))
@@ -189,6 +217,7 @@ def powers_add_up(packing, material=Material()):
                 require_close(table[:, 9:11].sum(axis=0), expected[:2], 1e-11, "P_n, P_t over bins", scale)
                 require_equal(table[:, 2].sum(), 2.0 * expected[3], "contacts over bins")
                 require_close(np.sum(table[:, 8] * table[:, 2]), 2.0 * expected[4], 1e-11, "sliding contacts over bins")
+
     return case
 
 
@@ -197,20 +226,42 @@ SHAPES = {"prolate": PROLATE, "oblate": OBLATE, "sphere": SPHERE}
 CASES = {
     "cubic-lattice": cubic_lattice,
     # F = diag(1/4, 0, 3/4).
-    "three-of-four-along-z": fabric([Z, Z, Z, X], f=(0.25, 0, 0.75, 0, 0, 0), eigenvalues=(0.75, 0.25, 0), vectors=(Z, X, Y), ratio=3,
-                                    angle=0, contacts=4, deviator=math.sqrt(1.5 * (25 + 1 + 16) / 144)),
+    "three-of-four-along-z": fabric(
+        [Z, Z, Z, X],
+        f=(0.25, 0, 0.75, 0, 0, 0),
+        eigenvalues=(0.75, 0.25, 0),
+        vectors=(Z, X, Y),
+        ratio=3,
+        angle=0,
+        contacts=4,
+        deviator=math.sqrt(1.5 * (25 + 1 + 16) / 144),
+    ),
     "three-of-four-along-z-in-xz": fabric([Z, Z, Z, X], "xz", angle=math.pi / 2),
     # Equal eigenvalues: x is the lab axis least along z, y the third.
     "two-of-four-along-z": fabric([Z, Z, X, Y], eigenvalues=(0.5, 0.25, 0.25), vectors=(Z, X, Y), ratio=2, angle=0),
     "one-of-four-less-along-x": fabric([Y, Y, Z, Z, X], eigenvalues=(0.4, 0.4, 0.2), vectors=(Y, Z, X), ratio=1),
     # One direction only: nothing to divide by, the ratio is 0.
-    "all-along-one": fabric([at_degrees(30)] * 2, eigenvalues=(1, 0, 0), angle=math.radians(30), deviator=1, ratio=0,
-                            vectors=(at_degrees(30), Z, (-0.5, math.sqrt(0.75), 0))),
+    "all-along-one": fabric(
+        [at_degrees(30)] * 2,
+        eigenvalues=(1, 0, 0),
+        angle=math.radians(30),
+        deviator=1,
+        ratio=0,
+        vectors=(at_degrees(30), Z, (-0.5, math.sqrt(0.75), 0)),
+    ),
     "angle-is-of-lines": fabric([at_degrees(100)], angle=math.radians(-80), contacts=1),
-    **{f"area-of-{name}-{angle}": area(shape, angle) for name, shape in SHAPES.items() for angle in ("polar", "parametric")},
+    **{
+        f"area-of-{name}-{angle}": area(shape, angle)
+        for name, shape in SHAPES.items()
+        for angle in ("polar", "parametric")
+    },
     "area-about-another-axis": area((1.0, 1.5, 2.5), "polar", "y"),
     "area-about-another-axis-parametric": area((1.0, 1.5, 2.5), "parametric", "x"),
-    **{f"every-bin-{name}-{angle}": every_bin(SHAPES[name], angle) for name in ("prolate", "oblate") for angle in ("polar", "parametric")},
+    **{
+        f"every-bin-{name}-{angle}": every_bin(SHAPES[name], angle)
+        for name in ("prolate", "oblate")
+        for angle in ("polar", "parametric")
+    },
     "pole-on-equator": pole_on_equator,
     "statistics-of-spheres": statistics_of_spheres,
     "opposite-bins": opposite_bins(dense_packing(atom_style="sphere")),

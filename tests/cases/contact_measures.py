@@ -11,10 +11,12 @@ from watch import Flow, Watched, deforming, pressed, watch
 
 # Sums of some hundred terms in double precision.
 EXACT = 1e-10
-# A contact across a periodic face, or between ranks, is evaluated by both owners; the host's solver for non-spheres stops at
-# about 1e-7, so that the two evaluations (averaged by the computes, one of them in the row) differ by that much.
+# A contact across a periodic face, or between ranks, is evaluated by both owners; the host's solver for non-spheres
+# stops at about 1e-7, so that the two evaluations (averaged by the computes, one of them in the row) differ by that
+# much.
 TWO_SIDED = 2e-6
-# The same for single grains and bins, where less averages: up to 1e-5 was found over all shapes and coefficients of friction.
+# The same for single grains and bins, where less averages: up to 1e-5 was found over all shapes and coefficients of
+# friction.
 TWO_SIDED_FEW = 3e-5
 # For the same reason such a contact may lie on either side of the edge of a bin.
 DOUBT = 1e-4
@@ -46,7 +48,11 @@ def comparisons(moment, computes, doubt):
 
 def require_agreement(compared, tolerance, when):
     for c in compared:
-        few = c.name.startswith("grain") or c.name.startswith(("surface", "direction")) and not c.name.endswith("all bins")
+        few = (
+            c.name.startswith("grain")
+            or c.name.startswith(("surface", "direction"))
+            and not c.name.endswith("all bins")
+        )
         allowed = TWO_SIDED_FEW if tolerance == TWO_SIDED and few else tolerance
         require_close(c.found, c.expected, 0.0 if c.counted else allowed, f"{when}, {c.name}", c.scale)
 
@@ -63,6 +69,7 @@ def agrees(deck, flow=Flow(), group="all", settle=0, fewest=1.0, check=None):
             require_agreement(comparisons(moment, computes, doubt), tolerance, f"step {moment.step}")
         if check:
             check(moments)
+
     return case
 
 
@@ -80,8 +87,8 @@ def flipped(moments):
 
 
 def flipping(alpha, **choices):
-    """Through a flip of the box, half-way through the steps that are looked at. First off the lattice, whose normals fall on the edges of
-    bins."""
+    """Through a flip of the box, half-way through the steps that are looked at. First off the lattice, whose normals
+    fall on the edges of bins."""
     deck = undamped(tilted(dense_packing(alpha, **choices), 0.499))
     lx, ly, _ = deck.packing.edges
     return agrees(deck, deforming(0.002 * lx / ly / (20 * deck.dt())), settle=5, check=flipped)
@@ -93,11 +100,15 @@ def length_moved(moments):
 
 def about_body_x(packing):
     """The same grains with the axis of symmetry along x of their own frames."""
+
     def turned(grain):
         w, x, y, z = grain.quaternion
         root = math.sqrt(0.5)  # times a turn by -90 degrees about y, which takes x to z
         a, _, c = grain.semi_axes
-        return replace(grain, semi_axes=(c, a, a), quaternion=(root * (w + y), root * (x + z), root * (y - w), root * (z - x)))
+        return replace(
+            grain, semi_axes=(c, a, a), quaternion=(root * (w + y), root * (x + z), root * (y - w), root * (z - x))
+        )
+
     return replace(packing, grains=[turned(g) for g in packing.grains])
 
 
@@ -106,8 +117,12 @@ def walled():
     packing = replace(dense_packing(atom_style="sphere"), triclinic=False)
     wall = "wall/gran model hertz tangential history primitive type 1 zplane"
     low, high = 0.1, packing.edges[2] - 0.1
-    return Deck(packing, boundary="p p f", extra="tangential_damping off",
-                body=[f"fix floor all {wall} {low}", f"fix ceiling all {wall} {high}"])
+    return Deck(
+        packing,
+        boundary="p p f",
+        extra="tangential_damping off",
+        body=[f"fix floor all {wall} {low}", f"fix ceiling all {wall} {high}"],
+    )
 
 
 def friction(mu):
@@ -121,7 +136,9 @@ CASES = {
     "spheres": agrees(undamped(dense_packing(atom_style="sphere")), FLOW, settle=100),
     "spheres-mu-0": agrees(undamped(dense_packing(atom_style="sphere"), material=friction(0.0)), FLOW, settle=100),
     "spheres-mu-10": agrees(undamped(dense_packing(atom_style="sphere"), material=friction(10.0)), FLOW, settle=100),
-    "spheres-polydisperse": agrees(undamped(dense_packing(atom_style="sphere", sizes=SIZES, overlap=0.1)), FLOW, settle=100),
+    "spheres-polydisperse": agrees(
+        undamped(dense_packing(atom_style="sphere", sizes=SIZES, overlap=0.1)), FLOW, settle=100
+    ),
     **{f"spheroid-{alpha:g}-in-the-open": agrees(undamped(cluster(alpha))) for alpha in (0.33, 0.67, 1.5, 3.0)},
     # Off the lattice first, whose normals fall on the edges of bins.
     "spheroid-1-in-the-open": agrees(undamped(cluster(1.0, overlap=0.02)), settle=5),
@@ -135,8 +152,12 @@ CASES = {
     "no-history": agrees(undamped(cluster(1.5), tangential="no_history")),
     "spheres-through-a-flip": flipping(1.0, atom_style="sphere"),
     "spheroids-through-a-flip": flipping(1.5),
-    "tilted-backward": agrees(undamped(tilted(dense_packing(atom_style="sphere"), -0.48)), deforming(-0.05), settle=100),
-    "under-pressure-control": agrees(undamped(dense_packing(atom_style="sphere")), pressed(0.05), settle=100, check=length_moved),
+    "tilted-backward": agrees(
+        undamped(tilted(dense_packing(atom_style="sphere"), -0.48)), deforming(-0.05), settle=100
+    ),
+    "under-pressure-control": agrees(
+        undamped(dense_packing(atom_style="sphere")), pressed(0.05), settle=100, check=length_moved
+    ),
     "subgroup": agrees(undamped(cluster(1.5)), group="20:80", fewest=0.5),
     "group-of-one": agrees(undamped(cluster(1.5)), group="20:20", fewest=0.0),
     "axis-along-body-x": agrees(undamped(about_body_x(cluster(1.5)))),

@@ -6,11 +6,10 @@ import math
 import numpy as np
 
 from case import main, require, require_close
-from deck import Deck, thermo
+from deck import Deck
 from oracle import comparison_motion as comparison
-from oracle import correlation, motion
+from oracle import correlation
 from packing import Grain, Packing, dense_packing, tilted
-from run import run
 from watch import Flow, Watched, deforming, pressed, watch
 
 # Sums of thousands of terms of either sign, over the square root of their number.
@@ -27,15 +26,20 @@ def correlation_of(name, words, bins=19):
 
 def variants(plane):
     """Computes and what the oracle needs to know of each."""
-    known = {"default": ("", {}), "vx": ("component vx flow fit", {"name": "vx", "flow": ("fit",)}),
-             "wz": ("component wz flow layers 4", {"name": "wz", "flow": ("layers", 4)}),
-             "near": (f"component vz flow rate 0.03 range {RANGE}", {"name": "vz", "flow": ("rate", 0.03), "reach": RANGE}),
-             "far": ("range 6.53", {"reach": 6.53}),
-             "mesh": (f"method mesh range {RANGE}", {"mesh": 4, "reach": RANGE}),
-             "fine": (f"method mesh mesh 7 range {RANGE} component wx", {"mesh": 7, "reach": RANGE, "name": "wx"})}
+    known = {
+        "default": ("", {}),
+        "vx": ("component vx flow fit", {"name": "vx", "flow": ("fit",)}),
+        "wz": ("component wz flow layers 4", {"name": "wz", "flow": ("layers", 4)}),
+        "near": (f"component vz flow rate 0.03 range {RANGE}", {"name": "vz", "flow": ("rate", 0.03), "reach": RANGE}),
+        "far": ("range 6.53", {"reach": 6.53}),
+        "mesh": (f"method mesh range {RANGE}", {"mesh": 4, "reach": RANGE}),
+        "fine": (f"method mesh mesh 7 range {RANGE} component wx", {"mesh": 7, "reach": RANGE, "name": "wx"}),
+    }
     bins = {"near": 7, "fine": 5, "mesh": 11}
-    return {correlation_of(k, f"plane {plane} {words}", bins.get(k, 19)): {"bins": bins.get(k, 19), **options}
-            for k, (words, options) in known.items()}
+    return {
+        correlation_of(k, f"plane {plane} {words}", bins.get(k, 19)): {"bins": bins.get(k, 19), **options}
+        for k, (words, options) in known.items()
+    }
 
 
 def agrees(deck, flow=Flow(), plane="xy", group="all", settle=50, check=None):
@@ -46,9 +50,16 @@ def agrees(deck, flow=Flow(), plane="xy", group="all", settle=50, check=None):
             vector = moment.vector(one)
             require_close(moment.scalar(one), vector[0], 0.0, "correlation scalar", 1.0)
             for c in comparison.of_correlation(vector, moment.array(one), moment, plane=PLANES[plane], **options):
-                require_close(c.found, c.expected, 0.0 if c.counted else EXACT, f"step {moment.step}, {one.name}, {c.name}", c.scale)
+                require_close(
+                    c.found,
+                    c.expected,
+                    0.0 if c.counted else EXACT,
+                    f"step {moment.step}, {one.name}, {c.name}",
+                    c.scale,
+                )
         if check:
             check(moments)
+
     return case
 
 
@@ -74,8 +85,12 @@ def running(ranks):
         numerator, pairs = sum(t[:, 2] for t in tables[:k]), sum(t[:, 3] for t in tables[:k])
         grains = sum(v[3] for v in vectors[:k])
         square = sum(v[2] * v[3] for v in vectors[:k]) / grains
-        table, expected = correlation.correlation_table(sum(t[:, 0] for t in tables[:k]) / k, numerator, pairs, square, grains)
-        for c in comparison.of_correlation_table("running", moment.vector(watched), moment.array(watched), table, expected):
+        table, expected = correlation.correlation_table(
+            sum(t[:, 0] for t in tables[:k]) / k, numerator, pairs, square, grains
+        )
+        for c in comparison.of_correlation_table(
+            "running", moment.vector(watched), moment.array(watched), table, expected
+        ):
             require_close(c.found, c.expected, 0.0 if c.counted else EXACT, f"step {moment.step}, {c.name}", c.scale)
 
 
@@ -84,23 +99,29 @@ def not_periodic(ranks):
     watched = correlation_of("open", "range 6.53")
     packing = Packing(SPHERES.edges, SPHERES.grains, atom_style="sphere", triclinic=False)
     moment = watch(Deck(packing, boundary="p f p"), [watched], ranks=ranks, steps=0, contacts=False)[0]
-    for c in comparison.of_correlation(moment.vector(watched), moment.array(watched), moment, reach=6.53, periodic=(True, False, True)):
+    for c in comparison.of_correlation(
+        moment.vector(watched), moment.array(watched), moment, reach=6.53, periodic=(True, False, True)
+    ):
         require_close(c.found, c.expected, 0.0 if c.counted else EXACT, c.name, c.scale)
 
 
 def plane_wave(words):
-    """v_y = cos(k x) on a cubic lattice, k a whole number of waves in the box: C at a lattice vector R is cos(k R_x), and a bin holds
-    the mean of its vectors."""
+    """v_y = cos(k x) on a cubic lattice, k a whole number of waves in the box: C at a lattice vector R is cos(k R_x),
+    and a bin holds the mean of its vectors."""
     count, spacing, waves = 8, 3.0, 1
     length = count * spacing
     k = 2.0 * math.pi * waves / length
 
     def case(ranks):
-        grains = [Grain(tuple(spacing * (np.array(c) + 0.5)), velocity=(0.0, math.cos(k * spacing * (c[0] + 0.5)), 0.0))
-                  for c in itertools.product(range(count), repeat=3)]
+        grains = [
+            Grain(tuple(spacing * (np.array(c) + 0.5)), velocity=(0.0, math.cos(k * spacing * (c[0] + 0.5)), 0.0))
+            for c in itertools.product(range(count), repeat=3)
+        ]
         bins, reach = 13, 11.3
         watched = correlation_of("wave", f"range {reach} {words}", bins)
-        moment = watch(Deck(Packing((length,) * 3, grains, atom_style="sphere")), [watched], ranks=ranks, steps=0, contacts=False)[0]
+        moment = watch(
+            Deck(Packing((length,) * 3, grains, atom_style="sphere")), [watched], ranks=ranks, steps=0, contacts=False
+        )[0]
         steps = np.array([v for v in itertools.product(range(-count // 2, count // 2), repeat=3) if any(v)])
         r = spacing * np.linalg.norm(steps, axis=1)
         where = np.floor(r * bins / reach).astype(int)
@@ -111,11 +132,13 @@ def plane_wave(words):
             require_close(table[j, 1], c, 1e-12, f"C in bin {j}", 1.0)
             require_close(table[j, 3], 0.5 * len(grains) * inside.sum(), 0.0, f"pairs in bin {j}", 1.0)
         require_close(moment.vector(watched)[2:4], [0.5, len(grains)], 1e-12, "<dv^2>, grains")
+
     return case
 
 
 def decays(ranks):
-    """Values with exp(-r/l) in the fitted bins give l: pairs far apart, one in each bin, products a_i b_i = exp(-r_i/l)."""
+    """Values with exp(-r/l) in the fitted bins give l: pairs far apart, one in each bin, products a_i b_i =
+    exp(-r_i/l)."""
     length, bins, reach = 2.5, 6, 9.0
     grains = []
     for j in range(bins):
@@ -123,7 +146,11 @@ def decays(ranks):
         speed = math.exp(-0.5 * r / length)
         for x in (0.0, r):
             for row, mirrored in ((0, 1.0), (1, -1.0)):  # the mean is zero
-                grains.append(Grain((5.0 + x, 30.0 * j + 10.0, 40.0 * row + 10.0), (0.4,) * 3, velocity=(0.0, mirrored * speed, 0.0)))
+                grains.append(
+                    Grain(
+                        (5.0 + x, 30.0 * j + 10.0, 40.0 * row + 10.0), (0.4,) * 3, velocity=(0.0, mirrored * speed, 0.0)
+                    )
+                )
     watched = correlation_of("fit", f"range {reach}", bins)
     packing = Packing((60.0, 30.0 * bins, 80.0), grains, atom_style="sphere")
     moment = watch(Deck(packing), [watched], ranks=ranks, steps=0, contacts=False)[0]
@@ -139,7 +166,9 @@ def decays(ranks):
 CASES = {
     "spheres": agrees(Deck(SPHERES), deforming(0.05)),
     "spheres-at-rest": agrees(Deck(SPHERES)),
-    "polydisperse": agrees(Deck(dense_packing(atom_style="sphere", sizes=(0.8, 1.0, 1.2), overlap=0.1)), deforming(0.05)),
+    "polydisperse": agrees(
+        Deck(dense_packing(atom_style="sphere", sizes=(0.8, 1.0, 1.2), overlap=0.1)), deforming(0.05)
+    ),
     "spheroid-0.33": agrees(Deck(dense_packing(0.33)), deforming(0.05)),
     "spheroid-3": agrees(Deck(dense_packing(3.0)), deforming(0.05)),
     "through-a-flip": flipping(Deck(tilted(SPHERES, 0.4985))),

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What happens to users: damaged files, full disks, numbers that are not finite, grains that get lost. An error that says so, never a crash."""
+"""What happens to users: damaged files, full disks, numbers that are not finite, grains that get lost. An error that
+says so, never a crash."""
 from dataclasses import replace
 import random
 import resource
-
-import numpy as np
 
 from case import main, require, require_same_snapshots
 from columns import outputs
@@ -32,6 +31,7 @@ def refused(result, *words):
 
 def damaged(harm, tries, *words):
     """A restart file harmed in `tries` ways: always refused, before anything is run."""
+
     def case(ranks):
         deck = Deck(SPHEROIDS, surface="ellipsoid", extra="setup neutral ledger on")
         file = saved(deck, ranks)
@@ -43,12 +43,13 @@ def damaged(harm, tries, *words):
             refused(attempt(resume, ranks), "read_restart: ", *words)
         file.write_bytes(whole)
         run(resume, ranks)
+
     return case
 
 
 def cut(whole, dice, k):
     """Short ends first: those are in the header and the fixes."""
-    return whole[:dice.randrange(1, min(len(whole), 10 ** (2 + k % 4)))]
+    return whole[: dice.randrange(1, min(len(whole), 10 ** (2 + k % 4)))]
 
 
 def flipped(whole, dice, k):
@@ -62,9 +63,9 @@ def newest_whole_one(ranks):
     """Of several files the newest that is whole; the others are named."""
     deck = Deck(SPHERES)
     folder = run(replace(deck, body=[shear(0.05), "restart 10 old new", "run 40"])).folder
-    middle, last = folder / "old", folder / "new"   # of steps 30 and 40
+    middle, last = folder / "old", folder / "new"  # of steps 30 and 40
     last.write_bytes(last.read_bytes()[:-100])
-    result = run(deck.restarted(f"{last} {middle} {folder}/nowhere", ["print \"at step $(step)\"", "run 1"]), ranks)
+    result = run(deck.restarted(f"{last} {middle} {folder}/nowhere", ['print "at step $(step)"', "run 1"]), ranks)
     text = " ".join(result.output.split())
     require("at step 30" in text, "another file was taken")
     for word in (f"taking '{middle}', of step 30", f"'{last}' was cut short or damaged", "nowhere' cannot be opened"):
@@ -101,6 +102,7 @@ def not_finite(lines, *words):
     def case(ranks):
         deck = Deck(SPHEROIDS, surface="ellipsoid", body=["run 5", *lines, "run 100"])
         refused(attempt(deck, ranks), *words)
+
     return case
 
 
@@ -118,23 +120,33 @@ def lost_from_a_periodic_box(ranks):
 
 def lost_beside_an_open_face(ranks):
     """Along the axes that are periodic nothing may be lost, also where grains may leave along another."""
-    deck = Deck(replace(SPHERES, triclinic=False), boundary="f p p", body=["thermo_modify lost ignore", "set atom 3 vy 1e5", "run 1500"])
+    deck = Deck(
+        replace(SPHERES, triclinic=False),
+        boundary="f p p",
+        body=["thermo_modify lost ignore", "set atom 3 vy 1e5", "run 1500"],
+    )
     refused(attempt(deck, ranks), "were lost though the box is periodic")
 
 
 def may_leave_an_open_box(ranks):
-    deck = Deck(replace(SPHERES, triclinic=False), boundary="f p p", body=["thermo_modify lost ignore", "set atom 3 vx 1e4", "run 1500"])
+    deck = Deck(
+        replace(SPHERES, triclinic=False),
+        boundary="f p p",
+        body=["thermo_modify lost ignore", "set atom 3 vx 1e4", "run 1500"],
+    )
     run(deck, ranks)
 
 
 def disk_full(lines, *words, most=200_000):
     """No file may grow beyond `most` bytes, which takes some steps: what a full disk or a quota does."""
+
     def case(ranks):
         own = resource.getrlimit(resource.RLIMIT_FSIZE)
-        resource.setrlimit(resource.RLIMIT_FSIZE, (most, own[1]))   # for what is started
+        resource.setrlimit(resource.RLIMIT_FSIZE, (most, own[1]))  # for what is started
         under_way = Started(Deck(SPHEROIDS, body=[shear(0.05), *lines]), ranks)
         resource.setrlimit(resource.RLIMIT_FSIZE, own)
         refused(under_way.end(), *words)
+
     return case
 
 
@@ -146,17 +158,30 @@ CASES = {
     "newest-whole-one": newest_whole_one,
     "plain-gran-and-back": plain_gran_and_back,
     "other-settings": other_settings,
-    "velocity-nan": not_finite(["set atom 3 vx 1e999"], "the velocity of grains 3 is not finite: look at the commands that set it"),
-    "force-inf": not_finite(["group one id 17", "fix push one addforce 1e999 0 0"], "step 5: the force of grains 17 is not finite"),
+    "velocity-nan": not_finite(
+        ["set atom 3 vx 1e999"], "the velocity of grains 3 is not finite: look at the commands that set it"
+    ),
+    "force-inf": not_finite(
+        ["group one id 17", "fix push one addforce 1e999 0 0"], "step 5: the force of grains 17 is not finite"
+    ),
     "too-long-a-step": too_long_a_step,
     "lost-from-a-periodic-box": lost_from_a_periodic_box,
     "may-leave-an-open-box": may_leave_an_open_box,
     "lost-beside-an-open-face": lost_beside_an_open_face,
-    "disk-full-snapshots": disk_full([f"dump d all custom 10 d.*.txt id {'x y z vx vy vz ' * 24}", "run 100000"], "Output cannot be written",
-                                     most=120_000),
+    "disk-full-snapshots": disk_full(
+        [f"dump d all custom 10 d.*.txt id {'x y z vx vy vz ' * 24}", "run 100000"],
+        "Output cannot be written",
+        most=120_000,
+    ),
     "disk-full-dump": disk_full([*dump_grains(SPHEROIDS, 1), "run 20000"], "Output cannot be written"),
-    "disk-full-table": disk_full(["compute s all stress/contact", f"fix t all ave/time 1 1 1 {C_S['sxx']} {C_S['syy']} {C_S['szz']} file t.txt", "run 100000"],
-                                 "Output cannot be written"),
+    "disk-full-table": disk_full(
+        [
+            "compute s all stress/contact",
+            f"fix t all ave/time 1 1 1 {C_S['sxx']} {C_S['syy']} {C_S['szz']} file t.txt",
+            "run 100000",
+        ],
+        "Output cannot be written",
+    ),
     "disk-full-log": disk_full([*thermo(1, "step"), "run 100000"], "cannot be written"),
     "disk-full-restart": disk_full(["restart 50 r.*", "run 100000"], "Output cannot be written"),
 }

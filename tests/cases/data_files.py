@@ -69,6 +69,7 @@ def reading(deck, file, *body):
 
 def there_and_back(tilt, steps, place, spin):
     """write_data, read_data on as many ranks: the same grains, but for the rounding of `place` and of `spin`."""
+
     def case(ranks):
         deck = Deck(packing(tilt))
         moved = [f"run {steps}"] if steps else []
@@ -86,6 +87,7 @@ def there_and_back(tilt, steps, place, spin):
         for name in SPINS.split():
             require_close(read[name], written[name], spin, name, scale)
         require(np.ptp(written["ix"]) > 100 and float(np.abs(written["angmomx"]).min()) > 0.0, "nothing to lose")
+
     return case
 
 
@@ -95,8 +97,8 @@ def columns_of_file(ranks):
     deck.body = [*SETTINGS, *spins(deck), "write_data grains.data"]
     lines = run(deck, ranks).file("grains.data").read_text().splitlines()
     at, end = lines.index("Atoms"), lines.index("Velocities")
-    atoms = {words[0]: words[1:] for words in (line.split() for line in lines[at + 2:end - 1])}
-    velocities = {words[0]: words[1:] for words in (line.split() for line in lines[end + 2:]) if words}
+    atoms = {words[0]: words[1:] for words in (line.split() for line in lines[at + 2 : end - 1])}
+    velocities = {words[0]: words[1:] for words in (line.split() for line in lines[end + 2 :]) if words}
     require(len(atoms) == len(velocities) == 9, f"{len(atoms)} grains, {len(velocities)} velocities")
     images = {"3": ["2", "-1", "0"], "4": ["-512", "511", "7"]}
     for k, grain in enumerate(deck.packing.grains, 1):
@@ -135,15 +137,18 @@ def write_file(lines, header=HEADER):
 def hand_deck():
     """The box of HEADER; three grains of it as create_atoms and set make them."""
     half = math.sqrt(0.5)
-    made = [Grain((-1.99, 0.0, 0.0), (1.0, 1.0, 1.5)),
-            Grain((0.25, 0.0, 0.0), (0.5, 0.75, 1.25), (half, 0.0, 0.0, half), type=2),
-            Grain((3.0, 4.5, 0.0), (1.0, 1.0, 1.5), blockiness=(3.0, 4.0))]
+    made = [
+        Grain((-1.99, 0.0, 0.0), (1.0, 1.0, 1.5)),
+        Grain((0.25, 0.0, 0.0), (0.5, 0.75, 1.25), (half, 0.0, 0.0, half), type=2),
+        Grain((3.0, 4.5, 0.0), (1.0, 1.0, 1.5), blockiness=(3.0, 4.0)),
+    ]
     return Deck(Packing((12.0, 12.0, 12.0), made, tilt=2.0, types=2, origin=(-6.0, -6.0, -6.0)))
 
 
 def by_hand(quaternions, images, comment=False):
     """11, 14, 15 or 18 columns: the grains that `create_atoms` and `set` make, to the last bit; mass and moments of the
     closed forms."""
+
     def case(ranks):
         deck = hand_deck()
         turned = quaternions
@@ -179,14 +184,18 @@ def by_hand(quaternions, images, comment=False):
         require_close(found, [-half, 0, 0, -half] if turned else [1, 0, 0, 0], 2e-16, "quaternion")
         wanted = np.transpose(flags) if images else np.zeros((3, 3))
         require_equal([grain[n] for n in ("ix", "iy", "iz")], wanted, "image flags")
+
     return case
 
 
 def by_the_other_name(ranks):
     """`atom_style granular_superquadric` is the same style."""
     deck = hand_deck()
-    lines = ["1 1 1000 1 1 1 2 2 -1.99 0 0 1 0 0 0", "2 1 1000 1 1 1.5 2 2 1.5 0 0 2 0 2 0",
-             "3 2 1000 1 1 1.5 2 2 3 4.5 0 1 0 0 0"]
+    lines = [
+        "1 1 1000 1 1 1 2 2 -1.99 0 0 1 0 0 0",
+        "2 1 1000 1 1 1.5 2 2 1.5 0 0 2 0 2 0",
+        "3 2 1000 1 1 1.5 2 2 3 4.5 0 1 0 0 0",
+    ]
     text = reading(deck, write_file(lines), *seen(deck))
     other = text.replace("atom_style superquadric", "atom_style granular_superquadric")
     require(other != text, "the deck has no atom style to replace")
@@ -197,11 +206,20 @@ def by_the_other_name(ranks):
 def spin_of_file(ranks):
     """A sphere and a spheroid that spins about its own axis go on spinning as the section Velocities has it."""
     deck = hand_deck()
-    lines = ["1 1 1000 1 1 1 2 2 -1.99 0 0 1 0 0 0", "2 1 1000 1 1 1.5 2 2 1.5 0 0 2 0 2 0",
-             "3 2 1000 1 1 1.5 2 2 3 4.5 0 1 0 0 0", "", "Velocities", "",
-             "3 0 0 0.5 0 0 -2", "1 0 0.25 0 1 2 3", "2 0 0 0 5 0 0"]
+    lines = [
+        "1 1 1000 1 1 1 2 2 -1.99 0 0 1 0 0 0",
+        "2 1 1000 1 1 1.5 2 2 1.5 0 0 2 0 2 0",
+        "3 2 1000 1 1 1.5 2 2 3 4.5 0 1 0 0 0",
+        "",
+        "Velocities",
+        "",
+        "3 0 0 0.5 0 0 -2",
+        "1 0 0.25 0 1 2 3",
+        "2 0 0 0 5 0 0",
+    ]
     body = [*dump_grains(deck.packing, 10, columns=f"id {GIVEN} {SPINS}"), "run 10"]
     first, last = run(reading(deck, write_file(lines), *body), ranks).dump("grains.dump")
+
     def rows(snapshot, name):
         return [[snapshot[1][f"{name}{d}"][k] for d in "xyz"] for k in range(3)]
 
@@ -233,10 +251,17 @@ def property_atom(ranks):
     deck = Deck(packing(1.5))
     mixed = ["mass", *words, "volume", "x", "quatw"]
     computes = [f"compute {w} few property/atom {w}" for w in words]
-    columns = f"id mass x {' '.join(words.values())} c_volume {' '.join('c_' + w for w in words)} " + \
-        " ".join(f"c_all[{k}]" for k in range(1, len(mixed) + 1))
-    deck.body = [VOLUME, "group few id 2:8", *computes, f"compute all few property/atom {' '.join(mixed)}",
-                 *dump_grains(deck.packing, 5, columns=columns), "run 5"]
+    columns = f"id mass x {' '.join(words.values())} c_volume {' '.join('c_' + w for w in words)} " + " ".join(
+        f"c_all[{k}]" for k in range(1, len(mixed) + 1)
+    )
+    deck.body = [
+        VOLUME,
+        "group few id 2:8",
+        *computes,
+        f"compute all few property/atom {' '.join(mixed)}",
+        *dump_grains(deck.packing, 5, columns=columns),
+        "run 5",
+    ]
     for step, grain in run(deck, ranks).dump("grains.dump"):
         inside = (grain["id"] >= 2) & (grain["id"] <= 8)
         for word, name in words.items():
@@ -249,14 +274,21 @@ def property_atom(ranks):
 
 def spheres(ranks):
     """Files of atom style sphere are the host's: 7 columns and image flags."""
-    made = [Grain((2.0 + 3.0 * k, 2.0, 1.0 + 0.1 * k), (0.5 + 0.1 * k,) * 3, velocity=(0.1 * k, 0.2, 0.0),
-                  omega=(0.0, 1.0, 0.1 * k)) for k in range(3)]
+    made = [
+        Grain(
+            (2.0 + 3.0 * k, 2.0, 1.0 + 0.1 * k),
+            (0.5 + 0.1 * k,) * 3,
+            velocity=(0.1 * k, 0.2, 0.0),
+            omega=(0.0, 1.0, 0.1 * k),
+        )
+        for k in range(3)
+    ]
     deck = Deck(Packing((12.0, 12.0, 12.0), made, atom_style="sphere", triclinic=False))
     columns = "id type ix iy iz x y z vx vy vz omegax omegay omegaz radius mass density"
     deck.body = ["set atom 2 image 3 -2 0", VOLUME, *seen(deck, columns), "write_data grains.data"]
     first = run(deck, ranks)
     text = first.file("grains.data").read_text().splitlines()
-    line = next(line.split() for line in text[text.index("Atoms") + 2:] if line.split()[0] == "2")
+    line = next(line.split() for line in text[text.index("Atoms") + 2 :] if line.split()[0] == "2")
     require(len(line) == 10 and line[7:] == ["3", "-2", "0"], f"{line}")
     require_equal([float(w) for w in line[2:7]], [1.2, 1000.0, 5.0, 2.0, 1.1], "a sphere's line")
     again = run(reading(deck, first.folder / "grains.data", *seen(deck, columns)), ranks)

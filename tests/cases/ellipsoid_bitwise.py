@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""surface ellipsoid: gran/insitu, whose own loop leaves out what is surely apart, moves grains exactly as pair_style gran, which looks at
-every neighbour in every step. A contact that the loop overlooks once parts the two for good."""
+"""surface ellipsoid: gran/insitu, whose own loop leaves out what is surely apart, moves grains exactly as pair_style
+gran, which looks at every neighbour in every step. A contact that the loop overlooks once parts the two for good."""
 from dataclasses import replace
 import math
 import re
@@ -23,7 +23,8 @@ def builds(result):
 
 
 def same_as_gran(deck, ranks, lists, skipped, contacts=1.0):
-    """`lists`: neighbour lists at least; `skipped`: the share of listed pairs that must not have been looked at; `contacts` per grain."""
+    """`lists`: neighbour lists at least; `skipped`: the share of listed pairs that must not have been looked at;
+    `contacts` per grain."""
     plain = run(replace(deck, pair="gran"), ranks)
     at = next(k for k, line in enumerate(deck.body) if line.startswith("run "))
     counting = replace(deck, body=[*deck.body[:at], *SOLVER, *deck.body[at:]])
@@ -35,8 +36,13 @@ def same_as_gran(deck, ranks, lists, skipped, contacts=1.0):
     steps = table[C_SOLVER["pairs_listed"]].size and int(own.dump("grains.dump")[-1][0])
     print(f"{builds(own)} lists; of {listed:.0f} listed {solved:.0f} solved, {touching:.0f} touched")
     require(builds(own) >= lists, f"{builds(own)} neighbour lists, at least {lists} wanted")
-    require(solved <= (1.0 - skipped) * listed, f"{solved} of {listed} listed pairs were solved: hardly any was left out")
-    require(touching >= contacts * steps * len(deck.packing.grains), f"too few contacts to prove anything: {touching} in {steps} steps")
+    require(
+        solved <= (1.0 - skipped) * listed, f"{solved} of {listed} listed pairs were solved: hardly any was left out"
+    )
+    require(
+        touching >= contacts * steps * len(deck.packing.grains),
+        f"too few contacts to prove anything: {touching} in {steps} steps",
+    )
     require(fallbacks == 0.0, f"{fallbacks} contacts without a regular answer")
 
 
@@ -71,7 +77,8 @@ CURVED = "curvatureLimitFactor 2"
 
 
 def tumbling(edge, count=70, seed=3, **choices):
-    """Long rods that spin and fly fast, nowhere near each other at first: the closest a bound on motion comes to being overtaken."""
+    """Long rods that spin and fly fast, nowhere near each other at first: the closest a bound on motion comes to being
+    overtaken."""
     random = np.random.default_rng(seed)
     cells = math.ceil(count ** (1 / 3))
     corners = np.stack(np.meshgrid(*[np.arange(cells)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)[:count]
@@ -80,26 +87,54 @@ def tumbling(edge, count=70, seed=3, **choices):
         q = random.normal(size=4)
         where = (corner + 0.5) * edge / cells + random.uniform(-1.0, 1.0, size=3)
         away = where - 0.5 * edge
-        grains.append(Grain(tuple(where), (0.5, 0.5, 2.5), tuple(q / np.linalg.norm(q)),
-                            tuple(6.0 * random.normal(size=3) - 4.0 * away / np.linalg.norm(away)), tuple(8.0 * random.normal(size=3))))
+        grains.append(
+            Grain(
+                tuple(where),
+                (0.5, 0.5, 2.5),
+                tuple(q / np.linalg.norm(q)),
+                tuple(6.0 * random.normal(size=3) - 4.0 * away / np.linalg.norm(away)),
+                tuple(8.0 * random.normal(size=3)),
+            )
+        )
     return Packing((edge,) * 3, grains, **choices)
 
 
-def rods(body, edge=26.0, skin=7.0, lists=5, skipped=0.8, contacts=0.005, still=False, triclinic=True, before=(), **choices):
+def rods(
+    body, edge=26.0, skin=7.0, lists=5, skipped=0.8, contacts=0.005, still=False, triclinic=True, before=(), **choices
+):
     packing = tumbling(edge, triclinic=triclinic)
     if still:
-        packing = replace(packing, grains=[replace(g, velocity=(0.0, 0.0, 0.0), omega=(0.0, 0.0, 0.0)) for g in packing.grains])
+        packing = replace(
+            packing, grains=[replace(g, velocity=(0.0, 0.0, 0.0), omega=(0.0, 0.0, 0.0)) for g in packing.grains]
+        )
     deck = Deck(packing, surface="ellipsoid", **choices)
     steps = sum(int(line.split()[1]) for line in body if line.startswith("run "))
-    deck.body = [f"neighbor {skin} bin", *before, *dump_grains(packing, steps), *body]  # lists that last: a rod turns far within one
+    deck.body = [
+        f"neighbor {skin} bin",
+        *before,
+        *dump_grains(packing, steps),
+        *body,
+    ]  # lists that last: a rod turns far within one
     return lambda ranks: same_as_gran(deck, ranks, lists, skipped, contacts)
 
 
-JUMPS = [line for k in range(8) for line in (
-    "run 150", f"velocity all ramp v{'xyz'[k % 3]} {5 - 10 * (k % 2)} {10 * (k % 2) - 5} {'yzx'[k % 3]} 0 26 sum yes units box")]
-SQUEEZE = "fix squeeze all deform 1 x erate -0.5 y erate -0.5 z erate -0.5 remap x"  # grains go with it, and move no other way
-WALLS = [f"fix wall{axis}{k} all wall/gran model hertz tangential history surface ellipsoid primitive type 1 {axis}plane {26.0 * k}"
-         for axis in "xyz" for k in (0, 1)]
+JUMPS = [
+    line
+    for k in range(8)
+    for line in (
+        "run 150",
+        f"velocity all ramp v{'xyz'[k % 3]} {5 - 10 * (k % 2)} {10 * (k % 2) - 5} {'yzx'[k % 3]} 0 26 sum yes "
+        "units box",
+    )
+]
+# grains go with it, and move no other way
+SQUEEZE = "fix squeeze all deform 1 x erate -0.5 y erate -0.5 z erate -0.5 remap x"
+WALLS = [
+    f"fix wall{axis}{k} all wall/gran model hertz tangential history surface ellipsoid primitive type 1 "
+    f"{axis}plane {26.0 * k}"
+    for axis in "xyz"
+    for k in (0, 1)
+]
 
 
 def cohesive(ranks):
@@ -110,8 +145,10 @@ def cohesive(ranks):
     own = run(replace(deck, body=[*SOLVER, *deck.body]), ranks)
     require_same_snapshots(own.dump("grains.dump"), plain.dump("grains.dump"), "gran/insitu against gran")
     table = own.thermo()[-1]
-    require(table[C_SOLVER["pairs_listed"]][-1] == 0.0 and table[C_SOLVER["pairs_touching"]][-1] > 0.0,
-            "not the host's loop")
+    require(
+        table[C_SOLVER["pairs_listed"]][-1] == 0.0 and table[C_SOLVER["pairs_touching"]][-1] > 0.0,
+        "not the host's loop",
+    )
 
 
 CASES = {
@@ -121,7 +158,9 @@ CASES = {
     "spheres": sheared(dense_packing(), 1200, skipped=0.0),
     "spheres-of-five-sizes": sheared(dense_packing(sizes=SIZES), 600, 0.6, 3, 0.0),
     "frozen-spheres": sheared(dense_packing(), 600, 0.2, 3, 0.0, before=["group cold id 1:20", "fix cold cold freeze"]),
-    "softened-spheres": sheared(dense_packing(), 600, 0.6, 3, 0.0, extra="gaussianCurvature yes curvatureLimitFactor 0.5"),
+    "softened-spheres": sheared(
+        dense_packing(), 600, 0.6, 3, 0.0, extra="gaussianCurvature yes curvatureLimitFactor 0.5"
+    ),
     "spheres-here-spheroids-there": sheared(half_spheres(), 600, 0.6, 3, 0.0, processors="* 1 1"),
     "polydisperse": sheared(dense_packing(1.5, sizes=SIZES), 1200),
     "mixed-shapes-and-types": sheared(mixed(), 1200, material=TYPES),
@@ -137,21 +176,48 @@ CASES = {
     "rolling-cdt": sheared(dense_packing(1.5), 600, 0.6, 3, rolling="cdt"),
     "rolling-epsd2": sheared(dense_packing(0.5), 600, 0.6, 3, rolling="epsd2"),
     "limit-force-undamped": sheared(dense_packing(1.5), 600, 0.6, 3, extra="tangential_damping off limitForce on"),
-    "moved-by-nve-spheroid": sheared(dense_packing(0.5), 600, 0.6, 3, before=["unfix integrate", "fix integrate all nve/spheroid"]),
+    "moved-by-nve-spheroid": sheared(
+        dense_packing(0.5), 600, 0.6, 3, before=["unfix integrate", "fix integrate all nve/spheroid"]
+    ),
     "cohesion": cohesive,
     "tumbling-rods": rods(["run 1200"]),
     "tumbling-rods-with-jumps": rods(JUMPS),
-    "tumbling-rods-in-a-deforming-box": rods(["fix squeeze all deform 1 y erate -0.1 xy erate 0.4 remap v", "run 700"], skin=3.0),
+    "tumbling-rods-in-a-deforming-box": rods(
+        ["fix squeeze all deform 1 y erate -0.1 xy erate 0.4 remap v", "run 700"], skin=3.0
+    ),
     "rods-squeezed-by-the-box": rods([SQUEEZE, "run 270"], edge=40.0, skin=3.0, lists=3, contacts=1e-4, still=True),
     "tumbling-rods-between-walls": rods([*WALLS, "run 1000"], boundary="f f f", triclinic=False),
     "tumbling-rods-shrink-wrapped": rods(["run 500"], boundary="s s s", triclinic=False),
-    "shapes-set-between-runs": rods([*WALLS, "run 155", "set group all shape 0.7 0.7 2.5", "run 60 pre no"], boundary="f f f", triclinic=False,
-                                    lists=2),
-    "between-runs": rods(["run 60", "run 60 pre no post no", 'run 90 every 30 "set atom 1*20 quat 1 2 3 40"', "delete_atoms group gone compress no",
-                          "run 60", "change_box all x scale 1.05 y scale 0.97 remap", "run 60", "run 60 pre no"],
-                         before=["group gone id 5 15 25"], skin=3.0),
-    "pushed-rods": rods(["group pushed id 1:20", "unfix integrate", "group free subtract all pushed",
-                         "fix integrate free nve/superquadric integration_scheme 1", "fix push pushed move wiggle 3 0 0 0.5", "run 600"]),
+    "shapes-set-between-runs": rods(
+        [*WALLS, "run 155", "set group all shape 0.7 0.7 2.5", "run 60 pre no"],
+        boundary="f f f",
+        triclinic=False,
+        lists=2,
+    ),
+    "between-runs": rods(
+        [
+            "run 60",
+            "run 60 pre no post no",
+            'run 90 every 30 "set atom 1*20 quat 1 2 3 40"',
+            "delete_atoms group gone compress no",
+            "run 60",
+            "change_box all x scale 1.05 y scale 0.97 remap",
+            "run 60",
+            "run 60 pre no",
+        ],
+        before=["group gone id 5 15 25"],
+        skin=3.0,
+    ),
+    "pushed-rods": rods(
+        [
+            "group pushed id 1:20",
+            "unfix integrate",
+            "group free subtract all pushed",
+            "fix integrate free nve/superquadric integration_scheme 1",
+            "fix push pushed move wiggle 3 0 0 0.5",
+            "run 600",
+        ]
+    ),
 }
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Walls with surface ellipsoid: the host's own contact of a superquadric with a wall, to the last bit; walls beside contacts of grains."""
+"""Walls with surface ellipsoid: the host's own contact of a superquadric with a wall, to the last bit; walls beside
+contacts of grains."""
 from dataclasses import replace
 import math
 import os
@@ -22,7 +23,13 @@ def floor_file(folder):
     """Two triangles at z = 0."""
     lines = ["solid floor"]
     for corners in ((0, 1, 2), (0, 2, 3)):
-        lines += ["facet normal 0 0 1", "outer loop", *(f"vertex {FLOOR[k][0]} {FLOOR[k][1]} 0" for k in corners), "endloop", "endfacet"]
+        lines += [
+            "facet normal 0 0 1",
+            "outer loop",
+            *(f"vertex {FLOOR[k][0]} {FLOOR[k][1]} 0" for k in corners),
+            "endloop",
+            "endfacet",
+        ]
     (folder / "floor.stl").write_text("\n".join([*lines, "endsolid floor"]) + "\n")
 
 
@@ -34,9 +41,14 @@ def run_in_folder_with_floor(deck, ranks):
 
 def walls(deck, kind):
     wall = f"fix wall all wall/gran {replace(deck, extra='').model()}"
-    return {"plane": [f"{wall} primitive type 1 zplane 0.0 {deck.extra}"],
-            "cylinder": [f"{wall} primitive type 1 zcylinder 2.0 0. 0. {deck.extra}"],
-            "mesh": ["fix floor all mesh/surface file floor.stl type 1", f"{wall} mesh n_meshes 1 meshes floor {deck.extra}"]}[kind]
+    return {
+        "plane": [f"{wall} primitive type 1 zplane 0.0 {deck.extra}"],
+        "cylinder": [f"{wall} primitive type 1 zcylinder 2.0 0. 0. {deck.extra}"],
+        "mesh": [
+            "fix floor all mesh/surface file floor.stl type 1",
+            f"{wall} mesh n_meshes 1 meshes floor {deck.extra}",
+        ],
+    }[kind]
 
 
 def thrown(shape, kind):
@@ -59,19 +71,31 @@ def as_superquadric(kind, shape=(1.0, 1.0, 1.5), extra="", **choices):
         require_same_snapshots(*ends, f"surface ellipsoid on a {kind} against surface superquadric")
         sideways = np.array([columns["omegay"][0] for _, columns in ends[0]])
         require(abs(sideways - sideways[0]).max() > 0.1, "the grain never met the wall")
+
     return case
 
 
 def pile(ranks):
-    """Grains of several shapes fall on a mesh inside a cylinder, and on each other: alike in the host's loop and in ours."""
+    """Grains of several shapes fall on a mesh inside a cylinder, and on each other: alike in the host's loop and in
+    ours."""
     shapes = ((1.0, 1.0, 1.5), (0.9, 0.9, 0.5), (0.8, 0.8, 0.8), (0.7, 0.9, 1.2))
-    grains = [Grain((0.1 * k - 0.2, 0.1 - 0.05 * k, 1.8 + 2.1 * k), shapes[k % 4], velocity=(0.0, 0.0, -5.0), omega=(1.0, 0.5, 0.0))
-              for k in range(8)]
+    grains = [
+        Grain(
+            (0.1 * k - 0.2, 0.1 - 0.05 * k, 1.8 + 2.1 * k),
+            shapes[k % 4],
+            velocity=(0.0, 0.0, -5.0),
+            omega=(1.0, 0.5, 0.0),
+        )
+        for k in range(8)
+    ]
     packing = Packing((24.0, 24.0, 24.0), grains, origin=(-12.0, -12.0, -2.0), triclinic=False)
     deck = Deck(packing, boundary="f f f", surface="ellipsoid")
     cylinder = walls(deck, "cylinder")[0].replace("fix wall", "fix side")
     deck.body = [GRAVITY, *walls(deck, "mesh"), cylinder, *dump_grains(packing, 1500), "run 1500"]
-    own, plain = (run_in_folder_with_floor(replace(deck, pair=pair), ranks).dump("grains.dump") for pair in ("gran/insitu", "gran"))
+    own, plain = (
+        run_in_folder_with_floor(replace(deck, pair=pair), ranks).dump("grains.dump")
+        for pair in ("gran/insitu", "gran")
+    )
     require_same_snapshots(own, plain, "gran/insitu against gran")
     last = own[-1][1]
     require(last["z"].min() > 0.3, "a grain fell through the floor")
@@ -80,12 +104,21 @@ def pile(ranks):
 
 LIMIT = "curvatureLimitFactor 2"
 CASES = {
-    **{f"{name}-on-a-{kind}": as_superquadric(kind, shape) for kind in ("plane", "cylinder", "mesh")
-       for name, shape in (("prolate", (1.0, 1.0, 1.5)), ("oblate", (1.0, 1.0, 0.5)), ("triaxial", (0.7, 1.0, 1.3)))},
+    **{
+        f"{name}-on-a-{kind}": as_superquadric(kind, shape)
+        for kind in ("plane", "cylinder", "mesh")
+        for name, shape in (("prolate", (1.0, 1.0, 1.5)), ("oblate", (1.0, 1.0, 0.5)), ("triaxial", (0.7, 1.0, 1.3)))
+    },
     "sphere-on-a-plane": as_superquadric("plane", (1.0, 1.0, 1.0)),
-    **{f"{name}-on-a-{kind}": as_superquadric(kind, extra=extra) for kind in ("plane", "mesh") for name, extra in (
-        ("gaussian-curvature", f"gaussianCurvature yes {LIMIT}"), ("mean-curvature", f"meanCurvature yes {LIMIT}"),
-        ("limit-alone", LIMIT))},
+    **{
+        f"{name}-on-a-{kind}": as_superquadric(kind, extra=extra)
+        for kind in ("plane", "mesh")
+        for name, extra in (
+            ("gaussian-curvature", f"gaussianCurvature yes {LIMIT}"),
+            ("mean-curvature", f"meanCurvature yes {LIMIT}"),
+            ("limit-alone", LIMIT),
+        )
+    },
     "pile": pile,
 }
 

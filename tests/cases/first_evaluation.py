@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The first evaluation of a run: no spring moves there, and LIGGGHTS does not keep tangential damping to the friction limit. `setup host` does as
-LIGGGHTS and is warned of; `setup neutral` keeps the limit, of grains and of walls; measures say which."""
+"""The first evaluation of a run: no spring moves there, and LIGGGHTS does not keep tangential damping to the friction
+limit. `setup host` does as LIGGGHTS and is warned of; `setup neutral` keeps the limit, of grains and of walls; measures
+say which."""
 from dataclasses import replace
 
 import numpy as np
@@ -32,9 +33,16 @@ def passing(**choices):
     packing = Packing((12.0, 12.0, 12.0), grains, atom_style="sphere", origin=(-6.0, -6.0, -6.0), triclinic=False)
     choices.setdefault("material", Material(friction=(0.1,)))
     deck = Deck(packing, boundary="f f f", **choices)
-    deck.body = ["compute rows all contact/local", "compute loss all dissipation mode instantaneous", "compute stress all stress/contact",
-                 "compute each all contact/grain", f"compute mobilised all reduce max {C_EACH['mobilisation']}", *dump_grains(packing, 1),
-                 *dump_local("rows", ROW_WIDTH, 1, "rows"), *thermo(1, *LOSSES, C_STRESS["sliding"], "c_mobilised")]
+    deck.body = [
+        "compute rows all contact/local",
+        "compute loss all dissipation mode instantaneous",
+        "compute stress all stress/contact",
+        "compute each all contact/grain",
+        f"compute mobilised all reduce max {C_EACH['mobilisation']}",
+        *dump_grains(packing, 1),
+        *dump_local("rows", ROW_WIDTH, 1, "rows"),
+        *thermo(1, *LOSSES, C_STRESS["sliding"], "c_mobilised"),
+    ]
     return deck
 
 
@@ -48,7 +56,7 @@ def check_measures(rows, expected, table):
     for name in ("fn", "ft", "sliding", "slip", "mobilisation"):
         require_close(rows[name], expected[name], ROUNDING, name, max(1.0, np.abs(expected[name]).max()))
     speed = np.linalg.norm(expected["ut"])
-    damped = float(expected["gamma_t"][0]) * speed ** 2
+    damped = float(expected["gamma_t"][0]) * speed**2
     found = [table[q][0] for q in (*LOSSES, C_STRESS["sliding"], "c_mobilised")]
     require_close(found, [0.0, 0.0, damped, 1.0, 1.0, 1.0, expected["mobilisation"][0]], ROUNDING, "measures", damped)
 
@@ -63,7 +71,9 @@ def as_the_host(ranks):
     ratio = expected["mobilisation"][0]
     require(90.0 < ratio < 110.0, f"the force is {ratio} times its limit: not what this is about")
     require(result.output.count(WARNING) == 1, f"warned {result.output.count(WARNING)} times")
-    require(f"a contact pushes with {ratio:.6g} times its friction limit" in result.output, "the warning lacks its value")
+    require(
+        f"a contact pushes with {ratio:.6g} times its friction limit" in result.output, "the warning lacks its value"
+    )
     plain = replace(deck, pair="gran", body=[*dump_grains(deck.packing, 1), "run 5", "run 5"])
     require_same_snapshots(result.dump("grains.dump"), run(plain, ranks).dump("grains.dump"), "against pair_style gran")
 
@@ -110,12 +120,22 @@ def below_the_limit(ranks):
 
 
 def packings(ranks):
-    """Contacts across the box and between ranks: no contact of a dense packing is ever beyond its limit in a first evaluation."""
+    """Contacts across the box and between ranks: no contact of a dense packing is ever beyond its limit in a first
+    evaluation."""
     packing = dense_packing(1.5, speed=2.0)
     deck = Deck(packing, surface="ellipsoid", extra="setup neutral", material=Material(friction=(0.05,)))
-    deck.body = ["compute each all contact/grain", "compute rows all contact/local mobilisation", "compute most all reduce max c_rows",
-                 "compute stress all stress/contact", shear(0.05), *thermo(1, "c_most", C_STRESS["sliding"]), "run 0",
-                 "velocity all set 0 0 0.5 sum yes", "set group all omegax 3", "run 0"]
+    deck.body = [
+        "compute each all contact/grain",
+        "compute rows all contact/local mobilisation",
+        "compute most all reduce max c_rows",
+        "compute stress all stress/contact",
+        shear(0.05),
+        *thermo(1, "c_most", C_STRESS["sliding"]),
+        "run 0",
+        "velocity all set 0 0 0.5 sum yes",
+        "set group all omegax 3",
+        "run 0",
+    ]
     bounded, unbounded = run(deck, ranks).thermo(), run(replace(deck, extra=""), ranks).thermo()
     for ours, hosts in zip(bounded, unbounded):
         require_close(ours["c_most"][0], 1.0, ROUNDING, "largest mobilisation")
@@ -129,35 +149,48 @@ def on_a_wall(friction, wall, extra):
     packing = Packing((24.0, 24.0, 24.0), [ball], atom_style="sphere", origin=(-12.0, -12.0, -12.0), triclinic=False)
     deck = Deck(packing, boundary="f f f", extra=extra, material=Material(friction=(friction,)))
     model = f"fix wall all wall/gran {replace(deck, extra='').model()}"
-    walls = {"plane": [f"{model} primitive type 1 zplane 0.0"],
-             "mesh": ["fix floor all mesh/surface file floor.stl type 1", f"{model} mesh n_meshes 1 meshes floor"]}[wall]
+    walls = {
+        "plane": [f"{model} primitive type 1 zplane 0.0"],
+        "mesh": ["fix floor all mesh/surface file floor.stl type 1", f"{model} mesh n_meshes 1 meshes floor"],
+    }[wall]
     deck.body = [*walls, *dump_grains(packing, 1), "run 1"]
     return deck
 
 
 def spin_on_a_frictionless(wall):
     """It is not touched by damping: spin and sliding stay what they were, to the last bit."""
+
     def case(ranks):
         kept, lost = (run_in_folder_with_floor(on_a_wall(0.0, wall, extra), ranks) for extra in ("setup neutral", ""))
         for result, changes in ((kept, False), (lost, True)):
             (_, before), (_, after) = result.dump("grains.dump")
             change = max(abs(after[name][0] - before[name][0]) for name in ("vx", "omegay"))
             require(change > 1e-3 if changes else change == 0.0, f"spin or velocity changed by {change}")
-        require(f"{WARNING}: a contact pushes with a tangential force though it has no friction" in " ".join(lost.output.split()),
-                "the host's damping is not warned of")
+        require(
+            f"{WARNING}: a contact pushes with a tangential force though it has no friction"
+            in " ".join(lost.output.split()),
+            "the host's damping is not warned of",
+        )
+
     return case
 
 
 def friction_of(wall):
     """f_x = mu f_z, and the torque that goes with it."""
+
     def case(ranks):
-        kept, lost = (run_in_folder_with_floor(on_a_wall(0.1, wall, extra), ranks).dump("grains.dump")[0][1] for extra in ("setup neutral", ""))
+        kept, lost = (
+            run_in_folder_with_floor(on_a_wall(0.1, wall, extra), ranks).dump("grains.dump")[0][1]
+            for extra in ("setup neutral", "")
+        )
         require_close(abs(kept["fx"]), 0.1 * kept["fz"], ROUNDING, "friction of the wall")
-        # The arm is the distance to the contact point, radius less overlap (or less half of it), whichever the host takes for a wall.
+        # The arm is the distance to the contact point, radius less overlap (or less half of it), whichever the host
+        # takes for a wall.
         arm = abs(kept["tqy"][0] / kept["fx"][0])
         require(0.99 < arm <= 1.0, f"the arm of the friction is {arm}")
         require_close(lost["fz"], kept["fz"], 0.0, "force on the wall", 1.0)
         require(abs(lost["fx"][0]) > 10.0 * abs(kept["fx"][0]), "the host keeps the limit: nothing is proved")
+
     return case
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""`compute pair/gran/local ... history` with surface ellipsoid: the columns of surface superquadric, in its order, without a trace in the run."""
+"""`compute pair/gran/local ... history` with surface ellipsoid: the columns of surface superquadric, in its order,
+without a trace in the run."""
 from dataclasses import replace
 
 import numpy as np
@@ -30,8 +31,10 @@ def asked(packing, **choices):
 
 def as_superquadric(packing, **choices):
     def case(ranks):
-        found, expected = (history(run(replace(d, body=[*d.body, "run 0"]), ranks))
-                           for d in (asked(packing, surface=surface, **choices) for surface in ("ellipsoid", "superquadric")))
+        found, expected = (
+            history(run(replace(d, body=[*d.body, "run 0"]), ranks))
+            for d in (asked(packing, surface=surface, **choices) for surface in ("ellipsoid", "superquadric"))
+        )
         require(len(expected) > 100, f"only {len(expected)} contacts")
         smallest = min(packing.grains[0].semi_axes)
         for pair in found.keys() & expected.keys():
@@ -41,13 +44,20 @@ def as_superquadric(packing, **choices):
             require_close(ours[2:5], hosts[2:5], SOLVER, f"{pair}: contact point", smallest)
             require_close(ours[5:7], hosts[5:7], SOLVER, f"{pair}: depths", smallest)
         # Contacts thinner than that are seen by one of them alone.
-        thin = [p for both, one in ((found, expected), (expected, found)) for p in both.keys() - one.keys() if both[p][5:7].sum() > SOLVER * smallest]
+        thin = [
+            p
+            for both, one in ((found, expected), (expected, found))
+            for p in both.keys() - one.keys()
+            if both[p][5:7].sum() > SOLVER * smallest
+        ]
         require(not thin, f"not the same contacts: {thin}")
+
     return case
 
 
 def counted(ranks):
-    """What scripts of the paper do: the sum of column 2 of the history is twice the number of contacts; depths and point are contact/local's."""
+    """What scripts of the paper do: the sum of column 2 of the history is twice the number of contacts; depths and
+    point are contact/local's."""
     packing = in_the_open(dense_packing(1.5))
     deck = asked(packing, surface="ellipsoid")
     deck.body += ["compute rows all contact/local", *dump_local("rows", ROW_WIDTH, 5, "rows"), "run 0"]
@@ -62,7 +72,9 @@ def counted(ranks):
 
 
 def without_a_trace(**choices):
-    """Output in every fifth step or none, the same trajectory: also of pair_style gran, which keeps no copy of its history."""
+    """Output in every fifth step or none, the same trajectory: also of pair_style gran, which keeps no copy of its
+    history."""
+
     def case(ranks):
         deck = asked(dense_packing(1.5), surface="ellipsoid", **choices)
         rest = [shear(0.3 / (300 * deck.dt())), *dump_grains(deck.packing, 300), "run 300"]
@@ -70,6 +82,7 @@ def without_a_trace(**choices):
         silent = run(replace(deck, body=rest), ranks)
         require(len(talking.dump("pairs.dump")) == 61, "pair/gran/local wrote too little")
         require_same_snapshots(talking.dump("grains.dump"), silent.dump("grains.dump"), "with output against without")
+
     return case
 
 

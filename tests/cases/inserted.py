@@ -11,12 +11,16 @@ def inserted(ranks, arguments=()):
     """Superquadrics put in by fix insert/pack."""
     deck = Deck(Packing((8.0,) * 3, [], triclinic=False), boundary="f f f", timestep=1e-5)
     template = "density constant 1000 shape constant 0.5 0.5 0.75 blockiness constant 2.0 2.0"
-    deck.body = [f"fix shapes all particletemplate/superquadric 15485863 atom_type 1 {template}",
-                 "fix mix all particledistribution/discrete 15485867 1 shapes 1.0",
-                 "region inner block 1 7 1 7 1 7 units box",
-                 "fix pack all insert/pack seed 32452843 distributiontemplate mix orientation random insert_every once "
-                 "overlapcheck yes all_in yes particles_in_region 20 region inner",
-                 *dump_grains(deck.packing, 1, columns=ALL), "run 1", "write_data grains.data"]
+    deck.body = [
+        f"fix shapes all particletemplate/superquadric 15485863 atom_type 1 {template}",
+        "fix mix all particledistribution/discrete 15485867 1 shapes 1.0",
+        "region inner block 1 7 1 7 1 7 units box",
+        "fix pack all insert/pack seed 32452843 distributiontemplate mix orientation random insert_every once "
+        "overlapcheck yes all_in yes particles_in_region 20 region inner",
+        *dump_grains(deck.packing, 1, columns=ALL),
+        "run 1",
+        "write_data grains.data",
+    ]
     return attempt(deck, ranks, arguments=arguments)
 
 

@@ -29,7 +29,11 @@ def installed():
 
 def outside(**changes):
     """The environment of a user who has neither the source tree nor the program on PATH or PYTHONPATH."""
-    env = {name: value for name, value in environment(1).items() if name != "PYTHONPATH" and not name.startswith("GRAINSCOPE_")}
+    env = {
+        name: value
+        for name, value in environment(1).items()
+        if name != "PYTHONPATH" and not name.startswith("GRAINSCOPE_")
+    }
     path = [folder for folder in env["PATH"].split(os.pathsep) if not (Path(folder) / "grainscope").exists()]
     return {**env, "PATH": os.pathsep.join(path), **changes}
 
@@ -69,10 +73,19 @@ def broken_links_are_found(ranks):
     (scratch() / "beyond.md").write_text("# Beyond\n")
     (top / "picture.png").touch()
     (top / "sub" / "right.md").write_text("# One `word`, [two](../page.md)!\n\n## Again\n\n## Again\n")
-    right = "[a](sub/right.md) [b](sub/right.md#one-word-two) [c](sub/right.md#again-1) ![d](picture.png \"title\") [e](sub) [f](#top)\n" \
-            "[g]: sub/right.md\n<img src=\"picture.png\"> [web](https://example.org/x) `[code](nothing.md)`\n\n```\n[code](nothing.md)\n```\n"
+    right = (
+        '[a](sub/right.md) [b](sub/right.md#one-word-two) [c](sub/right.md#again-1) ![d](picture.png "title") '
+        "[e](sub) [f](#top)\n"
+        '[g]: sub/right.md\n<img src="picture.png"> [web](https://example.org/x) '
+        "`[code](nothing.md)`\n\n```\n[code](nothing.md)\n```\n"
+    )
     wrong = ["gone.md", "../beyond.md", "sub/right.md#again-2", "#bottom", "picture.png#again"]
-    (top / "page.md").write_text("# Top\n\n" + right + " ".join(f"[x]({target})" for target in wrong) + "\n\n[ref]: gone.png\n<a href='gone.html'>\n")
+    (top / "page.md").write_text(
+        "# Top\n\n"
+        + right
+        + " ".join(f"[x]({target})" for target in wrong)
+        + "\n\n[ref]: gone.png\n<a href='gone.html'>\n"
+    )
     followed, broken = broken_links([top / "page.md", top / "sub" / "right.md"], top)
     require(followed == 16, f"{followed} links were followed, of 16")
     found = [text.split(": ")[1].split(" ")[0].rstrip(":") for text in broken]
@@ -82,8 +95,16 @@ def broken_links_are_found(ranks):
 def run_of_installed(ranks):
     """tools/run_shear.py and the deck of the prefix, with the program of the prefix: the bits of this build's own."""
     prefix = installed()
-    call([sys.executable, prefix / "share/grainscope/tools/run_shear.py", scratch() / "out", *SMALL], env=outside(), cwd=scratch())
-    call([sys.executable, SOURCE / "tools/run_shear.py", scratch() / "own", *SMALL, "--binary", BINARY], env=environment(1), cwd=scratch())
+    call(
+        [sys.executable, prefix / "share/grainscope/tools/run_shear.py", scratch() / "out", *SMALL],
+        env=outside(),
+        cwd=scratch(),
+    )
+    call(
+        [sys.executable, SOURCE / "tools/run_shear.py", scratch() / "own", *SMALL, "--binary", BINARY],
+        env=environment(1),
+        cwd=scratch(),
+    )
     found, expected = (read_table(scratch() / name, "series.txt")[0] for name in ("out", "own"))
     for column in expected:
         require_equal(found[column], expected[column], column)
@@ -93,9 +114,15 @@ def study_of_installed(ranks):
     """Its plan, from the configuration as it is installed, names the program of the prefix."""
     prefix = installed()
     require(shutil.which("snakemake"), "snakemake is missing: scripts/install-packages snakemake")
-    output = call(["snakemake", "-s", prefix / "share/grainscope/examples/study/Snakefile", "-n", "-p", "--directory", scratch()],
-                  env=outside(XDG_CACHE_HOME=str(scratch() / "cache")), cwd=scratch())
-    require(output.count(f"--binary {prefix.resolve() / 'bin/grainscope'} ") == 5 * 6 * 4, f"other runs are planned:\n{output[-3000:]}")
+    output = call(
+        ["snakemake", "-s", prefix / "share/grainscope/examples/study/Snakefile", "-n", "-p", "--directory", scratch()],
+        env=outside(XDG_CACHE_HOME=str(scratch() / "cache")),
+        cwd=scratch(),
+    )
+    require(
+        output.count(f"--binary {prefix.resolve() / 'bin/grainscope'} ") == 5 * 6 * 4,
+        f"other runs are planned:\n{output[-3000:]}",
+    )
 
 
 def program_is_found(ranks):
@@ -110,7 +137,10 @@ def program_is_found(ranks):
     for place in places:
         require(program.find_program() == place, f"found {program.find_program()}, expected {place}")
         place.unlink()
-    require(program.find_program("build/fast/bin/grainscope") == top / "build/fast/bin/grainscope", "a path from the top was not taken")
+    require(
+        program.find_program("build/fast/bin/grainscope") == top / "build/fast/bin/grainscope",
+        "a path from the top was not taken",
+    )
     require(program.find_program(BINARY) == BINARY, "an absolute path was not taken")
     for named, words in (("no-such-program", "or on PATH"), ("build/fast/bin/other", "is not at")):
         try:
@@ -121,5 +151,13 @@ def program_is_found(ranks):
             raise Failure(f"{named} was found at {found}")
 
 
-main({"links-of-source": links_of_source, "links-of-installed": links_of_installed, "broken-links-are-found": broken_links_are_found,
-      "run-of-installed": run_of_installed, "study-of-installed": study_of_installed, "program-is-found": program_is_found})
+main(
+    {
+        "links-of-source": links_of_source,
+        "links-of-installed": links_of_installed,
+        "broken-links-are-found": broken_links_are_found,
+        "run-of-installed": run_of_installed,
+        "study-of-installed": study_of_installed,
+        "program-is-found": program_is_found,
+    }
+)

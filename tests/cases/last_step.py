@@ -87,9 +87,14 @@ def grains_move_as_without(ranks):
 
 def in_formulas(ranks):
     """A variable by its name, in a condition, and through another variable."""
-    lines = [f"variable ratio equal {C_STRESS['mu_eff']}*2", f"variable twice equal v_ratio+{C_LOSS['P_n']}", "run 6",
-             'print "ASKED $(step) twice $(v_twice)"', 'print "ratio ${ratio}"',
-             f'if "$({C_FABRIC["N_c"]}) > 10" then "print \'ASKED 6 many 1\'"']
+    lines = [
+        f"variable ratio equal {C_STRESS['mu_eff']}*2",
+        f"variable twice equal v_ratio+{C_LOSS['P_n']}",
+        "run 6",
+        'print "ASKED $(step) twice $(v_twice)"',
+        'print "ratio ${ratio}"',
+        f'if "$({C_FABRIC["N_c"]}) > 10" then "print \'ASKED 6 many 1\'"',
+    ]
     result = run(deck(*lines, computes=SEEN), ranks)
     found = printed(result, ["twice", "many"])
     expected, _ = reference([6], SEEN, ranks)
@@ -141,16 +146,25 @@ def stays_until_the_next_run(ranks):
     """Commands between runs change grains, not what was measured; the next run measures the grains as they are then."""
     quantities = columns([STRESS, DISSIPATION])
     expected, _ = reference([4], [STRESS, DISSIPATION], ranks)
-    lines = ["run 4", "velocity all set 1.0 0.0 0.0", *printing(quantities), "run 0 pre no", *printing(quantities),
-             "run 0", *printing(quantities)]
+    lines = [
+        "run 4",
+        "velocity all set 1.0 0.0 0.0",
+        *printing(quantities),
+        "run 0 pre no",
+        *printing(quantities),
+        "run 0",
+        *printing(quantities),
+    ]
     found = printed(run(deck(*lines, computes=[STRESS, DISSIPATION]), ranks), quantities)[4]
     require_equal(found[0], expected[0][-1], "after the run")
     require_equal(found[1], expected[0][-1], "after a run that evaluates nothing")
     found = found[1:]
     kinetic = [quantities.index(C_STRESS[f"s{ab}_kinetic"]) for ab in "xx yy zz xy xz yz".split()]
     # The mean velocity is 1: what is left of each grain's is the rounding of sums of 1.
-    require(bool((np.abs(found[1][kinetic]) < 1e-12 * np.abs(found[0][kinetic]).max()).all()),
-            f"of the next run: {found[1][kinetic]}")
+    require(
+        bool((np.abs(found[1][kinetic]) < 1e-12 * np.abs(found[0][kinetic]).max()).all()),
+        f"of the next run: {found[1][kinetic]}",
+    )
 
 
 def grains_change_between_runs(ranks):
@@ -158,16 +172,22 @@ def grains_change_between_runs(ranks):
     grain, dumped = "compute grain all contact/grain", f"write_dump all custom grains.dump id {C_GRAIN['N_c']}"
     asked = [*thermo(5, "c_most"), "run 5"]
     most = f"compute most all reduce max {C_GRAIN['N_c']}"
-    within = run(deck(grain, f"dump d all custom 5 grains.dump id {C_GRAIN['N_c']}", "run 5"),
-                 ranks).dump("grains.dump")[-1]
+    within = run(deck(grain, f"dump d all custom 5 grains.dump id {C_GRAIN['N_c']}", "run 5"), ranks).dump(
+        "grains.dump"
+    )[-1]
     after = run(deck(grain, most, *asked, dumped), ranks).dump("grains.dump")[-1]
     for found, expected in zip(*(np.array(list(s[1].values()))[:, np.argsort(s[1]["id"])] for s in (after, within))):
         require_equal(found, expected, "asked within the run, and once more after it")
     require_refused(deck(grain, "run 5", dumped), ranks, "compute contact/grain grain: not tallied on this step")
-    for change in (["group gone id 2", "delete_atoms group gone compress no"],
-                   ["create_atoms 1 single 0.1 0.1 0.1 units box"]):
-        require_refused(deck(grain, most, *asked, *change, dumped), ranks,
-                        "compute contact/grain grain: grains were sorted, added or removed since the last step")
+    for change in (
+        ["group gone id 2", "delete_atoms group gone compress no"],
+        ["create_atoms 1 single 0.1 0.1 0.1 units box"],
+    ):
+        require_refused(
+            deck(grain, most, *asked, *change, dumped),
+            ranks,
+            "compute contact/grain grain: grains were sorted, added or removed since the last step",
+        )
 
 
 def rows_after_a_run(ranks):
@@ -180,6 +200,7 @@ def rows_after_a_run(ranks):
     def sorted_rows(snapshot):
         table = np.array(list(snapshot[1].values())).T
         return table[np.lexsort(table.T[::-1])]
+
     require(len(sorted_rows(told)) > 100, "few contacts")
     require_equal(sorted_rows(found), sorted_rows(told), "rows")
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Every entry of the energy ledger, in every step, against a ledger written on its own (oracle/ledger.py), for packings of spheres."""
+"""Every entry of the energy ledger, in every step, against a ledger written on its own (oracle/ledger.py), for packings
+of spheres."""
 from dataclasses import replace
 
 import numpy as np
@@ -20,21 +21,38 @@ STEPS = 60
 COLUMNS = (*ENTRIES, *STORES)
 RATES = [C_LEDGER[f"{name}_rate"] for name in ENTRIES]
 STORED = [C_LEDGER[name] for name in STORES]
-# Differences of energies of one step: rounding of the dumped state and of springs followed over all steps, as in sphere_law.py.
+# Differences of energies of one step: rounding of the dumped state and of springs followed over all steps, as in
+# sphere_law.py.
 TOLERANCE = 1e-8
 
 
 def follows(deck, motion, box_at, frame_at):
-    """`box_at(table, step)`: the box that the evaluation of a step saw; `frame_at`: gradient and centre of the step after it."""
+    """`box_at(table, step)`: the box that the evaluation of a step saw; `frame_at`: gradient and centre of the step
+    after it."""
     deck = replace(deck, extra=f"ledger on {deck.extra}".strip())
-    columns = [*box_columns(), *RATES, *STORED, C_LEDGER["residual"], C_LEDGER["D_t"], *([F_PRESS["L_rate"]] if "press" in motion[0] else [])]
-    deck.body = [*motion, "compute ledger all energy/ledger", *dump_grains(deck.packing, 1), *thermo(1, *columns), f"run {STEPS}"]
+    columns = [
+        *box_columns(),
+        *RATES,
+        *STORED,
+        C_LEDGER["residual"],
+        C_LEDGER["D_t"],
+        *([F_PRESS["L_rate"]] if "press" in motion[0] else []),
+    ]
+    deck.body = [
+        *motion,
+        "compute ledger all energy/ledger",
+        *dump_grains(deck.packing, 1),
+        *thermo(1, *columns),
+        f"run {STEPS}",
+    ]
 
     def case(ranks):
         result = run(deck, ranks)
         law, table, dt = law_of(deck), result.thermo()[0], deck.dt()
-        snapshots = [Snapshot(law, grains_of(columns), box_at(table, step), step == 0)
-                     for step, columns in result.dump("grains.dump")]
+        snapshots = [
+            Snapshot(law, grains_of(columns), box_at(table, step), step == 0)
+            for step, columns in result.dump("grains.dump")
+        ]
         largest = dict.fromkeys(COLUMNS, 0.0)
         end = None
         for step in range(STEPS):
@@ -49,6 +67,7 @@ def follows(deck, motion, box_at, frame_at):
         require(residual <= 1e-12 * sum(stored.values()), f"the residual is {residual}")
         for name in COLUMNS:
             print(f"{name}: largest {largest[name]:.3e}")
+
     return case
 
 
@@ -59,7 +78,13 @@ def check_step(table, step, moved, jump, stored, dt, largest):
     for name in ENTRIES[4:] + ("W_shear",):
         require_close(found[name], moved[name], TOLERANCE, f"step {step}: {name}", max(scale, 1e-7 * energy))
     between = found["W_box"] + found["W_frame"] + found["W_other"]
-    require_close(between, moved["W_box"] + jump, TOLERANCE, f"step {step}: work of the box and between steps", max(scale, 1e-7 * energy))
+    require_close(
+        between,
+        moved["W_box"] + jump,
+        TOLERANCE,
+        f"step {step}: work of the box and between steps",
+        max(scale, 1e-7 * energy),
+    )
     for name, q in zip(STORES, STORED):
         require_close(table[q][step], stored[name], TOLERANCE, f"step {step}: {name}", energy)
     for name, value in {**moved, **stored}.items():
@@ -101,8 +126,12 @@ CASES = {
     "sheared-frictionless": in_simple_shear(tangential="off"),
     "no-history": in_simple_shear(tangential="no_history"),
     "contacts-open-and-close": in_simple_shear(extra=UNDAMPED, **LOOSE),
-    "polydisperse": in_simple_shear(extra=UNDAMPED, packing=dense_packing(atom_style="sphere", minimum=60, speed=0.8, sizes=(0.9, 1.0, 1.1))),
-    "through-a-flip": under_control(0.4, extra=UNDAMPED, packing=tilted(dense_packing(atom_style="sphere", minimum=60, speed=0.8), 0.49)),
+    "polydisperse": in_simple_shear(
+        extra=UNDAMPED, packing=dense_packing(atom_style="sphere", minimum=60, speed=0.8, sizes=(0.9, 1.0, 1.1))
+    ),
+    "through-a-flip": under_control(
+        0.4, extra=UNDAMPED, packing=tilted(dense_packing(atom_style="sphere", minimum=60, speed=0.8), 0.49)
+    ),
     "under-pressure-control": under_control(extra=UNDAMPED),
     "drift-kept": under_control(rest="gain 2e-6 maxrate 10 limit 0.05 momentum no", extra=UNDAMPED),
 }

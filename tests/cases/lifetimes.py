@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Every style made and removed 1000 times in one process: memory stays flat, and the run that follows is that of a process of its own."""
+"""Every style made and removed 1000 times in one process: memory stays flat, and the run that follows is that of a
+process of its own."""
 import os
 from pathlib import Path
 import re
@@ -12,23 +13,49 @@ from memory import NOTED, SANITIZED, require_flat, watched_run
 from packing import dense_packing
 from run import run
 
-# Pages come and go with the host's and the C library's own buffers. What is less, the leak checker of the asan preset finds to the byte:
-# these tests are run under it too.
+# Pages come and go with the host's and the C library's own buffers. What is less, the leak checker of the asan preset
+# finds to the byte: these tests are run under it too.
 ALLOWED = 64.0
-COMPUTES = ["stress/contact", "dissipation", "dissipation mode step", "dissipation mode ledger", "energy/ledger", "nematic",
-            "contact/local", "contact/local id force", "contact/solver",
-            "property/atom shapex quatw blockiness2 volume", *(w.command for w in everything(dense_packing(1.5)))]
-FIXES = ["nve/spheroid", "press/strain axis y target 2e4 shear xy rate 0.02 every 1e-3", "press/strain axis z target v_held every/step 5"]
+COMPUTES = [
+    "stress/contact",
+    "dissipation",
+    "dissipation mode step",
+    "dissipation mode ledger",
+    "energy/ledger",
+    "nematic",
+    "contact/local",
+    "contact/local id force",
+    "contact/solver",
+    "property/atom shapex quatw blockiness2 volume",
+    *(w.command for w in everything(dense_packing(1.5))),
+]
+FIXES = [
+    "nve/spheroid",
+    "press/strain axis y target 2e4 shear xy rate 0.02 every 1e-3",
+    "press/strain axis z target v_held every/step 5",
+]
 MADE_BY_OTHERS = {"grain/record", "ledger/record", "run/guard", "setup/memory"}
-PAIRS = ["surface ellipsoid", "setup neutral surface ellipsoid", "surface ellipsoid ledger on tangential_damping off", "surface superquadric",
-         "rolling_friction cdt surface superquadric"]
+PAIRS = [
+    "surface ellipsoid",
+    "setup neutral surface ellipsoid",
+    "surface ellipsoid ledger on tangential_damping off",
+    "surface superquadric",
+    "rolling_friction cdt surface superquadric",
+]
 NOT_COMPILED = ["cohesion sjkr surface ellipsoid"]
-HOST_COMPUTES, HOST_FIXES = ["ke", "stress/atom", "coord/atom 2.0", "reduce sum vx"], ["nve/superquadric", "deform 1 xy erate 0.02 remap v"]
+HOST_COMPUTES, HOST_FIXES = ["ke", "stress/atom", "coord/atom 2.0", "reduce sum vx"], [
+    "nve/superquadric",
+    "deform 1 xy erate 0.02 remap v",
+]
 
 
 def packed():
-    return Deck(dense_packing(1.5), surface="ellipsoid", extra="ledger on tangential_damping off",
-                body=["variable strain equal 0.02*step*dt", "variable held equal 2e4"])
+    return Deck(
+        dense_packing(1.5),
+        surface="ellipsoid",
+        extra="ledger on tangential_damping off",
+        body=["variable strain equal 0.02*step*dt", "variable held equal 2e4"],
+    )
 
 
 def made(kind, style):
@@ -42,13 +69,20 @@ def asked(kind, style):
     """A run that uses it."""
     if kind != "compute":
         return ["run 0"], []
-    where = {"contact/grain": ("compute sum all reduce sum c_it[1]", "c_sum"), "stress/atom": ("compute sum all reduce sum c_it[1]", "c_sum"),
-             "coord/atom": ("compute sum all reduce sum c_it", "c_sum"), "contact/local": ("compute sum all reduce sum c_it[1]", "c_sum"),
-             "property/atom": ("compute sum all reduce sum c_it[1]", "c_sum"),
-             "contact/direction": ("", "c_it[1][1]"), "contact/surface": ("", "c_it[1]")}
+    where = {
+        "contact/grain": ("compute sum all reduce sum c_it[1]", "c_sum"),
+        "stress/atom": ("compute sum all reduce sum c_it[1]", "c_sum"),
+        "coord/atom": ("compute sum all reduce sum c_it", "c_sum"),
+        "contact/local": ("compute sum all reduce sum c_it[1]", "c_sum"),
+        "property/atom": ("compute sum all reduce sum c_it[1]", "c_sum"),
+        "contact/direction": ("", "c_it[1][1]"),
+        "contact/surface": ("", "c_it[1]"),
+    }
     define, quantity = where.get(style.split()[0], ("", "c_it"))
     return [*([define] if define else []), f"thermo_style custom step {quantity}", "run 0"], [
-        "thermo_style custom step", *(["uncompute sum"] if define else [])]
+        "thermo_style custom step",
+        *(["uncompute sum"] if define else []),
+    ]
 
 
 def rounds(kind, style, times, ran):
@@ -63,14 +97,19 @@ def grown(kind, styles, times, ran, ranks):
     """{style: kilobytes per rank: ten rows}, all in one process, and the grains after a run that follows."""
     deck = packed()
     deck.body += [line for style in styles for line in rounds(kind, style, times, ran)]
-    deck.body += [*(made("pair", "gran/insitu " + deck.model())[0] if kind == "pair" else []), shear(0.02),
-                  *dump_grains(deck.packing, 50), "run 50"]
+    deck.body += [
+        *(made("pair", "gran/insitu " + deck.model())[0] if kind == "pair" else []),
+        shear(0.02),
+        *dump_grains(deck.packing, 50),
+        "run 50",
+    ]
     result, kilobytes = watched_run(deck, ranks)
-    return {style: kilobytes[10 * k:10 * k + 10] for k, style in enumerate(styles)}, result.dump("grains.dump")
+    return {style: kilobytes[10 * k : 10 * k + 10] for k, style in enumerate(styles)}, result.dump("grains.dump")
 
 
 def flat(kind, styles, host_styles, times, ran=False):
     """Ours stay flat, the host's are told for comparison; what follows is as if there had been nothing."""
+
     def case(ranks):
         theirs, _ = grown(kind, host_styles, times, ran, ranks)
         for style, kilobytes in theirs.items():
@@ -80,11 +119,21 @@ def flat(kind, styles, host_styles, times, ran=False):
         for style, kilobytes in ours.items():
             require_flat(kilobytes, host + ALLOWED, style)
         deck = packed()
-        alone = run(replace(deck, body=[*deck.body, shear(0.02), *dump_grains(deck.packing, 50), "run 50"]), ranks).dump("grains.dump")
+        alone = run(
+            replace(deck, body=[*deck.body, shear(0.02), *dump_grains(deck.packing, 50), "run 50"]), ranks
+        ).dump("grains.dump")
         if not ran:
             return require_same_snapshots(after, alone, f"after {times} rounds against none")
-        for name in ("x", "y", "z", "vx", "vy", "vz"):  # every set-up takes positions to the box's coordinates and back: 3e-15
+        for name in (
+            "x",
+            "y",
+            "z",
+            "vx",
+            "vy",
+            "vz",
+        ):  # every set-up takes positions to the box's coordinates and back: 3e-15
             require_close(after[-1][1][name], alone[-1][1][name], 1e-10, f"after {times} rounds against none, {name}")
+
     return case
 
 
@@ -98,7 +147,11 @@ def every_style_is_here(ranks):
 
 
 def pairs(name, words=PAIRS):
-    return [f"{name} model hertz tangential history {one}" for one in words if name != "gran" or not {"ledger", "setup"} & set(one.split())]
+    return [
+        f"{name} model hertz tangential history {one}"
+        for one in words
+        if name != "gran" or not {"ledger", "setup"} & set(one.split())
+    ]
 
 
 CASES = {
@@ -107,7 +160,9 @@ CASES = {
     "fixes-1000-times": flat("fix", FIXES, HOST_FIXES, 1000),
     "pair-styles-1000-times": flat("pair", pairs("gran/insitu"), pairs("gran"), 1000),
     # The host's own class for these loses its parts, 1 kB each time: no more than that.
-    "pair-styles-not-compiled-1000-times": flat("pair", pairs("gran/insitu", NOT_COMPILED), pairs("gran", NOT_COMPILED), 1000),
+    "pair-styles-not-compiled-1000-times": flat(
+        "pair", pairs("gran/insitu", NOT_COMPILED), pairs("gran", NOT_COMPILED), 1000
+    ),
     "computes-asked-100-times": flat("compute", COMPUTES, HOST_COMPUTES, 100, True),
     "fixes-run-100-times": flat("fix", FIXES, HOST_FIXES, 100, True),
     "pair-styles-run-200-times": flat("pair", pairs("gran/insitu"), pairs("gran"), 200, True),

@@ -16,13 +16,18 @@ EVERY, STEPS = 5, 20
 
 # Sums of some hundred terms in double precision.
 EXACT = 1e-10
-# A contact across a periodic face, or between ranks, is evaluated by both owners; the host's solver for non-spheres stops at
-# about 1e-7, so that the two evaluations (averaged by the computes, one of them in the row) differ by that much.
+# A contact across a periodic face, or between ranks, is evaluated by both owners; the host's solver for non-spheres
+# stops at about 1e-7, so that the two evaluations (averaged by the computes, one of them in the row) differ by that
+# much.
 TWO_SIDED = 2e-6
 
 
-COMPUTES = {"stress": "stress/contact", "now": "dissipation mode instantaneous", "loss": "dissipation mode step",
-            "order": "nematic"}
+COMPUTES = {
+    "stress": "stress/contact",
+    "now": "dissipation mode instantaneous",
+    "loss": "dissipation mode step",
+    "order": "nematic",
+}
 
 
 def vector(name):
@@ -30,18 +35,30 @@ def vector(name):
 
 
 def watched(deck, group="all"):
-    """The deck with every compute on `group` in thermo, and with dumps of grains, of all contacts and of the group's."""
+    """The deck with every compute on `group` in thermo, and with dumps of grains, of all contacts and of the
+    group's."""
     computes = [f"compute {name} {group} {command}" for name, command in COMPUTES.items()]
     quantities = [q for name in COMPUTES for q in (f"c_{name}", *vector(name))]
-    return replace(deck, body=[*deck.body, *computes, "compute rows all contact/local", f"compute own {group} contact/local",
-                               *thermo(1, *box_columns(), *quantities), *dump_grains(deck.packing, EVERY),
-                               *dump_local("rows", ROW_WIDTH, EVERY, "rows"), *dump_local("own", ROW_WIDTH, EVERY, "own"),
-                               f"run {STEPS}"])
+    return replace(
+        deck,
+        body=[
+            *deck.body,
+            *computes,
+            "compute rows all contact/local",
+            f"compute own {group} contact/local",
+            *thermo(1, *box_columns(), *quantities),
+            *dump_grains(deck.packing, EVERY),
+            *dump_local("rows", ROW_WIDTH, EVERY, "rows"),
+            *dump_local("own", ROW_WIDTH, EVERY, "own"),
+            f"run {STEPS}",
+        ],
+    )
 
 
 @dataclass
 class Moment:
     """One step of a run: what the deck was told, and what the oracle starts from."""
+
     told: dict
     grains: object
     rows: dict
@@ -73,9 +90,19 @@ def check_stress(moment, chosen, tolerance, softest=5e6):
     flattest = 1.0 if shape is None else float(min(s[0] / s[1] for s in map(sorted, shape[chosen])))
     expected = measures.stress_vector(moment.rows, moment.grains, moment.box, chosen, softest, flattest)
     found = moment.vector("stress")
-    for name, part in (("total", slice(0, 7)), ("normal", slice(7, 13)), ("tangential", slice(13, 19)), ("kinetic", slice(19, 25)),
-                       ("P", slice(25, 26)), ("ratios", slice(26, 29)), ("contacts, Z", slice(29, 31)), ("sliding", slice(31, 32)),
-                       ("mean overlap", slice(32, 33)), ("largest overlap", slice(33, 34)), ("kappa", slice(34, 35))):
+    for name, part in (
+        ("total", slice(0, 7)),
+        ("normal", slice(7, 13)),
+        ("tangential", slice(13, 19)),
+        ("kinetic", slice(19, 25)),
+        ("P", slice(25, 26)),
+        ("ratios", slice(26, 29)),
+        ("contacts, Z", slice(29, 31)),
+        ("sliding", slice(31, 32)),
+        ("mean overlap", slice(32, 33)),
+        ("largest overlap", slice(33, 34)),
+        ("kappa", slice(34, 35)),
+    ):
         scale = max(float(np.abs(expected[part]).max()), 1e-300)
         if name in ("tangential", "ratios"):
             scale = max(scale, 1e-3 * float(np.abs(expected[:7]).max())) if name == "tangential" else max(scale, 1e-3)
@@ -89,7 +116,9 @@ def check_dissipation(moment, tolerance, dt):
     scale = max(abs(normal), abs(friction), 1e-300)
     require_close(moment.vector("now")[:2], [normal, friction], tolerance, "dissipation, instantaneous", scale)
     require_close(moment.vector("now")[3:], [contacts, sliding], 0.0, "dissipation, contacts", 1.0)
-    normal, friction = measures.normal_loss_of_step(moment.rows, moment.grains, moment.box), measures.friction_of_step(moment.rows, dt)
+    normal, friction = measures.normal_loss_of_step(moment.rows, moment.grains, moment.box), measures.friction_of_step(
+        moment.rows, dt
+    )
     scale = max(abs(normal), abs(friction), 1e-300)
     require_close(moment.vector("loss")[:2], [normal, friction], tolerance, "dissipation of the step", scale)
     require_close(moment.told["c_loss"], moment.vector("loss")[:3].sum(), 1e-14, "dissipation scalar", scale)
@@ -115,11 +144,14 @@ def check_force_balance(moment, tolerance):
     total = np.zeros_like(moment.grains.force)
     np.add.at(total, moment.grains.index(moment.rows["id"][:, 0]), moment.rows["force"])
     np.add.at(total, moment.grains.index(moment.rows["id"][:, 1]), -moment.rows["force"])
-    require_close(total, moment.grains.force, tolerance, "rows' forces per grain", float(np.abs(moment.rows["force"]).max()))
+    require_close(
+        total, moment.grains.force, tolerance, "rows' forces per grain", float(np.abs(moment.rows["force"]).max())
+    )
 
 
 def agrees(deck, group="", rate=0.0, balance=True, softest=5e6, fewest=1.0, check=None):
-    """`group`: a LIGGGHTS `id` range, empty for all. `fewest`: contacts per grain that must be there, to prove something."""
+    """`group`: a LIGGGHTS `id` range, empty for all. `fewest`: contacts per grain that must be there, to prove
+    something."""
     two_sided = deck.packing.atom_style == "superquadric"
 
     def case(ranks):
@@ -141,11 +173,13 @@ def agrees(deck, group="", rate=0.0, balance=True, softest=5e6, fewest=1.0, chec
         require(count == STEPS // EVERY + 1, f"{count} snapshots")
         if check:
             check(result)
+
     return case
 
 
 def undamped(packing, **choices):
-    """The rows do not hold the tangential damping coefficient: those parts are compared where it is off, and by contact_law.py."""
+    """The rows do not hold the tangential damping coefficient: those parts are compared where it is off, and by
+    contact_law.py."""
     return Deck(packing, extra="tangential_damping off", **choices)
 
 

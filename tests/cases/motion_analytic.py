@@ -39,8 +39,8 @@ def carried(packing, rate=RATE, stretch=STRETCH, drift=(0.0, 0.0, 0.0), plane=(0
 
 
 def affine_flow(packing, rate=RATE, stretch=STRETCH):
-    """The host's fix: tilt grows by `rate` x (first L_y), L_y at `stretch` x (first L_y): straight lines in time, so that grains at
-    constant velocities move affinely."""
+    """The host's fix: tilt grows by `rate` x (first L_y), L_y at `stretch` x (first L_y): straight lines in time, so
+    that grains at constant velocities move affinely."""
     velocity = f"y vel {number(stretch * packing.edges[1])} " if stretch else ""
     return Flow(f"fix flow all deform 1 xy erate {number(rate)} {velocity}remap v", rate)
 
@@ -52,12 +52,17 @@ def observed(packing, ranks, computes, flow, steps=400, every=40):
 
 def affine(fraction, sign=1.0, stretch=STRETCH):
     """A cloud that follows the box: no fluctuations and no displacements, through a flip, wraps, and a moving L_y."""
+
     def case(ranks):
         rate = sign * RATE
         packing = carried(tilted(gas(), fraction), rate, stretch)
-        computes = [FLUCTUATION, MOVED, Watched("fitted", "fluctuation flow fit", True, 14, (10, 5)),
-                    Watched("layered", "fluctuation flow layers 5", True, 14, (10, 5)),
-                    Watched("memory", "velocity/memory strain v_strain lags 4", True, 3, (5, 4))]
+        computes = [
+            FLUCTUATION,
+            MOVED,
+            Watched("fitted", "fluctuation flow fit", True, 14, (10, 5)),
+            Watched("layered", "fluctuation flow layers 5", True, 14, (10, 5)),
+            Watched("memory", "velocity/memory strain v_strain lags 4", True, 3, (5, 4)),
+        ]
         moments, _ = observed(packing, ranks, computes, affine_flow(packing, rate, stretch))
         tilts = [m.box.edges[0, 1] for m in moments]
         require(np.abs(np.diff(tilts)).max() > 0.8 * packing.edges[0], f"no flip: {tilts}")
@@ -70,6 +75,7 @@ def affine(fraction, sign=1.0, stretch=STRETCH):
             # Positions are sums of 400 steps.
             require_close(moment.vector(MOVED)[1:7], np.zeros(6), 1e-20, "displacements, D", 1.0)
             require(moment.vector(MOVED)[7] == len(packing.grains), "grains were lost")
+
     return case
 
 
@@ -89,8 +95,8 @@ def without_gain(rate):
 
 
 def drifting(sign, plane="xy", by=lambda rate, plane: deforming(rate, plane)):
-    """Free flight with a drift u of all grains: d_x = u_x t - rate u_y t^2/2, d_y = u_y t, d_z = u_z t, through wraps of all faces and
-    flips, however often it is asked."""
+    """Free flight with a drift u of all grains: d_x = u_x t - rate u_y t^2/2, d_y = u_y t, d_z = u_z t, through wraps
+    of all faces and flips, however often it is asked."""
     a, b = axes = tuple("xyz".index(k) for k in plane)
     watched = Watched("moved", "displacement/shear strain v_strain", True, 8)
 
@@ -105,10 +111,13 @@ def drifting(sign, plane="xy", by=lambda rate, plane: deforming(rate, plane)):
                 square[a] -= 0.5 * rate * drift[b] * t * t
                 square **= 2
                 # Positions of 10 grains are sums of 800 steps; squares.
-                require_close(moment.vector(watched)[1:4], square, 1e-10, f"step {moment.step}: <d^2>", max(1.0, square.max()))
+                require_close(
+                    moment.vector(watched)[1:4], square, 1e-10, f"step {moment.step}: <d^2>", max(1.0, square.max())
+                )
             require(all(moments[-1].columns[i].any() for i in ("ix", "iy", "iz")), "no wraps")
             tilts = [m.box.edges[a, b] for m in moments]
             require(np.abs(np.diff(tilts)).max() > 0.7 * packing.edges[a], f"no flip: {tilts}")
+
     return case
 
 
@@ -125,12 +134,16 @@ def energies(ranks):
     I = m (2 a^2 cos^2 t + (a^2 + c^2) sin^2 t)/5."""
     speed, spin, tilt = 0.3, 0.7, math.radians(30)
     turned = (math.cos(tilt / 2), math.sin(tilt / 2), 0.0, 0.0)
-    grains = [Grain((5.0, 5.0, 5.0), (1.0, 1.0, 2.0), turned, (speed, 0.0, 0.0), (0.0, 0.0, spin)),
-              Grain((15.0, 15.0, 15.0), (1.0, 1.0, 2.0), (1.0, 0.0, 0.0, 0.0), (-speed, 0.0, 0.0), (0.0, 0.0, -spin))]
-    vector = watch(Deck(Packing((20.0,) * 3, grains)), [FLUCTUATION], ranks=ranks, steps=0, contacts=False)[0].vector(FLUCTUATION)
+    grains = [
+        Grain((5.0, 5.0, 5.0), (1.0, 1.0, 2.0), turned, (speed, 0.0, 0.0), (0.0, 0.0, spin)),
+        Grain((15.0, 15.0, 15.0), (1.0, 1.0, 2.0), (1.0, 0.0, 0.0, 0.0), (-speed, 0.0, 0.0), (0.0, 0.0, -spin)),
+    ]
+    vector = watch(Deck(Packing((20.0,) * 3, grains)), [FLUCTUATION], ranks=ranks, steps=0, contacts=False)[0].vector(
+        FLUCTUATION
+    )
     m = DENSITY * 4.0 / 3.0 * math.pi * 2.0
     inertia = m / 5.0 * (2.0 * math.cos(tilt) ** 2 + 5.0 * math.sin(tilt) ** 2) + m / 5.0 * 2.0
-    expected = [speed, 0.0, 0.0, 0.0, 0.0, spin, m * speed ** 2, 0.5 * inertia * spin ** 2]
+    expected = [speed, 0.0, 0.0, 0.0, 0.0, spin, m * speed**2, 0.5 * inertia * spin**2]
     require_close(vector[:8], expected, 1e-13, "rms dv, rms dw, E_tr, E_rot")
     require_close(vector[8], expected[7] / expected[6], 1e-13, "E_rot/E_tr")
 
@@ -138,27 +151,36 @@ def energies(ranks):
 def lever(ranks):
     """lever = sqrt<|dv|^2> / (|rate| d_eq): speeds +-s, rate 0.2, d_eq = 2 (abc)^(1/3) or as told."""
     speed, shape = 0.5, (1.0, 1.0, 2.0)
-    grains = [Grain((10.0, 10.0 + 0.0 * k, 10.0 * k + 5.0), shape, velocity=(0.0, 0.0, speed * (-1) ** k)) for k in range(2)]
+    grains = [
+        Grain((10.0, 10.0 + 0.0 * k, 10.0 * k + 5.0), shape, velocity=(0.0, 0.0, speed * (-1) ** k)) for k in range(2)
+    ]
     told = Watched("told", "fluctuation diameter 4", True, 14, (10, 5))
     packing = Packing((20.0,) * 3, grains)
-    moment = watch(Deck(packing), [FLUCTUATION, told], affine_flow(packing, stretch=0.0), ranks, steps=2, every=1, contacts=False)[1]
+    moment = watch(
+        Deck(packing), [FLUCTUATION, told], affine_flow(packing, stretch=0.0), ranks, steps=2, every=1, contacts=False
+    )[1]
     require_close(moment.scalar(FLUCTUATION), speed / (RATE * 2.0 * 2.0 ** (1 / 3)), 1e-12, "lever")
     require_close(moment.scalar(told), speed / (RATE * 4.0), 1e-12, "lever with the diameter told")
 
 
 def planes_of_grains(ranks):
-    """N grains in 8 planes, 5 layers apart: dn/n = 4 in their layers and -1 elsewhere; C = A n/m (8 x 16 + 32) at multiples of 5 layers,
-    A n/m (-2 x 8 x 4 + 24) elsewhere."""
+    """N grains in 8 planes, 5 layers apart: dn/n = 4 in their layers and -1 elsewhere; C = A n/m (8 x 16 + 32) at
+    multiples of 5 layers, A n/m (-2 x 8 x 4 + 24) elsewhere."""
     random, length = np.random.default_rng(5), 16.0
-    grains = [Grain((random.uniform(0, length), (k % 8 + 0.5) * length / 8, random.uniform(0, length)), (0.1,) * 3) for k in range(80)]
+    grains = [
+        Grain((random.uniform(0, length), (k % 8 + 0.5) * length / 8, random.uniform(0, length)), (0.1,) * 3)
+        for k in range(80)
+    ]
     watched = Watched("layers", "layering", True, 4, (21, 2))
     packing = Packing((length,) * 3, grains, atom_style="sphere")
     moment = watch(Deck(packing), [watched], ranks=ranks, steps=0, contacts=False)[0]
-    unit = length ** 2 * (80 / length ** 3) / 40
+    unit = length**2 * (80 / length**3) / 40
     expected = unit * np.where(np.arange(21) % 5 == 0, 160.0, -40.0)
     require_close(moment.array(watched)[:, 1], expected, 1e-12, "C(y)")
     require_close(moment.array(watched)[:, 0], np.arange(21) * length / 40, 1e-14, "lags")
-    require_close(moment.vector(watched), [160.0 * unit, length / 8, 160.0 * unit, 80.0], 1e-12, "peak, spacing, C(0), grains")
+    require_close(
+        moment.vector(watched), [160.0 * unit, length / 8, 160.0 * unit, 80.0], 1e-12, "peak, spacing, C(0), grains"
+    )
     require_close(moment.scalar(watched), 1.0, 1e-12, "peak over C(0)")
 
 
@@ -173,21 +195,31 @@ def primes(count, first=10007):
 
 
 def random_walk(ranks):
-    """Grains jump by uniform random steps within +-a between runs: <d^2> = a^2/3 per jump, so that D = a^2/6 per strain of a jump."""
+    """Grains jump by uniform random steps within +-a between runs: <d^2> = a^2/3 per jump, so that D = a^2/6 per strain
+    of a jump."""
     jump, strain, jumps = np.array([0.3, 0.5, 0.2]), 0.01, 60
     random = np.random.default_rng(2)
     grains = [Grain(tuple(random.uniform(0, 10, 3)), (0.05,) * 3) for _ in range(1000)]
     packing = Packing((10.0,) * 3, grains, atom_style="sphere")
-    deck = Deck(packing, body=["unfix integrate", f"variable strain equal step*{strain}", "compute moved all " + MOVED.command,
-                               *thermo(1, *MOVED.columns()), "run 0"])
+    deck = Deck(
+        packing,
+        body=[
+            "unfix integrate",
+            f"variable strain equal step*{strain}",
+            "compute moved all " + MOVED.command,
+            *thermo(1, *MOVED.columns()),
+            "run 0",
+        ],
+    )
     for seed in primes(jumps):
         deck.body += [f"displace_atoms all random {numbers(jump)} {seed} units box", "run 1"]
     table = run(deck, ranks).thermo()[-1]
     vector = np.array([table[c][-1] for c in MOVED.columns()[1:]])
     require_close(vector[[0, 7]], [jumps * strain, len(grains)], 1e-12, "strain, grains", 1.0)
-    # <d^2> of 1000 Gaussian displacements scatters by sqrt(2/1000) = 4.5 %, a slope over correlated points by somewhat more: 4 sigma.
-    require_close(vector[1:4] / (jumps * jump ** 2 / 3.0), np.ones(3), 0.18, "<d^2>")
-    require_close(vector[4:7] / (jump ** 2 / 6.0 / strain), np.ones(3), 0.24, "D")
+    # <d^2> of 1000 Gaussian displacements scatters by sqrt(2/1000) = 4.5 %, a slope over correlated points by somewhat
+    # more: 4 sigma.
+    require_close(vector[1:4] / (jumps * jump**2 / 3.0), np.ones(3), 0.18, "<d^2>")
+    require_close(vector[4:7] / (jump**2 / 6.0 / strain), np.ones(3), 0.24, "D")
 
 
 def later_grains(ranks):
@@ -195,9 +227,19 @@ def later_grains(ranks):
     packing = carried(gas(), 0.0, 0.0)
     lone = replace(packing, grains=packing.grains[1:])
     x = packing.grains[0].position
-    deck = Deck(lone, body=["variable strain equal step*0.01", "compute moved all " + MOVED.command, *thermo(1, *MOVED.columns()),
-                            "velocity all set 0.5 0 0 units box", "run 5", f"create_atoms 1 single {numbers(x)} units box",
-                            f"set atom {len(packing.grains)} diameter 2 density 1000 vx 9", "run 5"])
+    deck = Deck(
+        lone,
+        body=[
+            "variable strain equal step*0.01",
+            "compute moved all " + MOVED.command,
+            *thermo(1, *MOVED.columns()),
+            "velocity all set 0.5 0 0 units box",
+            "run 5",
+            f"create_atoms 1 single {numbers(x)} units box",
+            f"set atom {len(packing.grains)} diameter 2 density 1000 vx 9",
+            "run 5",
+        ],
+    )
     table = run(deck, ranks).thermo()[-1]
     require_equal(table[C_MOVED["N"]], np.full(6, len(lone.grains)), "grains tracked")
     require_close(table[C_MOVED["d2_x"]][-1], (0.5 * 10 * deck.dt()) ** 2, 1e-10, "<d_x^2>")
@@ -207,26 +249,52 @@ def replaced_grains(ranks):
     """A grain that takes the place of one that was deleted has no past."""
     packing = carried(gas(), 0.0, 0.0)
     last = len(packing.grains)
-    deck = Deck(packing, body=["variable strain equal step*0.01", "compute moved all " + MOVED.command, *thermo(1, *MOVED.columns()),
-                               "velocity all set 0.5 0 0 units box", "run 5", f"group gone id {last}", "delete_atoms group gone compress no",
-                               f"create_atoms 1 single {numbers(packing.grains[-1].position)} units box",
-                               f"set atom {last} diameter 0.2 density 1000 vx 9", "run 5"])
+    deck = Deck(
+        packing,
+        body=[
+            "variable strain equal step*0.01",
+            "compute moved all " + MOVED.command,
+            *thermo(1, *MOVED.columns()),
+            "velocity all set 0.5 0 0 units box",
+            "run 5",
+            f"group gone id {last}",
+            "delete_atoms group gone compress no",
+            f"create_atoms 1 single {numbers(packing.grains[-1].position)} units box",
+            f"set atom {last} diameter 0.2 density 1000 vx 9",
+            "run 5",
+        ],
+    )
     table = run(deck, ranks).thermo()[-1]
     require_equal(table[C_MOVED["N"]][1:], np.full(5, last - 1), "grains tracked")
     require_close(table[C_MOVED["d2_x"]][-1], (0.5 * 10 * deck.dt()) ** 2, 1e-10, "<d_x^2>")
 
 
 def rarely_asked(rate):
-    """Affine flow through flips, asked twice per unit of strain only, with a strain that may start again: nothing moves."""
+    """Affine flow through flips, asked twice per unit of strain only, with a strain that may start again: nothing
+    moves."""
+
     def case(ranks):
         deck = Deck(carried(gas(), rate, 0.0))
         steps = round(0.5 / (abs(rate) * deck.dt()))
-        deck.body = [deforming(rate).line, "variable strain equal step*0.01", "compute moved all " + MOVED.command,
-                     *thermo(steps, *MOVED.columns()), f"run {2 * steps}", "reset_timestep 0", f"run {2 * steps}"]
+        deck.body = [
+            deforming(rate).line,
+            "variable strain equal step*0.01",
+            "compute moved all " + MOVED.command,
+            *thermo(steps, *MOVED.columns()),
+            f"run {2 * steps}",
+            "reset_timestep 0",
+            f"run {2 * steps}",
+        ]
         for table in run(deck, ranks).thermo():
             # X reaches 40, and its steps add up over thousands.
-            require_close([table[C_MOVED[square]] for square in ("d2_x", "d2_y", "d2_z")], np.zeros((3, 3)), 1e-16,
-                          "<d^2>", 40.0 ** 2)
+            require_close(
+                [table[C_MOVED[square]] for square in ("d2_x", "d2_y", "d2_z")],
+                np.zeros((3, 3)),
+                1e-16,
+                "<d^2>",
+                40.0**2,
+            )
+
     return case
 
 
@@ -237,7 +305,10 @@ def in_rows():
     speeds = {}
     for g in packing.grains:
         speeds.setdefault(tuple(np.round(g.position[1:], 6)), float(random.normal(scale=5.0)))
-    return replace(packing, grains=[replace(g, velocity=(speeds[tuple(np.round(g.position[1:], 6))], 0.0, 0.0)) for g in packing.grains])
+    return replace(
+        packing,
+        grains=[replace(g, velocity=(speeds[tuple(np.round(g.position[1:], 6))], 0.0, 0.0)) for g in packing.grains],
+    )
 
 
 def remembers(ranks):
@@ -245,7 +316,9 @@ def remembers(ranks):
     packing, samples = in_rows(), 9
     watched = Watched("memory", "velocity/memory component vx strain v_strain every 0.5 lags 4", True, 3, (5, 4))
     deck = Deck(packing, body=["variable strain equal step*0.01"])
-    moment = watch(deck, [watched], ranks=ranks, steps=50 * (samples - 1), every=50 * (samples - 1), told=10, contacts=False)[-1]
+    moment = watch(
+        deck, [watched], ranks=ranks, steps=50 * (samples - 1), every=50 * (samples - 1), told=10, contacts=False
+    )[-1]
     require(np.ptp(moment.columns["ix"]) > 1, "the grains did not cross the box")
     count = len(packing.grains)
     expected = [[0.5 * k, 1.0, count * (samples - k)] for k in range(5)]
@@ -259,13 +332,20 @@ def remembers_later_grains(ranks):
     first, *rest = packing.grains
     watched = Watched("memory", "velocity/memory component vx strain v_strain every 0.01 lags 2", True, 3, (3, 4))
     deck = Deck(replace(packing, grains=rest))
-    deck.body = ["variable strain equal step*0.01", watched.define("all"), *thermo(1, *watched.columns()), "run 3",
-                 f"create_atoms 1 single {numbers(first.position)} units box", f"set atom {len(packing.grains)} diameter 2 density 1000",
-                 "run 3"]
+    deck.body = [
+        "variable strain equal step*0.01",
+        watched.define("all"),
+        *thermo(1, *watched.columns()),
+        "run 3",
+        f"create_atoms 1 single {numbers(first.position)} units box",
+        f"set atom {len(packing.grains)} diameter 2 density 1000",
+        "run 3",
+    ]
     table, old = run(deck, ranks).thermo()[-1], len(rest)
     # Seven samples, steps 0 to 6; the new grain is in the last three (run 2 begins without a sample at its first step).
-    require_equal([table[C_MEMORY[row, "pairs"]][-1] for row in (1, 2, 3)], [7 * old + 3, 6 * old + 2, 5 * old + 1],
-                  "pairs")
+    require_equal(
+        [table[C_MEMORY[row, "pairs"]][-1] for row in (1, 2, 3)], [7 * old + 3, 6 * old + 2, 5 * old + 1], "pairs"
+    )
 
 
 def starts_late(ranks):

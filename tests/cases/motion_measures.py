@@ -16,12 +16,16 @@ FLOWS = {"box": ("box",), "rate 0.03": ("rate", 0.03), "fit": ("fit",), "layers 
 
 def fluctuations(plane):
     """One compute for each mean flow, and what the oracle needs to know of it."""
-    return {Watched(f"flow{k}", f"fluctuation plane {plane} flow {words} layers 6", True, 14, (6, 5)): flow
-            for k, (words, flow) in enumerate(FLOWS.items())}
+    return {
+        Watched(f"flow{k}", f"fluctuation plane {plane} flow {words} layers 6", True, 14, (6, 5)): flow
+        for k, (words, flow) in enumerate(FLOWS.items())
+    }
 
 
-LAYERINGS = {Watched("across", "layering", True, 4, (21, 2)): (1, 40),
-             Watched("along", "layering axis x layers 12", True, 4, (7, 2)): (0, 12)}
+LAYERINGS = {
+    Watched("across", "layering", True, 4, (21, 2)): (1, 40),
+    Watched("along", "layering axis x layers 12", True, 4, (7, 2)): (0, 12),
+}
 
 
 def agrees(deck, flow=Flow(), plane="xy", group="all", settle=50, check=None):
@@ -32,16 +36,23 @@ def agrees(deck, flow=Flow(), plane="xy", group="all", settle=50, check=None):
             for watched, kind in moving.items():
                 vector = moment.vector(watched)
                 require_close(moment.scalar(watched), vector[9], 0.0, "fluctuation scalar", 1.0)
-                require_agreement(comparison.of_fluctuation(vector, moment.array(watched), moment, kind, PLANES[plane], 6),
-                                  f"step {moment.step}, {watched.command}")
+                require_agreement(
+                    comparison.of_fluctuation(vector, moment.array(watched), moment, kind, PLANES[plane], 6),
+                    f"step {moment.step}, {watched.command}",
+                )
             for watched, (axis, layers) in LAYERINGS.items():
                 vector = moment.vector(watched)
-                require_close(moment.scalar(watched), vector[0] / vector[2] if vector[2] else 0.0, 1e-14, "layering scalar", 1.0)
-                require_agreement(comparison.of_layering(vector, moment.array(watched), moment, axis, layers),
-                                  f"step {moment.step}, {watched.command}")
+                require_close(
+                    moment.scalar(watched), vector[0] / vector[2] if vector[2] else 0.0, 1e-14, "layering scalar", 1.0
+                )
+                require_agreement(
+                    comparison.of_layering(vector, moment.array(watched), moment, axis, layers),
+                    f"step {moment.step}, {watched.command}",
+                )
         require(len(moments) == 5, f"{len(moments)} snapshots")
         if check:
             check(moments)
+
     return case
 
 
@@ -75,8 +86,13 @@ def triaxial():
 CASES = {
     "spheres": agrees(Deck(SPHERES), deforming(0.05)),
     "spheres-at-rest": agrees(Deck(SPHERES)),
-    "spheres-polydisperse": agrees(Deck(dense_packing(atom_style="sphere", sizes=(0.8, 1.0, 1.2), overlap=0.1)), deforming(0.05)),
-    **{f"spheroid-{alpha:g}": agrees(Deck(dense_packing(alpha)), deforming(0.05)) for alpha in (0.33, 0.67, 1.0, 1.5, 3.0)},
+    "spheres-polydisperse": agrees(
+        Deck(dense_packing(atom_style="sphere", sizes=(0.8, 1.0, 1.2), overlap=0.1)), deforming(0.05)
+    ),
+    **{
+        f"spheroid-{alpha:g}": agrees(Deck(dense_packing(alpha)), deforming(0.05))
+        for alpha in (0.33, 0.67, 1.0, 1.5, 3.0)
+    },
     "triaxial": agrees(Deck(triaxial()), deforming(0.05)),
     "spheres-through-a-flip": flipping(Deck(tilted(SPHERES, 0.499))),
     "tilted-backward": agrees(Deck(tilted(SPHERES, -0.48)), deforming(-0.05)),

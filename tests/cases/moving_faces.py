@@ -30,16 +30,20 @@ def scene(flyer=(0.0, 0.0, 1.0), drift=(0.0, 0.0, 0.0), triclinic=False, **choic
 
 
 def measured(deck, ranks, *lines, group="all", every=100, told=()):
-    strain = ["group rest id 1:8", f"variable strain equal step*dt*{number(RATE)}",
-              f"compute moved {group} displacement/shear strain v_strain"]
+    strain = [
+        "group rest id 1:8",
+        f"variable strain equal step*dt*{number(RATE)}",
+        f"compute moved {group} displacement/shear strain v_strain",
+    ]
     table = thermo(every, "zlo", "zhi", *MOVED, *told)
     return run(replace(deck, body=[*strain, *lines[:1], *table, *lines[1:]]), ranks).thermo()
 
 
 def follows_the_flyer(boundary, group="all"):
     """Grains at rest do not move, the ninth moves by u t, wherever the face goes: <d_z^2> = (u t)^2/9, 0 without it."""
+
     def case(ranks):
-        speed = 4.0 if "m" in boundary else 1.0   # beyond the least box
+        speed = 4.0 if "m" in boundary else 1.0  # beyond the least box
         part = measured(scene(flyer=(0.0, 0.0, speed), boundary=boundary), ranks, "", "run 1500", group=group)[0]
         require(part["zhi"][-1] > part["zhi"][0] + 1.0, "the face does not follow")
         t = np.arange(0, 1501, 100) * DT
@@ -47,15 +51,18 @@ def follows_the_flyer(boundary, group="all"):
         # A position is a sum of 1500 steps.
         for name, square in (("d2_x", 0.0 * t), ("d2_y", 0.0 * t), ("d2_z", expected)):
             require_close(part[C_MOVED[name]], square, 1e-12 if group == "all" else 0.0, name, 1.0)
+
     return case
 
 
 def top_layer(ranks):
-    """Between neighbour lists the flyer is above the face that will follow it: it belongs to the highest of four layers,
-    not to the lowest."""
+    """Between neighbour lists the flyer is above the face that will follow it: it belongs to the highest of four
+    layers, not to the lowest."""
     told = [C_PROFILE[k, "N"] for k in range(1, 5)] + [C_SMECTIC["N"], C_LAYERED["dv_z"]]
-    lines = ["compute profile all fluctuation plane xz layers 4\ncompute smectic all layering axis z layers 4\n"
-             "compute layered all fluctuation plane xz flow layers 4 layers 4"]
+    lines = [
+        "compute profile all fluctuation plane xz layers 4\ncompute smectic all layering axis z layers 4\n"
+        "compute layered all fluctuation plane xz flow layers 4 layers 4"
+    ]
     part = measured(scene(boundary="p p s"), ranks, *lines, "run 150", every=10, told=told)[0]
     # Four at the bottom, one at the top, four at 5 of 1 to 6 or more: in layers 3 or 4 (there with the flyer).
     require((part[C_PROFILE[1, "N"]] == 4.0).all(), f"grains in the lowest layer: {part[C_PROFILE[1, 'N']]}")
@@ -63,7 +70,7 @@ def top_layer(ranks):
     require((part[C_SMECTIC["N"]] == 9.0).all(), "layering lost grains")
     # With four still grains in the layer of the flyer: dv = 1 - 1/5 and 4 x -1/5; alone it is its layer's mean.
     together = part[C_PROFILE[4, "N"]] == 5.0
-    expected = np.where(together, np.sqrt((0.8 ** 2 + 4 * 0.2 ** 2) / 9.0), 0.0)
+    expected = np.where(together, np.sqrt((0.8**2 + 4 * 0.2**2) / 9.0), 0.0)
     require_close(part[C_LAYERED["dv_z"]], expected, 1e-12, "rms dv_z against layers", 1.0)
 
 
@@ -76,11 +83,13 @@ def in_a_shear_flow(ranks):
     part = measured(deck, ranks, f"fix flow all deform 1 xy erate {number(RATE)} remap v", "run 1500")[0]
     t = np.arange(0, 1501, 100) * DT
     require_close(part[C_MOVED["d2_x"]], 0.0 * t, 1e-20, "<d_x^2>", 1.0)
-    require_close(part[C_MOVED["d2_z"]], t ** 2 / 9.0, 1e-12, "<d_z^2>", 1.0)
+    require_close(part[C_MOVED["d2_z"]], t**2 / 9.0, 1e-12, "<d_z^2>", 1.0)
 
 
 def change_box(words, boundary="p p f", **choices):
-    """Between two runs of 0.5 s the box is changed, and no grain moves in it: the displacement is that of free flight."""
+    """Between two runs of 0.5 s the box is changed, and no grain moves in it: the displacement is that of free
+    flight."""
+
     def case(ranks):
         drift = choices.get("drift", (0.0, 0.0, 0.0))
         flyer = choices.get("flyer", drift)
@@ -88,18 +97,25 @@ def change_box(words, boundary="p p f", **choices):
         parts = measured(deck, ranks, "", "run 500", f"change_box all {words}", "run 500")
         t = np.arange(5, 11) * 100 * DT
         for k in range(3):
-            square = (8.0 * drift[k] ** 2 + flyer[k] ** 2) / 9.0 * t ** 2
+            square = (8.0 * drift[k] ** 2 + flyer[k] ** 2) / 9.0 * t**2
             # Positions of 10 grains are sums of 1000 steps; squares.
             require_close(parts[1][C_MOVED[f"d2_{'xyz'[k]}"]], square, 1e-11, f"<d_{'xyz'[k]}^2>", max(1.0, square[-1]))
+
     return case
 
 
 def refuses(line, *words):
     def case(ranks):
         deck = scene(boundary="p p p", triclinic=True)
-        lines = ["group some id 1:4", "variable strain equal step", line,
-                 "compute moved all displacement/shear strain v_strain", "run 1"]
+        lines = [
+            "group some id 1:4",
+            "variable strain equal step",
+            line,
+            "compute moved all displacement/shear strain v_strain",
+            "run 1",
+        ]
         require_refused(replace(deck, body=lines), ranks, *words)
+
     return case
 
 
@@ -115,7 +131,9 @@ def room(boundary):
 
 
 def is_no_change(boundary, *between):
-    """`run 40; run 40`: forces of the first run go on to hold, and the run does not say otherwise. Against one run of 80."""
+    """`run 40; run 40`: forces of the first run go on to hold, and the run does not say otherwise. Against one run of
+    80."""
+
     def case(ranks):
         deck = opened(boundary)
         dump = [*room(boundary), *dump_grains(deck.packing, 80)]
@@ -130,11 +148,13 @@ def is_no_change(boundary, *between):
                 difference -= edge * np.round(difference / edge)  # lists of other steps wrap in other steps
             # Lists built in other steps sum forces in another order: rounding of 80 steps.
             require_close(difference, 0.0 * difference, 1e-9, name, max(1.0, np.abs(expected[name]).max()))
+
     return case
 
 
 def is_a_change(words):
     """Across periodic faces it moves images, so that contacts change: forces are recomputed, as by the host."""
+
     def case(ranks):
         # Without tangential damping, which `neutral` keeps to the friction limit there (first_evaluation.py).
         deck = replace(opened("p p f"), extra="setup neutral ledger on tangential_damping off")
@@ -144,6 +164,7 @@ def is_a_change(words):
         expected = run(replace(deck, body=lines, extra="ledger on tangential_damping off"), ranks)
         require("were changed since" in found.output, "the run does not say that something was changed")
         require_same_snapshots(found.dump("grains.dump"), expected.dump("grains.dump"), "against setup host")
+
     return case
 
 
@@ -172,10 +193,14 @@ CASES = {
     "changed-tilt": change_box("xy final 4 units box", "p p p", drift=(0.0, 30.0, -30.0)),
     "changed-tilt-with-remap": change_box("xy final 4 remap units box", "p p p", drift=(0.0, 30.0, -30.0)),
     "changed-boundary": change_box("boundary p p s", flyer=(0.0, 0.0, 1.0)),
-    "remap-none": refuses("fix flow all deform 1 xy erate 0.1 remap none",
-                          "compute displacement/shear: fix flow (deform) must move grains along", "got 'remap none'"),
-    "deform-of-some": refuses("fix flow some deform 1 xy erate 0.1 remap v",
-                              "must move all grains of group 'all', got group 'some'"),
+    "remap-none": refuses(
+        "fix flow all deform 1 xy erate 0.1 remap none",
+        "compute displacement/shear: fix flow (deform) must move grains along",
+        "got 'remap none'",
+    ),
+    "deform-of-some": refuses(
+        "fix flow some deform 1 xy erate 0.1 remap v", "must move all grains of group 'all', got group 'some'"
+    ),
     "neutral-shrink-wrapped": is_no_change("p p s"),
     "neutral-with-minimum": is_no_change("p p m"),
     "neutral-changed-beyond-grains": is_no_change("p p f", "change_box all z delta -5 5 units box"),

@@ -25,12 +25,26 @@ def requires_same_trajectory(deck):
         grains = len(deck.packing.grains)
         plain = run(replace(deck, pair="gran", body=[*deck.body, f"run {STEPS}"]), ranks).dump("grains.dump")
         idle = run(replace(deck, body=[*deck.body, f"run {STEPS}"]), ranks).dump("grains.dump")
-        watched = run(replace(deck, body=[*deck.body, "compute stress all stress/contact", "compute loss all dissipation",
-                                          *thermo(1, "c_stress", C_STRESS["N_c"], "c_loss"), f"run {STEPS}"]), ranks)
+        watched = run(
+            replace(
+                deck,
+                body=[
+                    *deck.body,
+                    "compute stress all stress/contact",
+                    "compute loss all dissipation",
+                    *thermo(1, "c_stress", C_STRESS["N_c"], "c_loss"),
+                    f"run {STEPS}",
+                ],
+            ),
+            ranks,
+        )
         require_same_snapshots(idle, plain, "gran/insitu against gran")
         require_same_snapshots(watched.dump("grains.dump"), plain, "gran/insitu, observed each step, against gran")
         contacts = watched.thermo()[0][C_STRESS["N_c"]]
-        require(contacts.mean() >= 2 * grains, f"too few contacts to prove anything: {contacts.mean()} of {grains} grains")
+        require(
+            contacts.mean() >= 2 * grains, f"too few contacts to prove anything: {contacts.mean()} of {grains} grains"
+        )
+
     return case
 
 
@@ -41,8 +55,10 @@ CASES = {
     "spheres-as-superquadrics": sheared(dense_packing()),
     **{f"spheroid-{alpha:g}": sheared(dense_packing(alpha)) for alpha in ALPHAS},
     "polydisperse": sheared(dense_packing(1.5, sizes=SIZES)),
-    "two-types": sheared(dense_packing(1.5, types=2),
-                         material=Material(young=(5e6, 2e7), restitution=(0.3, 0.5, 0.5, 0.8), friction=(0.1, 0.4, 0.4, 0.9))),
+    "two-types": sheared(
+        dense_packing(1.5, types=2),
+        material=Material(young=(5e6, 2e7), restitution=(0.3, 0.5, 0.5, 0.8), friction=(0.1, 0.4, 0.4, 0.9)),
+    ),
     "tangential-off": sheared(dense_packing(1.5), tangential="off"),
     "tangential-no-history": sheared(dense_packing(1.5), tangential="no_history"),
     "rolling-cdt": sheared(dense_packing(1.5), rolling="cdt"),

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""fix press/strain: shear like fix deform, the controller's recursion step by step, restarts, ranks, targets at the edge."""
+"""fix press/strain: shear like fix deform, the controller's recursion step by step, restarts, ranks, targets at the
+edge."""
 from dataclasses import replace
 import math
 
@@ -45,7 +46,9 @@ def same_as_fix_deform(packing, plane, strain, ranks):
     for (step, found), (_, expected) in zip(ours.dump("grains.dump"), host.dump("grains.dump")):
         for name in ("x", "y", "z", "vx", "vy", "vz", "omegax", "omegay", "omegaz"):
             # 1e-10: tilts differ by ulps (a sum here, a straight line there); the packing is chaotic.
-            require_close(found[name], expected[name], 1e-10, f"step {step}, {name}", max(1.0, np.abs(expected[name]).max()))
+            require_close(
+                found[name], expected[name], 1e-10, f"step {step}, {name}", max(1.0, np.abs(expected[name]).max())
+            )
 
 
 def shears_as_fix_deform(direction):
@@ -70,11 +73,17 @@ def windows(table):
 
 def follows_the_recursion(every, interval, gain, rest="", rate=0.05, target=3e5):
     """dL/dt = kp (mean of P since the last input - target), clipped, held; L grows by dL/dt dt each step."""
+
     def case(ranks):
         deck = controlled(press(target, rate, every, f"gain {gain} {rest}"), 120)
         table, dt = run(deck, ranks).thermo()[0], deck.dt()
-        require_close(np.diff(table[LENGTH]), table[VELOCITY][1:] * dt, 1e-9, "change of L",
-                      max(1e-6, np.abs(table[VELOCITY]).max() * dt))
+        require_close(
+            np.diff(table[LENGTH]),
+            table[VELOCITY][1:] * dt,
+            1e-9,
+            "change of L",
+            max(1e-6, np.abs(table[VELOCITY]).max() * dt),
+        )
         require_close(table[LENGTH], table["ly"], 0.0, "L against the box", 1.0)
         words = f"limit 0.01 {rest}".split()
         limit = float(words[len(words) - 1 - words[::-1].index("limit") + 1])
@@ -83,7 +92,7 @@ def follows_the_recursion(every, interval, gain, rest="", rate=0.05, target=3e5)
         clipped, held = 0, 0.0
         for first, last in windows(table):
             require_close(table[VELOCITY][first:last], np.full(last - first, held), 0.0, "dL/dt between inputs", 1.0)
-            mean = table[NOW][first + 1:last + 1].mean()
+            mean = table[NOW][first + 1 : last + 1].mean()
             require_close(table["f_press"][last], mean, 1e-12, f"averaged pressure at step {last}", target)
             bound = table[LENGTH][last - 1] * min(limit / lasts, maxrate)
             wanted = gain * (mean - target)
@@ -93,11 +102,13 @@ def follows_the_recursion(every, interval, gain, rest="", rate=0.05, target=3e5)
             require(table[CLIPPED][last] == clipped, f"step {last}: {table[CLIPPED][last]} clipped, expected {clipped}")
             require_close(table[ERROR][last], mean / target - 1.0, 1e-12, "relative error", 1.0)
         require(len(windows(table)) >= 10, f"only {len(windows(table))} inputs")
+
     return case
 
 
 def counts_inputs(every, per_step, rate=0.05):
     """An input on the first step, then one at every multiple of the interval. `per_step`: intervals passed per step."""
+
     def case(ranks):
         deck = controlled(press(3e5, rate, every(Deck(dense_packing(atom_style="sphere")).dt()), "gain 0"), 100)
         found = run(deck, ranks).thermo()[0][INPUTS]
@@ -105,6 +116,7 @@ def counts_inputs(every, per_step, rate=0.05):
         passed = np.floor(steps * per_step + 1e-6).astype(int)
         expected = 1 + passed - (int(per_step) if per_step >= 1 else 0)
         require_close(found[1:], np.minimum(expected, steps), 0.0, "inputs", 1.0)
+
     return case
 
 
@@ -113,8 +125,12 @@ def automatic_gain(ranks):
     rate, target, every = 0.05, 5.2e4, 1e-3
     packing = dense_packing(atom_style="sphere", speed=0.01)
     deck = Deck(packing)
-    deck.body = [press(target, rate, f"every {every}", "gain auto limit 0.9 maxrate 1e6"), *thermo(1, *STATE, *box_columns()),
-                 *dump_grains(packing, 1), "run 2"]
+    deck.body = [
+        press(target, rate, f"every {every}", "gain auto limit 0.9 maxrate 1e6"),
+        *thermo(1, *STATE, *box_columns()),
+        *dump_grains(packing, 1),
+        "run 2",
+    ]
     result = run(deck, ranks)
     table, dumps = result.thermo()[0], result.dump("grains.dump")
     law = Law(np.array([YOUNG]), POISSON, np.array([[0.5]]), np.array([[0.4]]), deck.dt())
@@ -149,7 +165,9 @@ def restart_continues(ranks):
     rest = [*thermo(1, *STATE), *dump_grains(packing, 100), "run 100"]
     through = run(replace(deck, body=[line, "run 153", "write_restart half.restart", *rest]), ranks)
     again = run(deck.restarted(through.folder / "half.restart", [line, *rest]), ranks)
-    require_same_snapshots(again.dump("grains.dump")[-1:], through.dump("grains.dump")[-1:], "restarted against write-and-continue")
+    require_same_snapshots(
+        again.dump("grains.dump")[-1:], through.dump("grains.dump")[-1:], "restarted against write-and-continue"
+    )
     tables = again.thermo()[-1], through.thermo()[-1]
     for name in ("f_press", STRAIN, LENGTH, VELOCITY, INPUTS, CLIPPED):
         require_close(tables[0][name][1:], tables[1][name][1:], 0.0, name, 1.0)
@@ -228,6 +246,7 @@ def momentum_removed(choice):
             require_close(mean, np.zeros(3), 1e-12, "mean peculiar velocity at an input", 1.0)
         else:
             require(np.linalg.norm(mean) > 0.1, f"the drift is gone: {mean}")
+
     return case
 
 

@@ -28,14 +28,22 @@ def said(deck, words, ranks):
 
 def soft(fraction, restitution, steps, body=(), extra=""):
     """Dense spheres with overlaps of 2 %, which the time step may be too long for."""
-    return Deck(SPHERES, material=Material(restitution=(restitution,)), timestep=fraction * rayleigh_time(), extra=extra,
-                body=[*body, f"run {steps}"])
+    return Deck(
+        SPHERES,
+        material=Material(restitution=(restitution,)),
+        timestep=fraction * rayleigh_time(),
+        extra=extra,
+        body=[*body, f"run {steps}"],
+    )
 
 
 def time_step(ranks):
-    """Overlaps of 2 %, e = 0.1, tangential damping: unstable from 0.1 T_R on. The step that is told is safe: nothing is said at it."""
+    """Overlaps of 2 %, e = 0.1, tangential damping: unstable from 0.1 T_R on. The step that is told is safe: nothing is
+    said at it."""
     line = said(soft(0.15, 0.1, 1100), TIME_STEP, ranks)
-    number, limit, safe = (float(x) for x in re.search(r"over the mass is (\S+), limit (\S+):.*below (\S+), or stiffer", line).groups())
+    number, limit, safe = (
+        float(x) for x in re.search(r"over the mass is (\S+), limit (\S+):.*below (\S+), or stiffer", line).groups()
+    )
     require("tangential damping the motion does not show it" in line and "or 'tangential_damping off'" in line, line)
     require(number > limit == 4.0 and 0.0 < safe < 0.15 * rayleigh_time(), f"the numbers are {number}, {limit}, {safe}")
     quiet = run(soft(0.95 * safe / rayleigh_time(), 0.1, 1100), ranks).output
@@ -59,11 +67,18 @@ def time_step_unseen(ranks):
 def quiet(ranks):
     """Hard grains at 0.05 T_R under control, and a gas in the linear flow of its box: nothing is said."""
     body = ["fix press all press/strain axis y target 50 shear xy rate 0.05 every 1e-3", "run 1005"]
-    dense = Deck(dense_packing(atom_style="sphere", overlap=-0.05, speed=0.02), timestep=0.05 * rayleigh_time(), body=body)
+    dense = Deck(
+        dense_packing(atom_style="sphere", overlap=-0.05, speed=0.02), timestep=0.05 * rayleigh_time(), body=body
+    )
     gas = dense_packing(atom_style="sphere", overlap=-0.3, speed=0.0)
     half = 0.5 * 0.05 * gas.edges[1]
-    body = [shear(0.05), f"velocity all ramp vx {-half} {half} y 0 {gas.edges[1]} units box", "compute f all fluctuation", *thermo(1, C_F["deviation"]),
-            "run 15"]
+    body = [
+        shear(0.05),
+        f"velocity all ramp vx {-half} {half} y 0 {gas.edges[1]} units box",
+        "compute f all fluctuation",
+        *thermo(1, C_F["deviation"]),
+        "run 15",
+    ]
     for deck in (dense, Deck(gas, timestep=0.02 * rayleigh_time(), body=body)):
         output = run(deck, ranks).output
         for words in OTHERS:
@@ -71,36 +86,78 @@ def quiet(ranks):
 
 
 def kappa(ranks):
-    line = said(soft(0.02, 0.9, 30, ["compute s all stress/contact", *thermo(1, "c_s")], "tangential_damping off"), OTHERS[1], ranks)
-    number, limit = (float(x) for x in re.search(r"kappa is (\S+), below the hard-grain limit of (\S+):", line).groups())
+    line = said(
+        soft(0.02, 0.9, 30, ["compute s all stress/contact", *thermo(1, "c_s")], "tangential_damping off"),
+        OTHERS[1],
+        ranks,
+    )
+    number, limit = (
+        float(x) for x in re.search(r"kappa is (\S+), below the hard-grain limit of (\S+):", line).groups()
+    )
     require(0.0 < number < limit == 1100.0, f"the numbers are {number}, {limit}")
 
 
 def clipping(ranks):
-    """Nothing resists and nothing is asked for 350 inputs; then a pressure that no gas gives: every input is clipped."""
-    body = ["variable target equal 1e3*(step>350)",
-            "fix press all press/strain axis y target v_target shear xy rate 0.05 every/step 1 gain 1e-3 limit 1e-6", "run 460"]
+    """Nothing resists and nothing is asked for 350 inputs; then a pressure that no gas gives: every input is
+    clipped."""
+    body = [
+        "variable target equal 1e3*(step>350)",
+        "fix press all press/strain axis y target v_target shear xy rate 0.05 every/step 1 gain 1e-3 limit 1e-6",
+        "run 460",
+    ]
     deck = Deck(dense_packing(atom_style="sphere", overlap=-0.3, speed=0.0), timestep=0.02 * rayleigh_time(), body=body)
     line = said(deck, OTHERS[2], ranks)
-    number, limit = (float(x) for x in re.search(r"strain: (\S+) of the last hundred inputs were clipped \(limit (\S+)\)", line).groups())
+    number, limit = (
+        float(x)
+        for x in re.search(r"strain: (\S+) of the last hundred inputs were clipped \(limit (\S+)\)", line).groups()
+    )
     require(number > limit == 0.2, f"the numbers are {number}, {limit}")
 
 
 def unstable_from_the_start(ranks):
     """A gain far too large: clipped one way and the other from the first contact on."""
-    body = ["fix press all press/strain axis y target 1e5 shear xy rate 0.05 every 1e-3 gain 1e-2 limit 0.003", "run 3000"]
-    said(Deck(dense_packing(atom_style="sphere", speed=0.1), timestep=0.05 * rayleigh_time(), body=body, extra="tangential_damping off"), OTHERS[2], ranks)
+    body = [
+        "fix press all press/strain axis y target 1e5 shear xy rate 0.05 every 1e-3 gain 1e-2 limit 0.003",
+        "run 3000",
+    ]
+    said(
+        Deck(
+            dense_packing(atom_style="sphere", speed=0.1),
+            timestep=0.05 * rayleigh_time(),
+            body=body,
+            extra="tangential_damping off",
+        ),
+        OTHERS[2],
+        ranks,
+    )
 
 
 def profile(ranks):
     """Grains at rest in a box that shears: the flow is not the box's."""
     body = [shear(0.05), "velocity all set 0 0 0", "compute f all fluctuation", *thermo(1, C_F["deviation"]), "run 15"]
-    line = said(Deck(dense_packing(atom_style="sphere", overlap=-0.3, speed=0.0), timestep=0.02 * rayleigh_time(), body=body), OTHERS[3], ranks)
-    number, limit = (float(x) for x in re.search(r"flow by (\S+) of rate x L \(rms over layers; limit ([^;]+);", line).groups())
-    require(0.25 < number < 0.33 and 0.1 <= limit < 0.2, f"the numbers are {number}, {limit}")  # 1/(2 sqrt 3) = 0.289 for even layers; twice the noise of 10 layers of 100 grains
+    line = said(
+        Deck(dense_packing(atom_style="sphere", overlap=-0.3, speed=0.0), timestep=0.02 * rayleigh_time(), body=body),
+        OTHERS[3],
+        ranks,
+    )
+    number, limit = (
+        float(x) for x in re.search(r"flow by (\S+) of rate x L \(rms over layers; limit ([^;]+);", line).groups()
+    )
+    require(
+        0.25 < number < 0.33 and 0.1 <= limit < 0.2, f"the numbers are {number}, {limit}"
+    )  # 1/(2 sqrt 3) = 0.289 for even layers; twice the noise of 10 layers of 100 grains
 
 
-CASES = {"time-step": time_step, "time-step-in-short-runs": time_step_in_short_runs, "time-step-unseen": time_step_unseen, "quiet": quiet, "kappa": kappa, "clipping": clipping, "unstable-from-the-start": unstable_from_the_start, "profile": profile}
+CASES = {
+    "time-step": time_step,
+    "time-step-in-short-runs": time_step_in_short_runs,
+    "time-step-unseen": time_step_unseen,
+    "quiet": quiet,
+    "kappa": kappa,
+    "clipping": clipping,
+    "unstable-from-the-start": unstable_from_the_start,
+    "profile": profile,
+}
 
 if __name__ == "__main__":
     main(CASES)

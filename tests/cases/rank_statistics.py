@@ -16,9 +16,18 @@ C_S = outputs("stress/contact").of("s")
 
 INERTIAL, TARGET = 0.1, 500.0
 SETTLE, BLOCK, BLOCKS = 4.0, 2.0, 10  # strains: the memory of orientations is about 1
-QUANTITIES = {"mu": C_S["mu_eff"], "phi": "v_phi", "P_t/(gd P V)": "v_loss", "P_n/(gd P V)": "v_damped", "S2": "c_order", "Z": C_S["Z"],
-              "theta_x": C_ORDER["theta"], "P/P_t": "v_pressure"}
-# Of ten blocks the error of a mean is known to a quarter: Student's t with 18 degrees of freedom is beyond 4 in 0.08 % of comparisons.
+QUANTITIES = {
+    "mu": C_S["mu_eff"],
+    "phi": "v_phi",
+    "P_t/(gd P V)": "v_loss",
+    "P_n/(gd P V)": "v_damped",
+    "S2": "c_order",
+    "Z": C_S["Z"],
+    "theta_x": C_ORDER["theta"],
+    "P/P_t": "v_pressure",
+}
+# Of ten blocks the error of a mean is known to a quarter: Student's t with 18 degrees of freedom is beyond 4 in 0.08 %
+# of comparisons.
 SIGMAS = 4.0
 
 
@@ -30,18 +39,28 @@ def flow(ranks, alpha=1.5):
     deck = Deck(packing, surface="ellipsoid", extra="tangential_damping off", timestep=0.0)
     per_strain = round(1.0 / (rate * deck.dt()))
     steps, every = round((SETTLE + BLOCK * BLOCKS) * per_strain), max(per_strain // 200, 1)
-    deck.body = ["unfix integrate", "fix integrate all nve/spheroid",
-                 f"fix press all press/strain axis y target {TARGET} shear xy rate {number(rate)} every 5e-4",
-                 "compute s all stress/contact", "compute loss all dissipation", "compute order all nematic",
-                 f"variable phi equal {volume!r}/vol", f"variable loss equal {C_LOSS['P_t']}/({rate!r}*{TARGET}*vol)",
-                 f"variable damped equal {C_LOSS['P_n']}/({rate!r}*{TARGET}*vol)", f"variable pressure equal {C_S['P']}/{TARGET}",
-                 *thermo(every, *QUANTITIES.values(), C_S["overlap_mean"]), f"run {steps}"]
+    deck.body = [
+        "unfix integrate",
+        "fix integrate all nve/spheroid",
+        f"fix press all press/strain axis y target {TARGET} shear xy rate {number(rate)} every 5e-4",
+        "compute s all stress/contact",
+        "compute loss all dissipation",
+        "compute order all nematic",
+        f"variable phi equal {volume!r}/vol",
+        f"variable loss equal {C_LOSS['P_t']}/({rate!r}*{TARGET}*vol)",
+        f"variable damped equal {C_LOSS['P_n']}/({rate!r}*{TARGET}*vol)",
+        f"variable pressure equal {C_S['P']}/{TARGET}",
+        *thermo(every, *QUANTITIES.values(), C_S["overlap_mean"]),
+        f"run {steps}",
+    ]
     table = run(deck, ranks).thermo()[0]
     print(f"{ranks} rank(s): {len(packing.grains)} grains, {steps} steps", flush=True)
     strain = table["step"] * rate * deck.dt() - SETTLE
     results = {}
     for name, column in QUANTITIES.items():
-        means = np.array([table[column][(strain >= k * BLOCK) & (strain < (k + 1) * BLOCK)].mean() for k in range(BLOCKS)])
+        means = np.array(
+            [table[column][(strain >= k * BLOCK) & (strain < (k + 1) * BLOCK)].mean() for k in range(BLOCKS)]
+        )
         results[name] = means.mean(), means.std(ddof=1) / math.sqrt(BLOCKS)
     return results, table[C_S["overlap_mean"]][-1]
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Every measurement there is, continued from one restart file on every decomposition: the same numbers, in every step, through a flip."""
+"""Every measurement there is, continued from one restart file on every decomposition: the same numbers, in every step,
+through a flip."""
 from dataclasses import dataclass, replace
 import sys
 
@@ -17,19 +18,37 @@ C_MEMORY = outputs("velocity/memory").of("memory")
 C_STRESS = outputs("stress/contact").of("stress")
 F_PRESS = outputs("press/strain").of("press")
 
-# Sums in another order. What a few sums of 1e3 terms lose is 1e-14 of their scale; angles and eigenvectors multiply that by scale over gap, and
-# three steps of a stiff packing (forces answer to positions by E a/F = 1e3 and more) do the same to single forces.
+# Sums in another order. What a few sums of 1e3 terms lose is 1e-14 of their scale; angles and eigenvectors multiply
+# that by scale over gap, and three steps of a stiff packing (forces answer to positions by E a/F = 1e3 and more) do the
+# same to single forces.
 SUMS = 1e-10
-# For `surface superquadric` the host's solver stops at about 1e-7, and sees a contact from one side or the other. Where two surfaces run side by side
-# the contact point is known to the square root of that only; it is the lever of forces, so torques are the worst.
+# For `surface superquadric` the host's solver stops at about 1e-7, and sees a contact from one side or the other. Where
+# two surfaces run side by side the contact point is known to the square root of that only; it is the lever of forces,
+# so torques are the worst.
 SOLVER = 1e-3
-ALL_GRIDS = ("2 1 1", "1 2 1", "1 1 2", "3 1 1", "1 3 1", "2 2 1", "4 1 1", "1 1 4", "8 1 1", "1 8 1", "1 1 8", "2 2 2", "4 2 1", "2 1 4")
+ALL_GRIDS = (
+    "2 1 1",
+    "1 2 1",
+    "1 1 2",
+    "3 1 1",
+    "1 3 1",
+    "2 2 1",
+    "4 1 1",
+    "1 1 4",
+    "8 1 1",
+    "1 8 1",
+    "1 1 8",
+    "2 2 2",
+    "4 2 1",
+    "2 1 4",
+)
 STEPS = 4
 
 
 @dataclass(frozen=True)
 class Start:
     """A state: its deck, whether the box is turned back in the steps that are compared, how far numbers may differ."""
+
     deck: Deck
     tolerance: float = SUMS
     steps: int = 150
@@ -46,14 +65,22 @@ class Start:
 
 def integrated(deck):
     """Ellipsoids turn by the package's own integrator, as its pages advise."""
-    return ["unfix integrate", "fix integrate all nve/spheroid"] if deck.surface == "ellipsoid" and deck.packing.atom_style != "sphere" else []
+    return (
+        ["unfix integrate", "fix integrate all nve/spheroid"]
+        if deck.surface == "ellipsoid" and deck.packing.atom_style != "sphere"
+        else []
+    )
 
 
 def state_of(start):
     """The restart file, and the deck that goes on from it on any grid of processors."""
     deck = start.ready()
     questions = Questions(deck.packing)
-    flow = [*integrated(deck), f"{press(2e5)} limit 0.5 maxrate 1e6", *questions.defined()]  # no clip: dL/dt comes from sums
+    flow = [
+        *integrated(deck),
+        f"{press(2e5)} limit 0.5 maxrate 1e6",
+        *questions.defined(),
+    ]  # no clip: dL/dt comes from sums
     asked = [*thermo(1, "xy", *(q for w in (DISPLACEMENT, MEMORY, LEDGER) for q in w.columns()))]
     saved = run(replace(deck, body=[*flow, *asked, "restart 1 state.*", f"run {start.steps}"]))
     turns = np.flatnonzero(np.diff(saved.thermo()[-1]["xy"]) < 0.0)
@@ -64,6 +91,7 @@ def state_of(start):
     def on(grid):
         ranks = int(np.prod([int(n) for n in grid.split()]))
         return run(replace(deck, processors=grid).restarted(file, body), ranks)
+
     return questions, on
 
 
@@ -72,20 +100,36 @@ def sweep(start, grids, table=None):
         questions, on = state_of(start)
         one = on("1 1 1")
         told = one.thermo()[-1]
-        require(told[C_STRESS["N_c"]].min() > 100 and told[C_STRESS["sliding"]].max() > 0.0, "too few contacts, or none that slides")
+        require(
+            told[C_STRESS["N_c"]].min() > 100 and told[C_STRESS["sliding"]].max() > 0.0,
+            "too few contacts, or none that slides",
+        )
         require(told[C_MEMORY["samples"]][-1] > 4 and told[F_PRESS["inputs"]][-1] > 3, "nothing was remembered")
-        require(np.ptp(told[F_PRESS["L_rate"]]) > 0.0 and np.ptp(told[F_PRESS["clipped"]]) == 0.0, "no input that is not clipped")
-        require((np.diff(told["xy"]).min() < 0.0) == start.flips, f"tilts {told['xy']}: the box was to turn back: {start.flips}")
+        require(
+            np.ptp(told[F_PRESS["L_rate"]]) > 0.0 and np.ptp(told[F_PRESS["clipped"]]) == 0.0,
+            "no input that is not clipped",
+        )
+        require(
+            (np.diff(told["xy"]).min() < 0.0) == start.flips,
+            f"tilts {told['xy']}: the box was to turn back: {start.flips}",
+        )
         worst = Differences()
         for grid in grids:
             found = differences(questions, on(grid), one)
             name, value = max(found.items(), key=lambda item: item[1])
-            print(f"processors {grid}: worst {value:.2e} in {name}; {found.moved} bins differ by contacts on their edge", flush=True)
+            print(
+                f"processors {grid}: worst {value:.2e} in {name}; {found.moved} bins differ by contacts on their edge",
+                flush=True,
+            )
             for quantity, difference in found.items():
-                require(difference <= start.tolerance, f"processors {grid}: {quantity} differs by {difference:.3e} of its scale")
+                require(
+                    difference <= start.tolerance,
+                    f"processors {grid}: {quantity} differs by {difference:.3e} of its scale",
+                )
             require(found.moved <= 4 * (STEPS + 1), f"processors {grid}: {found.moved} bins differ")
             worst.merge(found)
         return worst
+
     return case
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The same state on 1, 2 and 4 ranks gives the same measures; ranks and groups may be empty; the host's stress/atom agrees."""
+"""The same state on 1, 2 and 4 ranks gives the same measures; ranks and groups may be empty; the host's stress/atom
+agrees."""
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +13,8 @@ from run import run
 
 C_S = outputs("stress/contact").of("s")
 
-# Sums in another order; for non-spheres the host's solver, stopped at about 1e-7, sees a contact from one side or the other.
+# Sums in another order; for non-spheres the host's solver, stopped at about 1e-7, sees a contact from one side or the
+# other.
 SUMS, SOLVER = 1e-10, 2e-6
 COMMANDS = ("stress/contact", "dissipation mode instantaneous", "dissipation mode step", "nematic")
 
@@ -53,6 +55,7 @@ def same_on(deck, tolerance, group_lines=(), group="all"):
         require(one[0][0] != 0.0, "the state has no stress")
         for a, b in zip(many, one):
             require_close(a, b, tolerance, f"{ranks} ranks against 1", max(float(np.abs(b).max()), 1e-12))
+
     return case
 
 
@@ -78,9 +81,14 @@ def empty_group(ranks):
 def stress_atom(deck):
     """The host's own tally, sum of stress/atom over the volume. Its xy entry is r_x F_y: our total yx."""
     sums = [f"compute sum{k} all reduce sum c_atoms[{k}]" for k in range(1, 7)]
-    body = [shear(0.02), "compute s all stress/contact", "compute atoms all stress/atom pair", *sums,
-            *thermo(50, "vol", *[f"c_sum{k}" for k in range(1, 7)],
-                    *(C_S[name] for name in ("sxx", "syy", "szz", "syx"))), "run 300"]
+    body = [
+        shear(0.02),
+        "compute s all stress/contact",
+        "compute atoms all stress/atom pair",
+        *sums,
+        *thermo(50, "vol", *[f"c_sum{k}" for k in range(1, 7)], *(C_S[name] for name in ("sxx", "syy", "szz", "syx"))),
+        "run 300",
+    ]
 
     def case(ranks):
         table = run(replace(deck, body=body), ranks).thermo()[0]
@@ -89,6 +97,7 @@ def stress_atom(deck):
         ours = np.stack([table[C_S[name]] for name in ("sxx", "syy", "szz", "syx")], axis=1)
         require_close(ours, host, SUMS, "stress/contact against stress/atom")
         require(np.abs(ours[1:, 3]).min() > 0.0, "no shear stress: nothing is proved about yx")
+
     return case
 
 
@@ -96,10 +105,15 @@ CASES = {
     "spheres": same_on(Deck(dense_packing(atom_style="sphere", speed=0.2)), SUMS),
     "spheroids": same_on(Deck(dense_packing(1.5, speed=0.2)), SOLVER),
     "oblate-grains": same_on(Deck(dense_packing(0.5, speed=0.2)), SOLVER),
-    **{f"ellipsoids-{name}": same_on(Deck(packing, surface="ellipsoid", processors=grid), SUMS) for name, packing, grid in (
-        ("0.33", dense_packing(0.33, speed=0.2), "1 4 1"), ("1.5", dense_packing(1.5, speed=0.2), "2 2 1"),
-        ("3", dense_packing(3.0, speed=0.2), "1 2 2"),
-        ("polydisperse", dense_packing(1.5, sizes=(0.5, 1.0, 1.5), overlap=-0.05, speed=0.2), "4 1 1"))},
+    **{
+        f"ellipsoids-{name}": same_on(Deck(packing, surface="ellipsoid", processors=grid), SUMS)
+        for name, packing, grid in (
+            ("0.33", dense_packing(0.33, speed=0.2), "1 4 1"),
+            ("1.5", dense_packing(1.5, speed=0.2), "2 2 1"),
+            ("3", dense_packing(3.0, speed=0.2), "1 2 2"),
+            ("polydisperse", dense_packing(1.5, sizes=(0.5, 1.0, 1.5), overlap=-0.05, speed=0.2), "4 1 1"),
+        )
+    },
     "subgroup": same_on(Deck(dense_packing(atom_style="sphere", speed=0.2)), SUMS, ["group some id 10:90"], "some"),
     "empty-ranks": empty_ranks,
     "empty-group": empty_group,

@@ -42,7 +42,9 @@ def everything_with_state(deck):
 def same_tables(found, expected, tolerance, scale=None, skip=()):
     for name, values in expected.items():
         if name not in skip:
-            require_close(found[name][-len(values):], values, tolerance, name, scale or max(1e-9, np.abs(values).max()))
+            require_close(
+                found[name][-len(values) :], values, tolerance, name, scale or max(1e-9, np.abs(values).max())
+            )
 
 
 def same_motion(one, other, packing):
@@ -58,19 +60,28 @@ def same_motion(one, other, packing):
 
 
 def split_is_neutral(packing, lines, surface="ellipsoid", **choices):
-    """`run 400; run 400` against `run 800`: lists are built once more, so forces are summed in another order; the packings are chaotic."""
+    """`run 400; run 400` against `run 800`: lists are built once more, so forces are summed in another order; the
+    packings are chaotic."""
+
     def case(ranks):
         deck = neutral(packing, surface, **choices)
         dump = dump_grains(packing, 800)
-        whole, parts = (run(replace(deck, body=[*lines, *dump, *runs]), ranks) for runs in (["run 800"], ["run 400", "run 100", "run 300"]))
+        whole, parts = (
+            run(replace(deck, body=[*lines, *dump, *runs]), ranks)
+            for runs in (["run 800"], ["run 400", "run 100", "run 300"])
+        )
         same_motion(whole, parts, packing)
+
     return case
 
 
 def host_split_is_not(ranks):
     """The reason for all this."""
     deck = replace(neutral(SPHEROIDS), extra="")
-    whole, parts = (run(replace(deck, body=[shear(RATE), *dump_grains(SPHEROIDS, 800), *runs]), ranks) for runs in (["run 800"], ["run 400", "run 400"]))
+    whole, parts = (
+        run(replace(deck, body=[shear(RATE), *dump_grains(SPHEROIDS, 800), *runs]), ranks)
+        for runs in (["run 800"], ["run 400", "run 400"])
+    )
     difference = np.abs(whole.dump("grains.dump")[-1][1]["vx"] - parts.dump("grains.dump")[-1][1]["vx"]).max()
     require(difference > 1e-4, f"the host's own set-up is neutral to {difference}: setup neutral can go")
 
@@ -79,12 +90,19 @@ def measures_go_on(ranks):
     """All that has state, over a split run and over one that is not: totals of the ledger too."""
     deck = neutral(tilted(SPHEROIDS, 0.495))
     lines, told = everything_with_state(deck)
-    whole, parts = (run(replace(deck, body=[*lines, *thermo(10, *told), *runs]), ranks).thermo() for runs in (["run 120"], ["run 60", "run 60"]))
+    whole, parts = (
+        run(replace(deck, body=[*lines, *thermo(10, *told), *runs]), ranks).thermo()
+        for runs in (["run 120"], ["run 60", "run 60"])
+    )
     expected, found = whole[0], parts[1]
     for name, values in expected.items():
         # A scale for what is nearly nothing: the turnover of the ledger, the residual being its rounding.
         ledger = name.startswith("c_ledger[")
-        scale = max(np.abs(expected[word]).max() for word in C_LEDGER.vector()[:C_LEDGER.own.at("residual")]) if ledger else max(1e-9, np.abs(values).max())
+        scale = (
+            max(np.abs(expected[word]).max() for word in C_LEDGER.vector()[: C_LEDGER.own.at("residual")])
+            if ledger
+            else max(1e-9, np.abs(values).max())
+        )
         if name == C_LEDGER["residual_relative"]:
             scale = 1.0
         require_close(found[name], values[6:], 1e-9, name, scale)
@@ -92,39 +110,58 @@ def measures_go_on(ranks):
 
 def changes_are_noticed(change, **choices):
     """Between two runs something is changed: forces are recomputed, exactly as the host does."""
+
     def case(ranks):
         # Without tangential damping, which `neutral` keeps to the friction limit there (first_evaluation.py).
         deck = neutral(SPHEROIDS, **choices)
         deck = replace(deck, extra=f"{deck.extra} tangential_damping off")
         dump = dump_grains(SPHEROIDS, 60)
         found = run(replace(deck, body=["run 30", *change, *dump, "run 30"]), ranks)
-        expected = run(replace(deck, extra="ledger on tangential_damping off", body=["run 30", *change, *dump, "run 30"]), ranks)
-        require_same_snapshots(found.dump("grains.dump"), expected.dump("grains.dump"), "after a change, against setup host")
+        expected = run(
+            replace(deck, extra="ledger on tangential_damping off", body=["run 30", *change, *dump, "run 30"]), ranks
+        )
+        require_same_snapshots(
+            found.dump("grains.dump"), expected.dump("grains.dump"), "after a change, against setup host"
+        )
         require("were changed since the last run" in found.output, "the run does not say so")
+
     return case
 
 
 def restart_is_exact(packing, surface="ellipsoid", extra="setup neutral ledger on"):
     """write_restart and on, against read_restart and on, with everything that has state: to the last bit."""
+
     def case(ranks):
         deck = Deck(packing, surface=surface, extra=extra)
         lines, told = everything_with_state(deck)
         rest = [*thermo(3, *told), *dump_grains(packing, 60), "run 60"]
-        through = run(replace(deck, body=[*lines, *thermo(1, *told), "run 45", "write_restart half.restart", *rest]), ranks)
+        through = run(
+            replace(deck, body=[*lines, *thermo(1, *told), "run 45", "write_restart half.restart", *rest]), ranks
+        )
         again = run(deck.restarted(through.folder / "half.restart", [*lines, *rest]), ranks)
         expected, found = through.thermo()[-1], again.thermo()[-1]
         require(expected[C_MEMORY["samples"]][-1] > 5 and expected[F_PRESS["inputs"]][-1] > 2, "nothing was measured")
-        first = 0 if "neutral" in extra else 1  # by the host's custom the first row of a run tells of forces formed anew
+        first = (
+            0 if "neutral" in extra else 1
+        )  # by the host's custom the first row of a run tells of forces formed anew
         same_tables({k: v[first:] for k, v in found.items()}, {k: v[first:] for k, v in expected.items()}, 0.0, 1.0)
-        require_same_snapshots(again.dump("grains.dump")[-1:], through.dump("grains.dump")[-1:], "restarted against write and go on")
+        require_same_snapshots(
+            again.dump("grains.dump")[-1:], through.dump("grains.dump")[-1:], "restarted against write and go on"
+        )
+
     return case
 
 
 def long_deck(packing, steps, every, ranks):
     deck = neutral(packing, processors=f"{ranks} 1 1")  # the host would choose a grid for the box that it finds
     lines, _ = everything_with_state(deck)
-    end = [*dump_grains(packing, steps), f"restart {every} {' '.join(FILES)}", "thermo 10", FLUSHED,
-           f"run {steps} upto"]
+    end = [
+        *dump_grains(packing, steps),
+        f"restart {every} {' '.join(FILES)}",
+        "thermo 10",
+        FLUSHED,
+        f"run {steps} upto",
+    ]
     return replace(deck, body=[*lines, *end]), deck.restarted(" ".join(FILES), [*lines, *end])
 
 
@@ -135,8 +172,9 @@ def kill_after(under_way, rows):
 
 
 def killed_and_resumed(packing, times, steps=3000, every=150):
-    """SIGKILL at `times` random moments, each run resumed from the newer of its two restart files that is whole: the same final state, to the last
-    bit, as a run that was left alone and wrote the same files."""
+    """SIGKILL at `times` random moments, each run resumed from the newer of its two restart files that is whole: the
+    same final state, to the last bit, as a run that was left alone and wrote the same files."""
+
     def case(ranks):
         fresh, resumed = long_deck(packing, steps, every, ranks)
         reference = run(fresh, ranks).dump("grains.dump")[-1:]
@@ -159,17 +197,26 @@ def killed_and_resumed(packing, times, steps=3000, every=150):
                     deck, result = fresh, None  # killed while it wrote its first restart file: there is no other
             require(result.code == 0, f"the run ended with code {result.code}: {result.output[-1000:]}")
             require_same_snapshots(result.dump("grains.dump")[-1:], reference, f"after {kills} kills")
+
     return case
 
 
 def stopped_by(number, to_one_rank=False):
-    """A cluster's time limit: all ranks stop in the same step, files end with a whole line, and the restart that is left goes on to the same state."""
+    """A cluster's time limit: all ranks stop in the same step, files end with a whole line, and the restart that is
+    left goes on to the same state."""
+
     def case(ranks):
-        steps = 100_000_000     # the signal is what ends it
+        steps = 100_000_000  # the signal is what ends it
         deck = neutral(SPHERES)
         lines, told = everything_with_state(deck)
-        body = [*lines, *thermo(10, *told), FLUSHED,
-                f"fix means all ave/time 1 1 1 {F_PRESS['strain']} {C_STRESS['sxx']} file means.txt", f"run {steps} upto", "print 'went on'"]
+        body = [
+            *lines,
+            *thermo(10, *told),
+            FLUSHED,
+            f"fix means all ave/time 1 1 1 {F_PRESS['strain']} {C_STRESS['sxx']} file means.txt",
+            f"run {steps} upto",
+            "print 'went on'",
+        ]
         body.insert(len(lines), "compute stress all stress/contact")
         under_way = Started(replace(deck, body=body), ranks)
         wait_for_steps(under_way)
@@ -186,24 +233,32 @@ def stopped_by(number, to_one_rank=False):
         at = int(left[0].name.split("_")[-1].split(".")[0])
         require(0 < at < steps, f"stopped at step {at}")
         means = (result.folder / "means.txt").read_text()
-        require(means.endswith("\n") and int(means.splitlines()[-1].split()[0]) == at, f"the table of means ends: {means[-200:]}")
+        require(
+            means.endswith("\n") and int(means.splitlines()[-1].split()[0]) == at,
+            f"the table of means ends: {means[-200:]}",
+        )
         rest = [*lines, *dump_grains(SPHERES, at + 20), f"run {at + 20} upto"]
         again = run(deck.restarted(left[0], rest), ranks)
         whole = run(replace(deck, body=[*lines, *dump_grains(SPHERES, at + 20), f"run {at + 20} upto"]), ranks)
         same_motion(again, whole, SPHERES)  # the forced restart builds a list that the other run does not
+
     return case
 
 
 def stopped_between_short_runs(ranks):
     """A deck that loops over `run 1`: the last step of each is as good as any."""
-    deck = replace(neutral(SPHERES), body=[FLUSHED, "variable i loop 100000000", "label again", "run 1 post no", "next i",
-                                           "jump SELF again"])
+    deck = replace(
+        neutral(SPHERES),
+        body=[FLUSHED, "variable i loop 100000000", "label again", "run 1 post no", "next i", "jump SELF again"],
+    )
     under_way = Started(deck, ranks)
     wait_for_steps(under_way)
     for pid in under_way.ranks():
         os.kill(pid, signal.SIGTERM)
     result = under_way.end()
-    require(result.code == 0 and len(list(result.folder.glob("restart_forced_liggghts_*.data"))) == 1, result.output[-1000:])
+    require(
+        result.code == 0 and len(list(result.folder.glob("restart_forced_liggghts_*.data"))) == 1, result.output[-1000:]
+    )
 
 
 GRAVITY = "fix gravity all gravity 9.81 vector 0 -1 0"

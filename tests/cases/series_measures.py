@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""displacement/shear and velocity/memory against the oracle, which reads the same series from dumps with image flags."""
+"""displacement/shear and velocity/memory against the oracle, which reads the same series from dumps with image
+flags."""
 from dataclasses import replace
 
 import numpy as np
@@ -10,11 +11,12 @@ from deck import Deck, number
 from oracle import comparison_motion as comparison
 from oracle import correlation, motion
 from packing import dense_packing, tilted
-from watch import Flow, Watched, deforming, image_of, pressed, watch
+from watch import Watched, deforming, image_of, pressed, watch
 
 F_FLOW = outputs("press/strain").of("flow")
 
-# Sums of some hundred terms in double precision; squares of displacements of 1e-3 grains, differences of positions of 10.
+# Sums of some hundred terms in double precision; squares of displacements of 1e-3 grains, differences of positions of
+# 10.
 EXACT, DISPLACED = 1e-10, 1e-9
 LAGS = 8
 FLOWS = {"box": ("box",), "fit": ("fit",), "layers 4": ("layers", 4)}
@@ -24,8 +26,16 @@ EVERY, STEPS = 1, 100
 
 def memories(every, strain, plane):
     names = ("vy", "vx", "wz")
-    return {Watched(f"memory{k}", f"velocity/memory component {name} every {number(every)} lags {LAGS} flow {words} plane {plane}{strain}",
-                    True, 3, (LAGS + 1, 4)): (name, flow) for k, (name, (words, flow)) in enumerate(zip(names, FLOWS.items()))}
+    return {
+        Watched(
+            f"memory{k}",
+            f"velocity/memory component {name} every {number(every)} lags {LAGS} flow {words} plane {plane}{strain}",
+            True,
+            3,
+            (LAGS + 1, 4),
+        ): (name, flow)
+        for k, (name, (words, flow)) in enumerate(zip(names, FLOWS.items()))
+    }
 
 
 def require_agreement(compared, tolerance, when):
@@ -40,18 +50,26 @@ def check_displacement(watched, moments, strains, plane):
         vector = moment.vector(watched)
         require_close(moment.scalar(watched), vector[2], 0.0, "displacement scalar", 1.0)
         if k in (0, 1, 2, len(moments) // 2, len(moments) - 1):
-            require_agreement(comparison.of_displacement(vector, calls[:k + 1], plane), DISPLACED, f"step {moment.step}")
+            require_agreement(
+                comparison.of_displacement(vector, calls[: k + 1], plane), DISPLACED, f"step {moment.step}"
+            )
 
 
 def check_memory(watched, name, flow, moments, strains, plane, every):
     """The samples are taken by calls, every `every` of strain."""
     taken = correlation.samples_of(strains, every)
     require(len(taken) > LAGS, f"only {len(taken)} samples")
-    samples = [correlation.component(*motion.of_group(m.grains, m.chosen, m.box, flow, plane), name) for m in (moments[k] for k in taken)]
+    samples = [
+        correlation.component(*motion.of_group(m.grains, m.chosen, m.box, flow, plane), name)
+        for m in (moments[k] for k in taken)
+    ]
     vector = moments[-1].vector(watched)
     require_close(moments[-1].scalar(watched), vector[0], 0.0, "memory scalar", 1.0)
-    require_agreement(comparison.of_memory(vector, moments[-1].array(watched), samples, [strains[k] for k in taken], LAGS),
-                      EXACT, watched.command)
+    require_agreement(
+        comparison.of_memory(vector, moments[-1].array(watched), samples, [strains[k] for k in taken], LAGS),
+        EXACT,
+        watched.command,
+    )
 
 
 def agrees(deck, flow, plane="xy", group="all", check=None):
@@ -64,14 +82,25 @@ def agrees(deck, flow, plane="xy", group="all", check=None):
     def case(ranks):
         displacement = Watched("moved", f"displacement/shear{words}", True, 8)
         kept = memories(abs(every), words, plane)
-        moments = watch(replace(deck, body=body), [displacement, *kept], flow, ranks, group, steps=STEPS, every=EVERY, told=EVERY,
-                        contacts=False, extra=(told,))
+        moments = watch(
+            replace(deck, body=body),
+            [displacement, *kept],
+            flow,
+            ranks,
+            group,
+            steps=STEPS,
+            every=EVERY,
+            told=EVERY,
+            contacts=False,
+            extra=(told,),
+        )
         strains = [m.told[told] for m in moments]
         check_displacement(displacement, moments, strains, axes)
         for watched, (name, kind) in kept.items():
             check_memory(watched, name, kind, moments, strains, axes, abs(every))
         if check:
             check(moments)
+
     return case
 
 
@@ -97,7 +126,9 @@ CASES = {
     "backward": agrees(near_the_flip(1.0, -1.0, atom_style="sphere"), deforming(-0.2), check=flipped),
     "spheroids": agrees(near_the_flip(1.5), deforming(0.2), check=flipped),
     "under-pressure-control": agrees(near_the_flip(1.0, atom_style="sphere"), pressed(0.2, 3e5), check=length_moved),
-    "backward-under-pressure-control": agrees(near_the_flip(1.0, -1.0, atom_style="sphere"), pressed(-0.2, 3e5), check=length_moved),
+    "backward-under-pressure-control": agrees(
+        near_the_flip(1.0, -1.0, atom_style="sphere"), pressed(-0.2, 3e5), check=length_moved
+    ),
     "sheared-in-yz": agrees(Deck(SPHERES), deforming(0.2, (1, 2)), "yz"),
     "subgroup": agrees(near_the_flip(1.0, atom_style="sphere"), deforming(0.2), group="20:80", check=flipped),
 }

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The same grains with other numbers, in another order in memory, in other lists of neighbours: the same results but for rounding."""
+"""The same grains with other numbers, in another order in memory, in other lists of neighbours: the same results but
+for rounding."""
 from dataclasses import replace
 
 import numpy as np
@@ -11,10 +12,12 @@ from packing import dense_packing, tilted
 from run import run
 
 STEPS, EVERY = 100, 20
-# On the same state: sums in another order, see rank_sweep.py. A packing of colliding grains parts from its twin by a factor of a hundred or so in a
-# hundred steps: 3e-12 was seen at the worst, single grains' forces and mobilisations first. 300 times that for other seeds and processors.
+# On the same state: sums in another order, see rank_sweep.py. A packing of colliding grains parts from its twin by a
+# factor of a hundred or so in a hundred steps: 3e-12 was seen at the worst, single grains' forces and mobilisations
+# first. 300 times that for other seeds and processors.
 SUMS, GROWN = 1e-10, 1e-9
-# The host's solver of superquadrics, stopped at 1e-7, sees a contact from its first grain or its second: see rank_sweep.py. This grows likewise.
+# The host's solver of superquadrics, stopped at 1e-7, sees a contact from its first grain or its second: see
+# rank_sweep.py. This grows likewise.
 SOLVER, SOLVER_GROWN = 1e-3, 1e-1
 
 ORDERS = {
@@ -30,7 +33,15 @@ ORDERS = {
 def body(packing, before=(), settle=0):
     turn = ["unfix integrate", "fix integrate all nve/spheroid"] if packing.atom_style != "sphere" else []
     questions = Questions(packing)
-    return questions, [*before, *turn, press(2e5), f"run {settle}", *questions.defined(), *questions.output(EVERY), f"run {STEPS}"]
+    return questions, [
+        *before,
+        *turn,
+        press(2e5),
+        f"run {settle}",
+        *questions.defined(),
+        *questions.output(EVERY),
+        f"run {STEPS}",
+    ]
 
 
 def require_alike(name, questions, found, expected, tolerances, numbers=None):
@@ -42,12 +53,16 @@ def require_alike(name, questions, found, expected, tolerances, numbers=None):
 
 
 def shuffled(packing, surface, tolerances):
-    """From creation: the grains in another order, so with other numbers. From a restart file, in the midst of the flow: other orders."""
+    """From creation: the grains in another order, so with other numbers. From a restart file, in the midst of the flow:
+    other orders."""
+
     def case(ranks):
         deck = Deck(packing, surface=surface, extra="ledger on tangential_damping off")
         order = np.random.default_rng(11).permutation(len(packing.grains))
         other = replace(packing, grains=[packing.grains[k] for k in order])
-        questions, lines = body(packing, ["atom_modify sort 0 0"], 10)  # ten steps make springs: of nothing but rounding there is no scale
+        questions, lines = body(
+            packing, ["atom_modify sort 0 0"], 10
+        )  # ten steps make springs: of nothing but rounding there is no scale
         expected = run(replace(deck, body=lines))
         found = run(replace(deck, packing=other, body=lines), ranks)
         require_alike("other numbers", questions, found, expected, tolerances, order + 1.0)
@@ -57,6 +72,7 @@ def shuffled(packing, surface, tolerances):
         for name, before in ORDERS.items():
             found = run(deck.restarted(saved, body(packing, before)[1]), ranks)
             require_alike(name, questions, found, expected, tolerances)
+
     return case
 
 

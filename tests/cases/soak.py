@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A small sheared packing at held pressure for very many steps, everything measured now and then and restart files written: memory stays
-flat, the ledger closed, the pressure held."""
+"""A small sheared packing at held pressure for very many steps, everything measured now and then and restart files
+written: memory stays flat, the ledger closed, the pressure held."""
 from dataclasses import replace
 
 import numpy as np
@@ -22,9 +22,15 @@ C_STRESS = outputs("stress/contact").of("stress")
 F_PRESS = outputs("press/strain").of("press")
 
 RATE, TARGET = 0.02, 2e4
-MORE = [Watched("stress", "stress/contact", True, 35), Watched("power", "dissipation", True, 5),
-        Watched("step", "dissipation mode step", True, 5), Watched("booked", "dissipation mode ledger", True, 5),
-        Watched("order", "nematic", True, 20), Watched("e", "energy/ledger", True, 37), Watched("solver", "contact/solver", True, 6)]
+MORE = [
+    Watched("stress", "stress/contact", True, 35),
+    Watched("power", "dissipation", True, 5),
+    Watched("step", "dissipation mode step", True, 5),
+    Watched("booked", "dissipation mode ledger", True, 5),
+    Watched("order", "nematic", True, 20),
+    Watched("e", "energy/ledger", True, 37),
+    Watched("solver", "contact/solver", True, 6),
+]
 
 
 def measures(packing):
@@ -40,14 +46,19 @@ def soaked(packing, steps, chunk, every):
         deck.body = ["unfix integrate", "fix integrate all nve/spheroid"]
     computes = measures(packing)
     asked = [q for w in computes for q in w.columns()]
-    deck.body += [f"fix press all press/strain axis y target {TARGET} shear xy rate {RATE} every 1e-3",
-                  *(w.define("all") for w in computes), "compute rows all contact/local", f"compute largest all reduce max {C_ROWS['normal_z']} {C_GRAIN['N_c']}",
-                  *thermo(every, F_PRESS["strain"], "f_press", *asked, "c_largest[1]", "c_largest[2]"),
-                  f"fix means all ave/time {every // 20} 10 {every} f_press {C_E['residual']} {C_STRESS['P']} {C_FABRIC['angle']} {C_MOVING['E_ratio']} file means.txt",
-                  f"fix curve all ave/time {every // 2} 1 {every} c_direct mode vector file curve.txt",
-                  f"dump rows all local {chunk} rows.dump {C_ROWS['id_i']} {C_ROWS['id_j']} {C_ROWS['overlap']}",
-                  f"dump grains all custom {chunk} grains.dump id x y z {C_GRAIN['N_c']} {C_GRAIN['P_t']}",
-                  f"restart {chunk // 2} soak.a.restart soak.b.restart"]
+    deck.body += [
+        f"fix press all press/strain axis y target {TARGET} shear xy rate {RATE} every 1e-3",
+        *(w.define("all") for w in computes),
+        "compute rows all contact/local",
+        f"compute largest all reduce max {C_ROWS['normal_z']} {C_GRAIN['N_c']}",
+        *thermo(every, F_PRESS["strain"], "f_press", *asked, "c_largest[1]", "c_largest[2]"),
+        f"fix means all ave/time {every // 20} 10 {every} f_press {C_E['residual']} {C_STRESS['P']} "
+        f"{C_FABRIC['angle']} {C_MOVING['E_ratio']} file means.txt",
+        f"fix curve all ave/time {every // 2} 1 {every} c_direct mode vector file curve.txt",
+        f"dump rows all local {chunk} rows.dump {C_ROWS['id_i']} {C_ROWS['id_j']} {C_ROWS['overlap']}",
+        f"dump grains all custom {chunk} grains.dump id x y z {C_GRAIN['N_c']} {C_GRAIN['P_t']}",
+        f"restart {chunk // 2} soak.a.restart soak.b.restart",
+    ]
     deck.body += [f"run {chunk}", NOTED] * (steps // chunk)
     return deck
 
@@ -60,15 +71,18 @@ def soak(packing, steps, chunk, every):
         last = result.thermo()[-1]
         require(all(np.isfinite(v).all() for v in last.values()), "a measure is not finite")
         # Lists and the measures' bins have found their largest size in the first tenth.
-        require_flat(kilobytes[len(kilobytes) // 10:], 512.0, f"{len(packing.grains)} grains, {length} steps")
+        require_flat(kilobytes[len(kilobytes) // 10 :], 512.0, f"{len(packing.grains)} grains, {length} steps")
         require_close(last[F_PRESS["strain"]][-1], RATE * length * deck.dt(), 1e-9, "strain")
         # A residual is a sum of `steps` rounding errors of 1e-16 of energies up to 1e3 times what was lost in a step.
         require(last["c_e"][-1] < 1e-9, f"the ledger's residual is {last['c_e'][-1]} of the losses")
         means = result.averages("means.txt")["f_press"]
         # Some 100 grains: the pressure of an instant swings by a tenth or so, its mean over the second half does not.
-        require_close(means[len(means) // 2:].mean(), TARGET, 0.05, "mean pressure")
-        print(f"residual {last['c_e'][-1]:.2e} of the losses; strain {last[F_PRESS['strain']][-1]:.3f}; mean pressure "
-              f"{means[len(means) // 2:].mean():.0f}")
+        require_close(means[len(means) // 2 :].mean(), TARGET, 0.05, "mean pressure")
+        print(
+            f"residual {last['c_e'][-1]:.2e} of the losses; strain {last[F_PRESS['strain']][-1]:.3f}; mean pressure "
+            f"{means[len(means) // 2:].mean():.0f}"
+        )
+
     return case
 
 

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Cohesion sjkr and sjkr2 of ellipsoids: LIGGGHTS takes their contact area from the distance of the centres and the radii of spheres; surface ellipsoid
-gives it the contact's own overlap and effective radius. Forces of two grains at rest against A = pi (radius of the circle in which two spheres of
-that overlap and effective radius meet)^2, which is 2 pi R* delta to first order, and against Hertz."""
+"""Cohesion sjkr and sjkr2 of ellipsoids: LIGGGHTS takes their contact area from the distance of the centres and the
+radii of spheres; surface ellipsoid gives it the contact's own overlap and effective radius. Forces of two grains at
+rest against A = pi (radius of the circle in which two spheres of that overlap and effective radius meet)^2, which is 2
+pi R* delta to first order, and against Hertz."""
 from dataclasses import replace
 import math
 
@@ -13,7 +14,7 @@ from ellipsoid_walls import run_in_folder_with_floor
 from packing import Grain, Packing
 from run import run
 
-A, C = 1.0, 1.5              # semi-axes
+A, C = 1.0, 1.5  # semi-axes
 OVERLAP = 1e-3
 ENERGY = 1e5
 TURNED = (math.sqrt(0.5), 0.0, math.sqrt(0.5), 0.0)  # body z along x
@@ -24,9 +25,12 @@ ROUNDING = 1e-11
 
 
 def pair(first, second):
-    """Two grains along x with that overlap: (semi-axes, quaternion, half-width along x) each, their contact at the origin."""
-    grains = [Grain((side * (width - 0.5 * OVERLAP), 0.0, 0.0), axes, quaternion)
-              for side, (axes, quaternion, width) in zip((-1, 1), (first, second))]
+    """Two grains along x with that overlap: (semi-axes, quaternion, half-width along x) each, their contact at the
+    origin."""
+    grains = [
+        Grain((side * (width - 0.5 * OVERLAP), 0.0, 0.0), axes, quaternion)
+        for side, (axes, quaternion, width) in zip((-1, 1), (first, second))
+    ]
     return Packing((24.0, 24.0, 24.0), grains, origin=(-12.0, -12.0, -12.0), triclinic=False)
 
 
@@ -49,18 +53,24 @@ def area(model, r1, r2):
     if model == "sjkr2":
         return 2.0 * math.pi * 2.0 * r1 * r2 / (r1 + r2) * OVERLAP
     distance = r1 + r2 - OVERLAP
-    height = (distance ** 2 + r1 ** 2 - r2 ** 2) / (2.0 * distance)
-    return math.pi * (r1 ** 2 - height ** 2)
+    height = (distance**2 + r1**2 - r2**2) / (2.0 * distance)
+    return math.pi * (r1**2 - height**2)
 
 
-def hertz(effective, modulus=0.5 * YOUNG / (1 - POISSON ** 2)):
+def hertz(effective, modulus=0.5 * YOUNG / (1 - POISSON**2)):
     return 4.0 / 3.0 * modulus * math.sqrt(effective * OVERLAP) * OVERLAP
 
 
 def at_rest(packing, *body, **choices):
     choices.setdefault("surface", "ellipsoid")
-    return Deck(packing, boundary="f f f", material=Material(cohesion=(ENERGY,)), contact_distance_factor=1.05,
-                body=[*body, *dump_grains(packing, 1), "run 0"], **choices)
+    return Deck(
+        packing,
+        boundary="f f f",
+        material=Material(cohesion=(ENERGY,)),
+        contact_distance_factor=1.05,
+        body=[*body, *dump_grains(packing, 1), "run 0"],
+        **choices,
+    )
 
 
 def force(deck, ranks):
@@ -71,7 +81,9 @@ def force(deck, ranks):
 
 
 def attracts(first, second, radius=radius_of_volume, cohesion="sjkr", **choices):
-    """`radius`: what the effective radius R* of the two grains is made of. Spheres that are lent have it, in the ratio of those of equal volume."""
+    """`radius`: what the effective radius R* of the two grains is made of. Spheres that are lent have it, in the ratio
+    of those of equal volume."""
+
     def case(ranks):
         found = force(at_rest(pair(first, second), cohesion=cohesion, **choices), ranks)
         r1, r2 = radius_of_volume(first), radius_of_volume(second)
@@ -84,34 +96,46 @@ def attracts(first, second, radius=radius_of_volume, cohesion="sjkr", **choices)
         # Two spheres lack a share below OVERLAP/R* of the area to first order.
         require_close(cohesive, first_order, OVERLAP / effective, "cohesion to first order")
         require(found < 0.0, "the grains repel each other")
+
     return case
 
 
 def of_the_host(packing, **choices):
-    """Spheres: the host's own, to the last bit of atom_style sphere where that is the same arithmetic, here to rounding; softened ones too."""
+    """Spheres: the host's own, to the last bit of atom_style sphere where that is the same arithmetic, here to
+    rounding; softened ones too."""
+
     def case(ranks):
         r1, r2 = (g.semi_axes[0] for g in packing.grains)
         effective = r1 * r2 / (r1 + r2)
         limit = float(choices["extra"].split()[-1]) if "extra" in choices else 1.0
         found = force(at_rest(packing, cohesion="sjkr", **choices), ranks)
         require_close(found, hertz(limit * effective) - ENERGY * area("sjkr", r1, r2), ROUNDING, "force", ENERGY)
+
     return case
 
 
 def sticks_to(wall, shape, quaternion, height, radius, extra=""):
     """One grain on the floor: A = pi (2 R d - d^2), R the radius that Hertz takes."""
+
     def case(ranks):
         grain = Grain((0.3, 0.2, height - OVERLAP), shape, quaternion)
         packing = Packing((24.0, 24.0, 24.0), [grain], origin=(-12.0, -12.0, -12.0), triclinic=False)
         deck = at_rest(packing, cohesion="sjkr")
         model = f"fix wall all wall/gran {deck.model()}"
-        walls = {"plane": [f"{model} primitive type 1 zplane 0.0 {extra}"],
-                 "mesh": ["fix floor all mesh/surface file floor.stl type 1", f"{model} mesh n_meshes 1 meshes floor {extra}"]}[wall]
+        walls = {
+            "plane": [f"{model} primitive type 1 zplane 0.0 {extra}"],
+            "mesh": [
+                "fix floor all mesh/surface file floor.stl type 1",
+                f"{model} mesh n_meshes 1 meshes floor {extra}",
+            ],
+        }[wall]
         deck.body = [*walls, *deck.body]
         found = run_in_folder_with_floor(deck, ranks).dump("grains.dump")[0][1]["fz"][0]
-        # E* of two bodies of one material; the host's contact of a superquadric with a wall stops at about 1e-6 of a semi-axis.
-        expected = hertz(radius) - ENERGY * math.pi * (2.0 * radius * OVERLAP - OVERLAP ** 2)
+        # E* of two bodies of one material; the host's contact of a superquadric with a wall stops at about 1e-6 of a
+        # semi-axis.
+        expected = hertz(radius) - ENERGY * math.pi * (2.0 * radius * OVERLAP - OVERLAP**2)
         require_close(found, expected, 1e-3, "force of the wall", abs(expected))
+
     return case
 
 
@@ -128,9 +152,14 @@ def superquadrics(ranks):
     require(adhesive.count(WARNING) == 1 and "'model edinburgh'" in adhesive, "did not warn of edinburgh")
 
 
-ADHESION = {"coefficientAdhesionStiffness": "peratomtypepair 1 0.5", "UnloadingStiffness": "peratomtypepair 1 5.0",
-            "pullOffForce": "peratomtypepair 1 0.0", "surfaceEnergy": "peratomtypepair 1 2e3",
-            "overlapExponent": "scalar 1.5", "adhesionExponent": "scalar 1.5"}
+ADHESION = {
+    "coefficientAdhesionStiffness": "peratomtypepair 1 0.5",
+    "UnloadingStiffness": "peratomtypepair 1 5.0",
+    "pullOffForce": "peratomtypepair 1 0.0",
+    "surfaceEnergy": "peratomtypepair 1 2e3",
+    "overlapExponent": "scalar 1.5",
+    "adhesionExponent": "scalar 1.5",
+}
 
 
 def with_adhesion(deck):
@@ -142,7 +171,9 @@ def with_adhesion(deck):
 
 
 def as_spheres_of_equal_volume(**choices):
-    """Pole to pole, head on: spheres under the host's own surface of that volume and overlap exert the same forces, in every step."""
+    """Pole to pole, head on: spheres under the host's own surface of that volume and overlap exert the same forces, in
+    every step."""
+
     def case(ranks):
         radius = float(radius_of_volume(POLE))
         forces = []
@@ -157,6 +188,7 @@ def as_spheres_of_equal_volume(**choices):
         require(np.isfinite(forces[1]).all() and np.ptp(forces[1]) > 100.0, "nothing happened")
         # 400 steps of rounding.
         require_close(forces[0], forces[1], 1e-8, "force")
+
     return case
 
 

@@ -26,9 +26,20 @@ def law_of(deck):
         return np.array(values if len(values) == types * types else values * (types * types)).reshape(types, types)
 
     young = np.array(deck.material.young if len(deck.material.young) == types else deck.material.young * types)
-    return Law(young, POISSON, pairs(deck.material.restitution), pairs(deck.material.friction), deck.dt(), deck.tangential,
-               "tangential_damping off" not in deck.extra, "limitForce on" in deck.extra, deck.cohesion, pairs(deck.material.cohesion),
-               "tangential_reduce on" in deck.extra, "setup neutral" in deck.extra)
+    return Law(
+        young,
+        POISSON,
+        pairs(deck.material.restitution),
+        pairs(deck.material.friction),
+        deck.dt(),
+        deck.tangential,
+        "tangential_damping off" not in deck.extra,
+        "limitForce on" in deck.extra,
+        deck.cohesion,
+        pairs(deck.material.cohesion),
+        "tangential_reduce on" in deck.extra,
+        "setup neutral" in deck.extra,
+    )
 
 
 def ordered(rows):
@@ -39,9 +50,17 @@ def ordered(rows):
 def follows_the_law(deck, motion, box_at):
     """`motion`: the fix that moves the box; `box_at(table, step)`: the box that the force evaluation of a step saw."""
     quantities = [word for ID in ("now", "loss") for word in outputs("dissipation").of(ID).vector()]
-    deck = replace(deck, body=[*motion, "compute rows all contact/local", "compute now all dissipation mode instantaneous",
-                               "compute loss all dissipation", *dump_grains(deck.packing, 1),
-                               *dump_local("rows", ROW_WIDTH, 1, "rows")])
+    deck = replace(
+        deck,
+        body=[
+            *motion,
+            "compute rows all contact/local",
+            "compute now all dissipation mode instantaneous",
+            "compute loss all dissipation",
+            *dump_grains(deck.packing, 1),
+            *dump_local("rows", ROW_WIDTH, 1, "rows"),
+        ],
+    )
     columns = [*box_columns(), *quantities, *([F_PRESS["L_rate"]] if "press" in motion[0] else [])]
     deck.body += [*thermo(1, *columns), f"run {STEPS}"]
 
@@ -53,9 +72,11 @@ def follows_the_law(deck, motion, box_at):
             check_rows(rows_of(dumped, "rows"), expected, step)
             check_powers(expected, [table[q][step] for q in quantities], deck.dt(), step)
             slid += int(expected["sliding"].sum())
-        require(F_PRESS["L_rate"] not in table or np.ptp(table[F_PRESS["L_rate"]]) > 0.01,
-                "the box length did not change")
+        require(
+            F_PRESS["L_rate"] not in table or np.ptp(table[F_PRESS["L_rate"]]) > 0.01, "the box length did not change"
+        )
         require(deck.tangential == "off" or slid > STEPS, f"only {slid} sliding contacts")
+
     return case
 
 
@@ -63,9 +84,15 @@ def check_rows(found, expected, step):
     require(np.array_equal(found["id"], expected["id"]), f"step {step}: other contacts")
     force = float(np.abs(expected["force"]).max())
     speed = float(max(np.abs(expected["ut"]).max(), np.abs(expected["un"]).max()))
-    scales = {"sliding": 1.0, "slip": 1e-3, "overlap": 1.0, "ut": speed, "un": speed,
-              "mobilisation": max(1.0, float(expected["mobilisation"].max())),  # over a limit that may be nearly 0
-              **{name: force for name in ("ft", "fn_damping", "fn", "force")}}
+    scales = {
+        "sliding": 1.0,
+        "slip": 1e-3,
+        "overlap": 1.0,
+        "ut": speed,
+        "un": speed,
+        "mobilisation": max(1.0, float(expected["mobilisation"].max())),  # over a limit that may be nearly 0
+        **{name: force for name in ("ft", "fn_damping", "fn", "force")},
+    }
     for name in expected.keys() & found.keys():
         require_close(found[name], expected[name], TOLERANCE, f"step {step}: {name}", scales.get(name))
 
@@ -76,7 +103,9 @@ def in_simple_shear(deck, rate=0.03):
 
 def under_control(deck, rate=0.03):
     """Sheared, compressed and driven by fix press/strain: images move with both rates."""
-    motion = [f"fix press all press/strain axis y target 3e5 shear xy rate {rate} every 1e-3 gain 2e-6 maxrate 10 limit 0.05"]
+    motion = [
+        f"fix press all press/strain axis y target 3e5 shear xy rate {rate} every 1e-3 gain 2e-6 maxrate 10 limit 0.05"
+    ]
 
     def box_at(table, step):
         before = max(step - 1, 0)
@@ -102,26 +131,35 @@ def spheres(**choices):
     return Deck(packing, **choices)
 
 
-TWO_TYPES = {"packing": dense_packing(atom_style="sphere", minimum=60, types=2, sizes=(0.9, 1.0, 1.1), overlap=0.053, speed=0.8),
-             "material": Material(young=(5e6, 2e7), restitution=(0.3, 0.5, 0.5, 0.8), friction=(0.05, 0.2, 0.2, 0.9))}
+TWO_TYPES = {
+    "packing": dense_packing(atom_style="sphere", minimum=60, types=2, sizes=(0.9, 1.0, 1.1), overlap=0.053, speed=0.8),
+    "material": Material(young=(5e6, 2e7), restitution=(0.3, 0.5, 0.5, 0.8), friction=(0.05, 0.2, 0.2, 0.9)),
+}
 STICKY = Material(cohesion=(1e5,))  # about as strong as the repulsion
-CASES = {name: in_simple_shear(spheres(**choices)) for name, choices in {
-    "history": {},
-    "history-undamped": {"extra": "tangential_damping off"},
-    "no-history": {"tangential": "no_history"},
-    "frictionless": {"tangential": "off"},
-    "limit-force": {"extra": "limitForce on", "material": Material(restitution=(0.1,))},
-    "slippery": {"material": Material(friction=(0.01,), restitution=(0.1,))},
-    "two-types": TWO_TYPES,
-    "sjkr": {"cohesion": "sjkr", "material": STICKY},
-    "sjkr2": {"cohesion": "sjkr2", "material": STICKY},
-    "sjkr-reduces-friction": {"cohesion": "sjkr", "material": STICKY, "extra": "tangential_reduce on"},
-    "sjkr-no-history": {"cohesion": "sjkr", "material": STICKY, "tangential": "no_history"},
-    "sjkr-limit-force": {"cohesion": "sjkr", "material": replace(STICKY, restitution=(0.1,)), "extra": "limitForce on tangential_reduce on"},
-    "neutral": {"extra": "setup neutral"},
-    "neutral-slippery": {"material": Material(friction=(0.01,), restitution=(0.1,)), "extra": "setup neutral"},
-    "neutral-two-types": {**TWO_TYPES, "extra": "setup neutral"},
-}.items()}
+CASES = {
+    name: in_simple_shear(spheres(**choices))
+    for name, choices in {
+        "history": {},
+        "history-undamped": {"extra": "tangential_damping off"},
+        "no-history": {"tangential": "no_history"},
+        "frictionless": {"tangential": "off"},
+        "limit-force": {"extra": "limitForce on", "material": Material(restitution=(0.1,))},
+        "slippery": {"material": Material(friction=(0.01,), restitution=(0.1,))},
+        "two-types": TWO_TYPES,
+        "sjkr": {"cohesion": "sjkr", "material": STICKY},
+        "sjkr2": {"cohesion": "sjkr2", "material": STICKY},
+        "sjkr-reduces-friction": {"cohesion": "sjkr", "material": STICKY, "extra": "tangential_reduce on"},
+        "sjkr-no-history": {"cohesion": "sjkr", "material": STICKY, "tangential": "no_history"},
+        "sjkr-limit-force": {
+            "cohesion": "sjkr",
+            "material": replace(STICKY, restitution=(0.1,)),
+            "extra": "limitForce on tangential_reduce on",
+        },
+        "neutral": {"extra": "setup neutral"},
+        "neutral-slippery": {"material": Material(friction=(0.01,), restitution=(0.1,)), "extra": "setup neutral"},
+        "neutral-two-types": {**TWO_TYPES, "extra": "setup neutral"},
+    }.items()
+}
 CASES["under-pressure-control"] = under_control(spheres())
 CASES["sheared-backward"] = in_simple_shear(spheres(), -0.03)
 

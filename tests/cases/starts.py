@@ -55,8 +55,13 @@ def alone_shares_no_directory(ranks):
     """Started without mpirun, by a user who has set nothing: no directory that another process could use or remove."""
     scratch = Path(os.environ["GRAINSCOPE_SCRATCH"])
     (scratch / "in.deck").write_text(DECK + f"shell ls {scratch} > seen\n")
-    done = subprocess.run([binary(), "-in", "in.deck"], cwd=scratch, env={**bare(), "TMPDIR": str(scratch)},
-                          capture_output=True, text=True)
+    done = subprocess.run(
+        [binary(), "-in", "in.deck"],
+        cwd=scratch,
+        env={**bare(), "TMPDIR": str(scratch)},
+        capture_output=True,
+        text=True,
+    )
     require(done.returncode == 0, f"ended with {done.returncode}: {done.stdout} {done.stderr}")
     seen = (scratch / "seen").read_text().split()
     require("in.deck" in seen, f"the deck saw {seen}")
@@ -73,8 +78,13 @@ def mpirun_has_its_own(ranks):
         scratch = Path(os.environ["GRAINSCOPE_SCRATCH"])
         (scratch / "in.deck").write_text(DECK + f"shell find {first.folders[0]} {SHARED_MEMORY} > seen\n")
         mpirun = os.environ.get("GRAINSCOPE_MPIEXEC", "mpirun")
-        done = subprocess.run([mpirun, "--oversubscribe", "-np", "2", binary(), "-in", "in.deck"], cwd=scratch,
-                              env=environment(2, first), capture_output=True, text=True)
+        done = subprocess.run(
+            [mpirun, "--oversubscribe", "-np", "2", binary(), "-in", "in.deck"],
+            cwd=scratch,
+            env=environment(2, first),
+            capture_output=True,
+            text=True,
+        )
         require(done.returncode == 0, f"ended with {done.returncode}: {done.stdout} {done.stderr}")
         seen = (scratch / "seen").read_text().split()
         for folder in first.folders:
@@ -100,7 +110,7 @@ def note_of_a_killed_one(ranks):
     """A session whose owner was killed is removed by the next with the same note; nothing else is."""
     scratch = Path(os.environ["GRAINSCOPE_SCRATCH"])
     note = scratch / "session.txt"
-    left = Session(note).folders    # its owner is gone
+    left = Session(note).folders  # its owner is gone
     (scratch / "kept").mkdir()
     with note.open("a") as file:
         file.write(f"{scratch / 'kept'}\n")
@@ -118,22 +128,34 @@ def only_our_errors_count(ranks):
     five = "[vm:14622] PMIX ERROR: PMIX_ERR_UNREACH in file ../../../src/client/pmix_client.c at line 312\n"
     runtime = "[node-7.cluster:991] PRTE ERROR: Not found in file base/data.c at line 4\n"
     four = "[vm:15199] [[21984,0],0] ORTE_ERROR_LOG: Data unpack failed in file x.c at line 9\n"
-    for text, expected in ((ours, 1), (on_one, 1), (ours + five, 1), (five + runtime + four, 0),
-                           (ours + four + on_one, 2),
-                           ("step 1 " + ours, 1), (ours.strip() + five, 1), (ours + five + ours, 2), ("nothing\n", 0)):
+    for text, expected in (
+        (ours, 1),
+        (on_one, 1),
+        (ours + five, 1),
+        (five + runtime + four, 0),
+        (ours + four + on_one, 2),
+        ("step 1 " + ours, 1),
+        (ours.strip() + five, 1),
+        (ours + five + ours, 2),
+        ("nothing\n", 0),
+    ):
         found = count_errors(text)
         require(found == expected, f"{found} errors counted, expected {expected}, in {text!r}")
 
 
 def rows_are_counted_from_the_first_step(ranks):
     """Numbers in the log before that, of grains and settings, are no rows."""
+
     class Begun:
         folder = Path(os.environ["GRAINSCOPE_SCRATCH"])
 
     log = Begun.folder / "log.liggghts"
     require(rows_so_far(Begun) == 0, "rows without a log")
-    for text, expected in (("  1 settings made\n 2 by 1 by 1 MPI processor grid\n", 0), ("    Step    Atoms\n", 0),
-                           ("       0        1\n      10        1\nLoop time of 1 on 1 procs\n", 2)):
+    for text, expected in (
+        ("  1 settings made\n 2 by 1 by 1 MPI processor grid\n", 0),
+        ("    Step    Atoms\n", 0),
+        ("       0        1\n      10        1\nLoop time of 1 on 1 procs\n", 2),
+    ):
         with log.open("a") as file:
             file.write(text)
         require(rows_so_far(Begun) == expected, f"{rows_so_far(Begun)} rows, expected {expected}, after {text!r}")
@@ -151,8 +173,13 @@ def side_by_side(ranks):
                 result = attempt(DECK, 2, folder=scratch / f"loop{number}")
                 code, output = result.code, result.output
             else:
-                done = subprocess.run([binary(), "-in", "in.deck", "-log", "none"], cwd=scratch, env=bare(),
-                                      capture_output=True, text=True)
+                done = subprocess.run(
+                    [binary(), "-in", "in.deck", "-log", "none"],
+                    cwd=scratch,
+                    env=bare(),
+                    capture_output=True,
+                    text=True,
+                )
                 code, output = done.returncode, done.stdout + done.stderr
             if code:
                 bad.append(f"start {k} of loop {number} ended with code {code}: {output[-500:]}")
@@ -164,7 +191,14 @@ def side_by_side(ranks):
     require(not bad, "\n".join(bad[:5]))
 
 
-main({"alone-shares-no-directory": alone_shares_no_directory, "mpirun-has-its-own": mpirun_has_its_own,
-      "killed-leaves-nothing": killed_leaves_nothing, "note-of-a-killed-one": note_of_a_killed_one,
-      "rows-are-counted-from-the-first-step": rows_are_counted_from_the_first_step,
-      "only-our-errors-count": only_our_errors_count, "side-by-side": side_by_side})
+main(
+    {
+        "alone-shares-no-directory": alone_shares_no_directory,
+        "mpirun-has-its-own": mpirun_has_its_own,
+        "killed-leaves-nothing": killed_leaves_nothing,
+        "note-of-a-killed-one": note_of_a_killed_one,
+        "rows-are-counted-from-the-first-step": rows_are_counted_from_the_first_step,
+        "only-our-errors-count": only_our_errors_count,
+        "side-by-side": side_by_side,
+    }
+)

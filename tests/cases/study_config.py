@@ -21,22 +21,50 @@ def runs_of_lists(ranks):
     require(len(runs) == 16, f"{len(runs)} runs, expected 2 x 2 x 2 x 2")
     first = next(iter(runs.values()))
     require(first.name == "alpha1_mu0_I0.1_N300_seed15485863", f"name {first.name}")
-    require(first.variables == {"alpha": "1", "mu": "0", "I": "0.1", "N": "300", "seed": "15485863", "e": "0.1", "strain": "10",
-                                "steady": "5", "part": "0.125", "measure": "all"}, f"variables {first.variables}")
+    require(
+        first.variables
+        == {
+            "alpha": "1",
+            "mu": "0",
+            "I": "0.1",
+            "N": "300",
+            "seed": "15485863",
+            "e": "0.1",
+            "strain": "10",
+            "steady": "5",
+            "part": "0.125",
+            "measure": "all",
+        },
+        f"variables {first.variables}",
+    )
     require(set(plan({**SMALL, "e": 0.9})).isdisjoint(plan(SMALL)), "runs with another e need names of their own")
 
 
 def exceptions(ranks):
-    runs = plan({**SMALL, "exceptions": [{"where": {"I": 0.01}, "use": {"strain": 4, "steady": 2}},
-                                         {"where": {"I": 0.01, "alpha": 2}, "use": {"N": 350, "strain": 3}}]})
-    found = {(float(run.variables["alpha"]), float(run.variables["I"])): tuple(float(run.variables[name]) for name in ("N", "strain", "steady"))
-             for run in runs.values()}
-    require(found == {(1, 0.1): (300, 10, 5), (2, 0.1): (300, 10, 5), (1, 0.01): (300, 4, 2), (2, 0.01): (350, 3, 2)}, f"found {found}")
+    runs = plan(
+        {
+            **SMALL,
+            "exceptions": [
+                {"where": {"I": 0.01}, "use": {"strain": 4, "steady": 2}},
+                {"where": {"I": 0.01, "alpha": 2}, "use": {"N": 350, "strain": 3}},
+            ],
+        }
+    )
+    found = {
+        (float(run.variables["alpha"]), float(run.variables["I"])): tuple(
+            float(run.variables[name]) for name in ("N", "strain", "steady")
+        )
+        for run in runs.values()
+    }
+    require(
+        found == {(1, 0.1): (300, 10, 5), (2, 0.1): (300, 10, 5), (1, 0.01): (300, 4, 2), (2, 0.01): (350, 3, 2)},
+        f"found {found}",
+    )
 
 
 def numbers_that_yaml_takes_for_words(ranks):
     config = {**SMALL, "alpha": [1], "I": [0.1], "mu": yaml.safe_load("[1e-3]")}
-    run, = plan({**config, "exceptions": [{"where": {"mu": "1e-3"}, "use": {"N": "5e2"}}]}).values()
+    (run,) = plan({**config, "exceptions": [{"where": {"mu": "1e-3"}, "use": {"N": "5e2"}}]}).values()
     require((run.variables["mu"], run.variables["N"]) == ("0.001", "500"), f"variables {run.variables}")
 
 
@@ -51,11 +79,13 @@ def every_figure_is_asked_for(ranks):
 
 def howto_has_the_grid_of_the_paper(ranks):
     page = (SOURCE / "doc/howto_study.md").read_text()
-    block = page[page.index("    alpha: [0.33"):].split("\n\n")[0]
+    block = page[page.index("    alpha: [0.33") :].split("\n\n")[0]
     runs = plan(yaml.safe_load(textwrap.dedent(block)))
     require(len(runs) == 637, f"{len(runs)} runs, the paper has 637")
     steady = {(run.variables["I"], run.variables["steady"]) for run in runs.values()}
-    require(len(steady) == 7 and ("0.001", "4") in steady and ("0.01", "6") in steady, f"averages from {sorted(steady)}")
+    require(
+        len(steady) == 7 and ("0.001", "4") in steady and ("0.01", "6") in steady, f"averages from {sorted(steady)}"
+    )
 
 
 def refused(words, **config):
@@ -67,6 +97,7 @@ def refused(words, **config):
                 require(word in str(error), f"the message lacks {word!r}: {error}")
             return
         require(False, f"{config} was taken")
+
     return case
 
 
@@ -79,33 +110,57 @@ def steps_of_deck(ranks):
         result = run(deck, arguments=[word for name, value in variables.items() for word in ("-var", name, str(value))])
         row = result.file("out/parameters.txt").read_text().splitlines()[-1].split()
         rate, dt = float(row[8]), float(row[11])
-        require_close(steps_per_strain(alpha, inertial), 1 / (rate * dt), 1e-6, f"steps for a strain of 1, alpha = {alpha}, I = {inertial}")
+        require_close(
+            steps_per_strain(alpha, inertial),
+            1 / (rate * dt),
+            1e-6,
+            f"steps for a strain of 1, alpha = {alpha}, I = {inertial}",
+        )
 
 
-REFUSED = {"unknown-word": refused(("keywords must be among", "got 'alhpa'"), alhpa=[1]),
-           "empty-list": refused(("mu must be a list of at least one number", "got []"), mu=[]),
-           "no-list": refused(("I must be a list of at least one number", "got 0.1"), I=0.1),
-           "word-for-number": refused(("alpha must be a number above 0", "got 'long'"), alpha=["long"]),
-           "yes-for-number": refused(("alpha must be a number above 0", "got True"), alpha=[True]),
-           "negative-friction": refused(("mu must be a number of at least 0", "got -0.1"), mu=[-0.1]),
-           "half-a-grain": refused(("N must be a whole number above 0", "got 300.5"), N=[300.5]),
-           "not-finite": refused(("alpha must be a number above 0", "got nan"), alpha=[float("nan")]),
-           "twice": refused(("mu must not name a value twice", "[0.1, 0.1]"), mu=[0.1, 0.1]),
-           "steady-beyond-strain": refused(("steady must be less than strain = 10", "got 12", "mu = 0.4"), steady=12, mu=[0.4]),
-           "exception-steady": refused(("steady must be less than strain = 4", "got 5", "I = 0.01"),
-                                       exceptions=[{"where": {"I": 0.01}, "use": {"strain": 4}}]),
-           "measure": refused(("measure must be basic or all", "got 'everything'"), measure="everything"),
-           "exception-shape": refused(("exceptions: entry 1 must be", "got {'I': 0.1}"), exceptions=[{"I": 0.1}]),
-           "exceptions-no-list": refused(("exceptions must be a list", "got 3"), exceptions=3),
-           "exception-where": refused(("entry 1: where must name alpha", "got 'strain'"), exceptions=[{"where": {"strain": 3}, "use": {}}]),
-           "exception-use": refused(("entry 2: use must name N", "got 'alpha'"),
-                                    exceptions=[{"where": {}, "use": {}}, {"where": {}, "use": {"alpha": 3}}]),
-           "exception-value": refused(("N must be a whole number above 0", "got -1"), exceptions=[{"where": {}, "use": {"N": -1}}]),
-           "output": refused(("output must be the name of a folder without spaces", "'my study'"), output="my study"),
-           "ranks": refused(("ranks must be a whole number above 0", "got 0"), ranks=0)}
+REFUSED = {
+    "unknown-word": refused(("keywords must be among", "got 'alhpa'"), alhpa=[1]),
+    "empty-list": refused(("mu must be a list of at least one number", "got []"), mu=[]),
+    "no-list": refused(("I must be a list of at least one number", "got 0.1"), I=0.1),
+    "word-for-number": refused(("alpha must be a number above 0", "got 'long'"), alpha=["long"]),
+    "yes-for-number": refused(("alpha must be a number above 0", "got True"), alpha=[True]),
+    "negative-friction": refused(("mu must be a number of at least 0", "got -0.1"), mu=[-0.1]),
+    "half-a-grain": refused(("N must be a whole number above 0", "got 300.5"), N=[300.5]),
+    "not-finite": refused(("alpha must be a number above 0", "got nan"), alpha=[float("nan")]),
+    "twice": refused(("mu must not name a value twice", "[0.1, 0.1]"), mu=[0.1, 0.1]),
+    "steady-beyond-strain": refused(
+        ("steady must be less than strain = 10", "got 12", "mu = 0.4"), steady=12, mu=[0.4]
+    ),
+    "exception-steady": refused(
+        ("steady must be less than strain = 4", "got 5", "I = 0.01"),
+        exceptions=[{"where": {"I": 0.01}, "use": {"strain": 4}}],
+    ),
+    "measure": refused(("measure must be basic or all", "got 'everything'"), measure="everything"),
+    "exception-shape": refused(("exceptions: entry 1 must be", "got {'I': 0.1}"), exceptions=[{"I": 0.1}]),
+    "exceptions-no-list": refused(("exceptions must be a list", "got 3"), exceptions=3),
+    "exception-where": refused(
+        ("entry 1: where must name alpha", "got 'strain'"), exceptions=[{"where": {"strain": 3}, "use": {}}]
+    ),
+    "exception-use": refused(
+        ("entry 2: use must name N", "got 'alpha'"),
+        exceptions=[{"where": {}, "use": {}}, {"where": {}, "use": {"alpha": 3}}],
+    ),
+    "exception-value": refused(
+        ("N must be a whole number above 0", "got -1"), exceptions=[{"where": {}, "use": {"N": -1}}]
+    ),
+    "output": refused(("output must be the name of a folder without spaces", "'my study'"), output="my study"),
+    "ranks": refused(("ranks must be a whole number above 0", "got 0"), ranks=0),
+}
 
-main({"runs-of-lists": runs_of_lists, "exceptions": exceptions,
-      "numbers-that-yaml-takes-for-words": numbers_that_yaml_takes_for_words, "example-is-valid": example_is_valid,
-      "every-figure-is-asked-for": every_figure_is_asked_for,
-      "howto-has-the-grid-of-the-paper": howto_has_the_grid_of_the_paper, "steps-of-deck": steps_of_deck,
-      **REFUSED})
+main(
+    {
+        "runs-of-lists": runs_of_lists,
+        "exceptions": exceptions,
+        "numbers-that-yaml-takes-for-words": numbers_that_yaml_takes_for_words,
+        "example-is-valid": example_is_valid,
+        "every-figure-is-asked-for": every_figure_is_asked_for,
+        "howto-has-the-grid-of-the-paper": howto_has_the_grid_of_the_paper,
+        "steps-of-deck": steps_of_deck,
+        **REFUSED,
+    }
+)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Runs of a study by tools/run_shear.py: killed, prolonged, damaged, refused; and what tools/study_table.py makes of them."""
+"""Runs of a study by tools/run_shear.py: killed, prolonged, damaged, refused; and what tools/study_table.py makes of
+them."""
 import os
 from pathlib import Path
 import signal
@@ -27,10 +28,24 @@ def folder(name):
 
 def start(name, ranks=1, **variables):
     words = [f"{key}={value}" for key, value in {**SMALL, **variables}.items()]
-    command = [sys.executable, SOURCE / "tools" / "run_shear.py", folder(name), *words, "--binary", os.environ["GRAINSCOPE_BINARY"],
-               "--ranks", str(ranks)]
-    return subprocess.Popen([*map(str, command)], env=environment(ranks), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                            start_new_session=True)
+    command = [
+        sys.executable,
+        SOURCE / "tools" / "run_shear.py",
+        folder(name),
+        *words,
+        "--binary",
+        os.environ["GRAINSCOPE_BINARY"],
+        "--ranks",
+        str(ranks),
+    ]
+    return subprocess.Popen(
+        [*map(str, command)],
+        env=environment(ranks),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        start_new_session=True,
+    )
 
 
 def run_to_end(name, ranks=1, **variables):
@@ -58,8 +73,10 @@ def stopped_half_way(name, ranks, stop, **variables):
     before that."""
     while True:
         process = start(name, ranks, **variables)
-        wait_until(lambda: process.poll() is not None or (folder(name) / "odd.restart").exists(),
-                   f"a second restart file of {name}")
+        wait_until(
+            lambda: process.poll() is not None or (folder(name) / "odd.restart").exists(),
+            f"a second restart file of {name}",
+        )
         result = stop(process)
         if not (folder(name) / "final.restart").exists():
             return result
@@ -68,6 +85,7 @@ def stopped_half_way(name, ranks, stop, **variables):
 
 def killed(name, ranks=1, **variables):
     """All ranks at once."""
+
     def kill(process):
         kill_session(process.pid)
         process.communicate()
@@ -83,7 +101,9 @@ def ranks_of(process):
 
 def attempts_of(out):
     """The steps at which the attempts began."""
-    return [int(line.split()[-1]) for line in (out / "parameters.txt").read_text().splitlines() if not line.startswith("#")]
+    return [
+        int(line.split()[-1]) for line in (out / "parameters.txt").read_text().splitlines() if not line.startswith("#")
+    ]
 
 
 def last_step(out):
@@ -93,7 +113,9 @@ def last_step(out):
 
 def same_tables(one, other, names=ROWS + TABLES):
     for name in names:
-        found, expected = (read_blocks(out, name) if name in TABLES else read_table(out, name)[0] for out in (one, other))
+        found, expected = (
+            read_blocks(out, name) if name in TABLES else read_table(out, name)[0] for out in (one, other)
+        )
         require(list(found) == list(expected), f"{name}: other columns")
         for column in expected:
             require_equal(found[column], expected[column], f"{name}, {column}")
@@ -101,6 +123,7 @@ def same_tables(one, other, names=ROWS + TABLES):
 
 def stopped_run_has_not_ended(ranks):
     """SIGTERM ends a run in order, with exit code 0: for all that it is not at its end, and goes on."""
+
     def terminate(process):
         for pid in ranks_of(process):
             os.kill(pid, signal.SIGTERM)
@@ -115,7 +138,9 @@ def stopped_run_has_not_ended(ranks):
 
 
 def one_at_a_time(ranks):
-    """A second attempt waits for one that still runs, also when what began that was killed, and has nothing to do then."""
+    """A second attempt waits for one that still runs, also when what began that was killed, and has nothing to do
+    then."""
+
     def pause_and_kill_what_began_it(process):
         paused = ranks_of(process)
         for pid in paused:
@@ -152,7 +177,10 @@ def longer_strain_continues(ranks, measure="all", names=ROWS + TABLES):
     require((longer / "grains.dump").read_bytes() == (whole / "grains.dump").read_bytes(), "grains.dump: other grains")
     begin = attempts_of(longer)[1]
     require(begin > 0, "the second attempt began again")
-    require(measure == "all" or begin < end, f"the first attempt ended with a part, at step {end}: another strain is needed here")
+    require(
+        measure == "all" or begin < end,
+        f"the first attempt ended with a part, at step {end}: another strain is needed here",
+    )
     status, output = run_to_end("longer", ranks, measure=measure, strain=0.4)
     require(status == 0 and "nothing to do" in output, f"the strain was reached, but: {output}")
     same_tables(longer, whole, names)
@@ -168,7 +196,7 @@ def first_restart_cut(ranks):
     for name in ("final.restart", "odd.restart"):
         (out / name).unlink()
     whole = (out / "even.restart").read_bytes()
-    (out / "even.restart").write_bytes(whole[:len(whole) // 2])
+    (out / "even.restart").write_bytes(whole[: len(whole) // 2])
     (out / "cost.txt").unlink()
     status, output = run_to_end("cut", ranks, strain=0.3, steady=0.1)
     require(status == 0 and "starting again" in output, f"ended with {status}: {output}")
@@ -189,15 +217,21 @@ def no_restart_whole(ranks):
 def other_variables_refused(ranks):
     ended("other", ranks, strain=0.3, steady=0.1)
     status, output = run_to_end("other", ranks, mu=0.5)
-    require(status == 1 and "mu must stay what the run began with, 0.4, got 0.5" in output, f"ended with {status}: {output}")
+    require(
+        status == 1 and "mu must stay what the run began with, 0.4, got 0.5" in output, f"ended with {status}: {output}"
+    )
 
 
 def part_must_be_named(ranks):
     """Its default is a share of the strain, so that a larger strain would cut the run into other parts."""
     words = ["N=150", "alpha=1", "--binary", os.environ["GRAINSCOPE_BINARY"]]
     for strain, expected in ((0.3, 0), (0.4, 1)):
-        done = subprocess.run([sys.executable, SOURCE / "tools" / "run_shear.py", folder("parts"), f"strain={strain}", *words], env=environment(1),
-                              capture_output=True, text=True)
+        done = subprocess.run(
+            [sys.executable, SOURCE / "tools" / "run_shear.py", folder("parts"), f"strain={strain}", *words],
+            env=environment(1),
+            capture_output=True,
+            text=True,
+        )
         require(done.returncode == expected, f"strain {strain} ended with {done.returncode}: {done.stderr}")
     require("part must be named" in done.stderr and "from 0.3 to 0.4" in done.stderr, f"it said {done.stderr}")
 
@@ -228,7 +262,7 @@ def means_of_files(ranks):
     displacement = np.loadtxt(out / "displacement.txt")
     whole = steady_run(run, 0.2)
     slope = displacement[-1, 6] / run.parameters["d_eq"] ** 2
-    require_close(whole["D_y"][0], slope, 1e-4, "D_y, against the compute's own")   # the file has six digits
+    require_close(whole["D_y"][0], slope, 1e-4, "D_y, against the compute's own")  # the file has six digits
     require_close(run.parameters["steps"], displacement[-1, 0], 0, "last step")
 
 
@@ -246,22 +280,44 @@ def table_holds_everything(ranks):
             require_close(steady[name], pair, 1e-9, name, max(1e-300, *map(abs, pair)))
         for curve, columns in expected.curves.items():
             for name, values in columns.items():
-                require_close(steady.curves[curve][name], values, 5e-4, f"{curve}, {name}, of four digits", max(1e-12, np.abs(values).max()))
-    require([run.parameters["flagged"] for run in found] == [0, 1], "only the second run is more than 10 % off its I, and must be flagged")
+                require_close(
+                    steady.curves[curve][name],
+                    values,
+                    5e-4,
+                    f"{curve}, {name}, of four digits",
+                    max(1e-12, np.abs(values).max()),
+                )
+    require(
+        [run.parameters["flagged"] for run in found] == [0, 1],
+        "only the second run is more than 10 % off its I, and must be flagged",
+    )
     require(found[0].parameters["core_time"] > 0 and found[0].parameters["memory"] > 1e6, "no cost")
-    one, = study_table.over_seeds(found)
+    (one,) = study_table.over_seeds(found)
     values = [run["phi"][0] for run in found]
     require_close(one["phi"][0], np.mean(values), 1e-12, "mean over seeds")
-    require(one["phi"][1] >= np.std(values, ddof=1) / np.sqrt(2) * 0.999999, "the error is less than the spread over the seeds tells")
+    require(
+        one["phi"][1] >= np.std(values, ddof=1) / np.sqrt(2) * 0.999999,
+        "the error is less than the spread over the seeds tells",
+    )
     header = {(row["file"], row["column"]): row for row in study_table.read_csv(folder("tables") / "columns.csv")}
     for name in ("table.csv", "curves/surface.csv"):
         for column in (folder("tables") / name).read_text().splitlines()[0].split(","):
             require((name, column) in header, f"columns.csv does not tell of {column} in {name}")
 
 
-main({"one-at-a-time": one_at_a_time, "stopped-run-has-not-ended": stopped_run_has_not_ended,
-      "killed-run-continues": killed_run_continues, "longer-strain-continues": longer_strain_continues,
-      "longer-strain-continues-basic": longer_strain_continues_basic,
-      "first-restart-cut": first_restart_cut, "no-restart-whole": no_restart_whole, "other-variables-refused": other_variables_refused,
-      "part-must-be-named": part_must_be_named, "reason-is-told": reason_is_told, "means-of-files": means_of_files,
-      "table-holds-everything": table_holds_everything})
+main(
+    {
+        "one-at-a-time": one_at_a_time,
+        "stopped-run-has-not-ended": stopped_run_has_not_ended,
+        "killed-run-continues": killed_run_continues,
+        "longer-strain-continues": longer_strain_continues,
+        "longer-strain-continues-basic": longer_strain_continues_basic,
+        "first-restart-cut": first_restart_cut,
+        "no-restart-whole": no_restart_whole,
+        "other-variables-refused": other_variables_refused,
+        "part-must-be-named": part_must_be_named,
+        "reason-is-told": reason_is_told,
+        "means-of-files": means_of_files,
+        "table-holds-everything": table_holds_everything,
+    }
+)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Runs of examples/study as jobs of a SLURM of this machine alone (scripts/local-slurm): a grid of four, one on two ranks; then a run that
-is killed half-way and one with bad input beside a good one; then a study that is interrupted. As root, in about two minutes."""
+"""Runs of examples/study as jobs of a SLURM of this machine alone (scripts/local-slurm): a grid of four, one on two
+ranks; then a run that is killed half-way and one with bad input beside a good one; then a study that is interrupted. As
+root, in about two minutes."""
 from contextlib import contextmanager
 from dataclasses import dataclass
 import json
@@ -21,8 +22,8 @@ from study_plan import plan
 SOURCE = Path(os.environ["GRAINSCOPE_SOURCE"])
 STUDY, LOCAL_SLURM = SOURCE / "examples" / "study", SOURCE / "scripts" / "local-slurm"
 SHORT = {"I": [0.1], "N": [100], "strain": 0.4, "steady": 0.2, "part": 0.1, "exceptions": []}
-LONG = 10           # strain of what is to be killed half-way
-FORGOTTEN = "99999" # the number of a job that there never was
+LONG = 10  # strain of what is to be killed half-way
+FORGOTTEN = "99999"  # the number of a job that there never was
 
 
 def output_of(*command):
@@ -77,11 +78,12 @@ def megabytes(text):
 @dataclass
 class Submitted:
     """A job by Snakemake's log: its number for SLURM, and what the Snakefile wants for it."""
+
     name: str
     number: str
     threads: int
-    memory: int     # MB
-    runtime: int    # minutes
+    memory: int  # MB
+    runtime: int  # minutes
 
 
 class Study:
@@ -96,12 +98,28 @@ class Study:
         self.begin()
 
     def begin(self, *options):
-        command = ["snakemake", "--snakefile", STUDY / "Snakefile", "--configfile", "config.json", "--profile", STUDY / "profiles" / "slurm",
-                   *options, *(self.target(run) for run in self.runs.values())]
+        command = [
+            "snakemake",
+            "--snakefile",
+            STUDY / "Snakefile",
+            "--configfile",
+            "config.json",
+            "--profile",
+            STUDY / "profiles" / "slurm",
+            *options,
+            *(self.target(run) for run in self.runs.values()),
+        ]
         environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
         with self.log.open("w") as log:
-            self.snakemake = subprocess.Popen(command, cwd=self.folder, env=environment, stdin=subprocess.DEVNULL, stdout=log,
-                                              stderr=subprocess.STDOUT, start_new_session=True)
+            self.snakemake = subprocess.Popen(
+                command,
+                cwd=self.folder,
+                env=environment,
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+            )
 
     def folder_of(self, run):
         return Path(self.config["output"]) / "runs" / run.name
@@ -110,7 +128,7 @@ class Study:
         return self.folder_of(run) / f"ended_at_{run.variables['strain']}"
 
     def only(self):
-        run, = self.runs.values()
+        (run,) = self.runs.values()
         return run
 
     def submitted(self, name=None):
@@ -125,11 +143,18 @@ class Study:
             elif line.startswith("    threads: "):
                 asked["threads"] = words[1]
             elif number := re.search(r"^Submitted job .* with external jobid '(\d+)'", line):
-                found.append(Submitted(asked["name"], number[1], int(asked["threads"]), int(asked["mem_mb"]), int(asked["runtime"])))
+                found.append(
+                    Submitted(
+                        asked["name"], number[1], int(asked["threads"]), int(asked["mem_mb"]), int(asked["runtime"])
+                    )
+                )
         return [one for one in found if name in (None, one.name)]
 
     def wait_for_restart_file(self, run):
-        wait_until(lambda: any(self.folder_of(run).glob("*.restart")), f"a restart file of {run.name}; Snakemake's log: {self.log}")
+        wait_until(
+            lambda: any(self.folder_of(run).glob("*.restart")),
+            f"a restart file of {run.name}; Snakemake's log: {self.log}",
+        )
 
     def end(self):
         """Snakemake's exit code and log."""
@@ -158,7 +183,13 @@ def study(**config):
 def require_as_asked(one, state):
     """A job became `state`, and had asked for what the Snakefile wants."""
     told = job(one.number)
-    found = told["JobState"], told["JobName"], int(told["NumTasks"]), megabytes(told["MinMemoryNode"]), minutes(told["TimeLimit"])
+    found = (
+        told["JobState"],
+        told["JobName"],
+        int(told["NumTasks"]),
+        megabytes(told["MinMemoryNode"]),
+        minutes(told["TimeLimit"]),
+    )
     print(f"job {one.number}: {found}", flush=True)
     expected = state, one.name, one.threads, one.memory, one.runtime
     require(found == expected, f"job {one.number} is {found}, expected {expected}")
@@ -176,7 +207,9 @@ def begun_at(study, run):
 
 def require_went_on(study, run):
     steps = begun_at(study, run)
-    require(len(steps) == 2 and steps[0] == 0 < steps[1], f"the attempts began at steps {steps}, expected 0 and another")
+    require(
+        len(steps) == 2 and steps[0] == 0 < steps[1], f"the attempts began at steps {steps}, expected 0 and another"
+    )
 
 
 def status(number):
@@ -203,7 +236,10 @@ def grid():
 
 def killed_and_refused():
     """Seeds: the first run is good, the second long, and a third has a restitution that the program refuses."""
-    exceptions = [{"where": {"seed": 32452843}, "use": {"strain": LONG}}, {"where": {"seed": 49979687}, "use": {"e": 1.5}}]
+    exceptions = [
+        {"where": {"seed": 32452843}, "use": {"strain": LONG}},
+        {"where": {"seed": 49979687}, "use": {"e": 1.5}},
+    ]
     with study(alpha=[1], mu=[0.4], seed=[15485863, 32452843, 49979687], exceptions=exceptions) as three:
         good, long, bad = three.runs.values()
         three.wait_for_restart_file(long)
@@ -218,7 +254,10 @@ def killed_and_refused():
         _, second = three.submitted(long.name)
         require_as_asked(first, "CANCELLED")
         require_as_asked(second, "COMPLETED")
-        require((second.runtime, second.memory) == (2 * first.runtime, 2 * first.memory), "the second attempt is not given twice as much")
+        require(
+            (second.runtime, second.memory) == (2 * first.runtime, 2 * first.memory),
+            "the second attempt is not given twice as much",
+        )
         require_ended(three, long)
         require_went_on(three, long)
 
@@ -230,11 +269,15 @@ def killed_and_refused():
             require("coefficientRestitution" in said, f"the log of job {one.number} does not give the reason: {said}")
         require(not three.target(bad).exists(), "bad input made a run that ended")
         for one in (first, *attempts):
-            require(f"external: {one.number}," in log, f"Snakemake did not report job {one.number}; its log ends:\n{log[-2500:]}")
+            require(
+                f"external: {one.number}," in log,
+                f"Snakemake did not report job {one.number}; its log ends:\n{log[-2500:]}",
+            )
 
 
 def interrupted():
-    """A Ctrl-C cancels the job, a Snakemake that is killed leaves it; the same command goes on with the one, and waits for the other."""
+    """A Ctrl-C cancels the job, a Snakemake that is killed leaves it; the same command goes on with the one, and waits
+    for the other."""
     with study(alpha=[1], mu=[0.4], strain=LONG) as stopped, study(alpha=[1], mu=[0.1], strain=LONG) as killed:
         for one in (stopped, killed):
             one.wait_for_restart_file(one.only())
@@ -254,11 +297,16 @@ def interrupted():
             require_ended(one, one.only())
             require_as_asked(one.submitted()[0], "COMPLETED")
         require_went_on(stopped, stopped.only())
-        require(begun_at(killed, killed.only()) == [0], f"the run was taken up at steps {begun_at(killed, killed.only())} while its job still ran")
+        require(
+            begun_at(killed, killed.only()) == [0],
+            f"the run was taken up at steps {begun_at(killed, killed.only())} while its job still ran",
+        )
 
 
 def slurm_grid(ranks):
-    signal.signal(signal.SIGINT, signal.default_int_handler)   # what a shell starts in the background ignores it, and so would Snakemake
+    signal.signal(
+        signal.SIGINT, signal.default_int_handler
+    )  # what a shell starts in the background ignores it, and so would Snakemake
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("stopped by SIGTERM"))
     with local_slurm(Path(os.environ["GRAINSCOPE_SCRATCH"]) / "slurm"):
         for part in (grid, killed_and_refused, interrupted):

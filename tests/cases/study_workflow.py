@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The workflow of examples/study by Snakemake itself: a small grid with runs that fail; what is made of the others; going on."""
+"""The workflow of examples/study by Snakemake itself: a small grid with runs that fail; what is made of the others;
+going on."""
 import os
 from pathlib import Path
 import shutil
@@ -25,10 +26,28 @@ def snakemake(*words, **changes):
     """Exit status and output of the workflow on a configuration with these changes."""
     config = {**CONFIG, "program": os.environ["GRAINSCOPE_BINARY"], **changes}
     (folder() / "study.yaml").write_text(yaml.safe_dump(config))
-    command = ["snakemake", "-s", SOURCE / "examples/study/Snakefile", "--configfile", "study.yaml", "--directory", folder(), "-c2", "-k", *words]
+    command = [
+        "snakemake",
+        "-s",
+        SOURCE / "examples/study/Snakefile",
+        "--configfile",
+        "study.yaml",
+        "--directory",
+        folder(),
+        "-c2",
+        "-k",
+        *words,
+    ]
     require(shutil.which("snakemake"), "snakemake is missing: scripts/install-packages snakemake")
-    done = subprocess.run([*map(str, command)], env=environment(1), cwd=folder(), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                          timeout=TIME_LIMIT)
+    done = subprocess.run(
+        [*map(str, command)],
+        env=environment(1),
+        cwd=folder(),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        timeout=TIME_LIMIT,
+    )
     return done.returncode, done.stdout
 
 
@@ -42,24 +61,37 @@ def failing_runs_do_not_stop_others(ranks):
     for mu in ("0.4", "1"):
         good = run_folders()[f"alpha1_mu{mu}_I0.1_N150_seed15485863"]
         require((good / "ended_at_0.5").exists(), f"the good run of mu = {mu} did not end:\n{output}")
-        require(f"study: alpha1_mu{mu}_I0.1_N20_seed15485863 did not end" in output, f"the failed run is not reported:\n{output}")
+        require(
+            f"study: alpha1_mu{mu}_I0.1_N20_seed15485863 did not end" in output,
+            f"the failed run is not reported:\n{output}",
+        )
     require("periodic box must be at least" in output, f"the reason is not told:\n{output}")
     require("--config partial=1" in output, f"the way on is not told:\n{output}")
 
     status, output = snakemake("--config", "partial=1")
     require(status == 0, f"the study of the runs that ended was not made:\n{output}")
     study = folder() / "study-output"
-    require(sorted(row["run"] for row in read_csv(study / "table.csv")) == [f"alpha1_mu{mu}_I0.1_N150_seed15485863" for mu in ("0.4", "1")],
-            "the table must hold the runs that ended")
-    require({"fig02.png", "fig03.png", "fig08.png", "fig14.png", "fig18.png", "memory.png"} <= {path.name for path in (study / "figures").iterdir()},
-            "figures are missing")
+    require(
+        sorted(row["run"] for row in read_csv(study / "table.csv"))
+        == [f"alpha1_mu{mu}_I0.1_N150_seed15485863" for mu in ("0.4", "1")],
+        "the table must hold the runs that ended",
+    )
+    require(
+        {"fig02.png", "fig03.png", "fig08.png", "fig14.png", "fig18.png", "memory.png"}
+        <= {path.name for path in (study / "figures").iterdir()},
+        "figures are missing",
+    )
     for name in ("fits.csv", "crossovers.csv", "comparison.md", "cost.md", "columns.csv"):
         require((study / name).stat().st_size > 0, f"{name} is empty")
 
     # Figures are redrawn from the tables alone.
     shutil.rmtree(study / "runs")
     shutil.rmtree(study / "figures")
-    done = subprocess.run([sys.executable, SOURCE / "tools/plot_study.py", study, "--output", study / "figures"], capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, SOURCE / "tools/plot_study.py", study, "--output", study / "figures"],
+        capture_output=True,
+        text=True,
+    )
     require(done.returncode == 0 and (study / "figures/fig11.png").exists(), f"no figures without runs:\n{done.stderr}")
 
 
@@ -73,15 +105,23 @@ def study_goes_on(ranks):
     require(status == 0, f"the longer study failed:\n{output}")
     for path in run_folders().values():
         rows = [line.split() for line in (path / "parameters.txt").read_text().splitlines()[1:]]
-        require(len(rows) == 2 and rows[1][-1] == rows[0][-2], f"{path}: the second attempt did not begin where the first ended")
-    require({row["strain"] for row in read_csv(folder() / "study-output/table.csv")} == {"0.7"}, "the table holds the longer runs")
+        require(
+            len(rows) == 2 and rows[1][-1] == rows[0][-2],
+            f"{path}: the second attempt did not begin where the first ended",
+        )
+    require(
+        {row["strain"] for row in read_csv(folder() / "study-output/table.csv")} == {"0.7"},
+        "the table holds the longer runs",
+    )
 
 
 def basic_measures(ranks):
     status, output = snakemake(N=[150], mu=[0.4], measure="basic")
     require(status == 0, f"the study failed:\n{output}")
     found = {path.name for path in (folder() / "study-output/figures").iterdir()}
-    require(found == {f"fig{number}.png" for number in ("02", "03", "04", "07", "08", "14")}, f"figures {sorted(found)}")
+    require(
+        found == {f"fig{number}.png" for number in ("02", "03", "04", "07", "08", "14")}, f"figures {sorted(found)}"
+    )
 
 
 def bad_configuration(ranks):
@@ -90,5 +130,11 @@ def bad_configuration(ranks):
     require(not (folder() / "study-output").exists(), "something was run")
 
 
-main({"failing-runs-do-not-stop-others": failing_runs_do_not_stop_others, "study-goes-on": study_goes_on, "basic-measures": basic_measures,
-      "bad-configuration": bad_configuration})
+main(
+    {
+        "failing-runs-do-not-stop-others": failing_runs_do_not_stop_others,
+        "study-goes-on": study_goes_on,
+        "basic-measures": basic_measures,
+        "bad-configuration": bad_configuration,
+    }
+)

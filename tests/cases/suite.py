@@ -10,13 +10,14 @@ from case import main, require
 
 SOURCE = Path(os.environ["GRAINSCOPE_SOURCE"])
 KINDS = {"unit", "case", "mpi", "error", "example", "doc", "long", "hours"}
-MANY = 5    # styles, from which on a name says every-style
+MANY = 5  # styles, from which on a name says every-style
 
 
 def tests():
     """{name: labels}, as CTest has them."""
-    found = subprocess.run(["ctest", "--show-only=json-v1"], cwd=os.environ["GRAINSCOPE_BUILD"], capture_output=True,
-                           text=True, check=True).stdout
+    found = subprocess.run(
+        ["ctest", "--show-only=json-v1"], cwd=os.environ["GRAINSCOPE_BUILD"], capture_output=True, text=True, check=True
+    ).stdout
     for test in json.loads(found)["tests"]:
         labels = [p["value"] for p in test.get("properties", []) if p["name"] == "LABELS"]
         yield test["name"], set(labels[0] if labels else ())
@@ -25,8 +26,9 @@ def tests():
 def styles():
     """Names of all styles of ours, from their headers."""
     text = "\n".join(header.read_text() for header in SOURCE.glob("src/*/*.h"))
-    return ({name for name in re.findall(r"^ *[A-Z][a-z]+Style\(([^,]+),", text, re.M)} |
-            {f"surface/{name}" for name in re.findall(r"^ *SURFACE_MODEL\([^,]+, *([^,]+),", text, re.M)})
+    return {name for name in re.findall(r"^ *[A-Z][a-z]+Style\(([^,]+),", text, re.M)} | {
+        f"surface/{name}" for name in re.findall(r"^ *SURFACE_MODEL\([^,]+, *([^,]+),", text, re.M)
+    }
 
 
 def every_style_has_tests(ranks):
@@ -58,8 +60,9 @@ def names_begin_with_a_style(ranks):
 
 def asked(*words):
     """Exit code and words of scripts/test, which only says what it would run."""
-    done = subprocess.run([SOURCE / "scripts" / "test", "--show", *words], stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True)
+    done = subprocess.run(
+        [SOURCE / "scripts" / "test", "--show", *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+    )
     return done.returncode, done.stdout
 
 
@@ -73,19 +76,32 @@ def unknown_word_refused(ranks):
 
 def short_words(ranks):
     """A part of a name finds the styles, a style in full itself alone; options go on to ctest."""
-    for words, expected in ((["fabric"], "-L ^(fabric)$ -LE long"),
-                            (["ledger"], "-L ^(energy/ledger|ledger/record)$ -LE long"),
-                            (["ellipsoid"], "-L ^(surface/ellipsoid)$ -LE long"),
-                            (["insitu"], "-L ^(gran/insitu)$ -LE long"),
-                            (["run/guard", "strain"], "-L ^(press/strain|run/guard)$ -LE long"), ([], "-LE long"),
-                            (["--long", "fabric"], "-L ^(fabric)$ -L long"), (["-R", "fabric"], "-R fabric"),
-                            (["fabric", "-R", "oracle"], "-L ^(fabric)$ -LE long -R oracle"),
-                            (["study"], "-L ^(study)$ -LE long"),
-                            (["-L", "unit"], "-L unit"), (["--long"], "-L long")):
+    for words, expected in (
+        (["fabric"], "-L ^(fabric)$ -LE long"),
+        (["ledger"], "-L ^(energy/ledger|ledger/record)$ -LE long"),
+        (["ellipsoid"], "-L ^(surface/ellipsoid)$ -LE long"),
+        (["insitu"], "-L ^(gran/insitu)$ -LE long"),
+        (["run/guard", "strain"], "-L ^(press/strain|run/guard)$ -LE long"),
+        ([], "-LE long"),
+        (["--long", "fabric"], "-L ^(fabric)$ -L long"),
+        (["-R", "fabric"], "-R fabric"),
+        (["fabric", "-R", "oracle"], "-L ^(fabric)$ -LE long -R oracle"),
+        (["study"], "-L ^(study)$ -LE long"),
+        (["-L", "unit"], "-L unit"),
+        (["--long"], "-L long"),
+    ):
         code, said = asked(*words)
-        require(code == 0 and said.splitlines()[-1] == f"ctest {expected}",
-                f"{words}: exit code {code}: {said}, expected {expected}")
+        require(
+            code == 0 and said.splitlines()[-1] == f"ctest {expected}",
+            f"{words}: exit code {code}: {said}, expected {expected}",
+        )
 
 
-main({"every-style-has-tests": every_style_has_tests, "names-begin-with-a-style": names_begin_with_a_style,
-      "unknown-word-refused": unknown_word_refused, "short-words": short_words})
+main(
+    {
+        "every-style-has-tests": every_style_has_tests,
+        "names-begin-with-a-style": names_begin_with_a_style,
+        "unknown-word-refused": unknown_word_refused,
+        "short-words": short_words,
+    }
+)

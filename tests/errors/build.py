@@ -19,8 +19,21 @@ HALF_LAMDA = "prd_half_lamda[0] = prd_half_lamda[1] = prd_half_lamda[2] = {};"
 def configure(source, *options, build=None):
     """(exit code, output with lines unwrapped, build folder)."""
     build = build or Path(tempfile.mkdtemp(dir=os.environ["GRAINSCOPE_SCRATCH"])) / "build"
-    done = subprocess.run([os.environ["GRAINSCOPE_CMAKE"], "-S", ROOT, "-B", build, "-DGRAINSCOPE_TESTS=OFF",
-                           f"-DLIGGGHTS_SOURCE_DIR={source}", *options], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    done = subprocess.run(
+        [
+            os.environ["GRAINSCOPE_CMAKE"],
+            "-S",
+            ROOT,
+            "-B",
+            build,
+            "-DGRAINSCOPE_TESTS=OFF",
+            f"-DLIGGGHTS_SOURCE_DIR={source}",
+            *options,
+        ],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
     return done.returncode, " ".join(done.stdout.split()), build
 
 
@@ -47,7 +60,9 @@ def copy_of_host():
 
 
 def checksums(folder):
-    return {str(f.relative_to(folder)): hashlib.sha256(f.read_bytes()).hexdigest() for f in folder.rglob("*") if f.is_file()}
+    return {
+        str(f.relative_to(folder)): hashlib.sha256(f.read_bytes()).hexdigest() for f in folder.rglob("*") if f.is_file()
+    }
 
 
 def folder_without_liggghts(ranks):
@@ -76,13 +91,25 @@ def styles_are_listed(ranks):
     """Every style of ours and a few of the host's stand in the lists that LIGGGHTS reads."""
     _, build = configured(HOST)
     stage = stage_of(build)
-    ours = [(kind, header.name) for kind, folder in (("pair", "PAIR"), ("fix", "FIX"), ("compute", "COMPUTE"))
-            for header in (ROOT / "src" / folder).glob("*.h") if re.search(rf"^#ifdef {folder}_CLASS", header.read_text(), re.M)]
+    ours = [
+        (kind, header.name)
+        for kind, folder in (("pair", "PAIR"), ("fix", "FIX"), ("compute", "COMPUTE"))
+        for header in (ROOT / "src" / folder).glob("*.h")
+        if re.search(rf"^#ifdef {folder}_CLASS", header.read_text(), re.M)
+    ]
     require(len(ours) >= 6, f"only {ours}")
-    theirs = [("pair", "pair_gran_proxy.h"), ("fix", "fix_deform.h"), ("atom", "atom_vec_superquadric.h"), ("command", "run.h"),
-              ("surface_model", "surface_model_superquadric.h"), ("normal_model", "normal_model_hertz.h")]
+    theirs = [
+        ("pair", "pair_gran_proxy.h"),
+        ("fix", "fix_deform.h"),
+        ("atom", "atom_vec_superquadric.h"),
+        ("command", "run.h"),
+        ("surface_model", "surface_model_superquadric.h"),
+        ("normal_model", "normal_model_hertz.h"),
+    ]
     for kind, header in ours + theirs:
-        require(f'#include "{header}"' in (stage / f"style_{kind}.h").read_text(), f"{header} is missing in style_{kind}.h")
+        require(
+            f'#include "{header}"' in (stage / f"style_{kind}.h").read_text(), f"{header} is missing in style_{kind}.h"
+        )
     require((stage / "angle.cpp").is_symlink(), "an unmended file is a copy")
 
 
@@ -132,7 +159,10 @@ def own_whitelist(ranks):
 
 def missing_whitelist(ranks):
     code, output, _ = configure(HOST, "-DGRAINSCOPE_WHITELIST=/no/such/file")
-    require(code != 0 and "GRAINSCOPE_WHITELIST must name a file of GRAN_MODEL(...) lines, got '/no/such/file'" in output, output)
+    require(
+        code != 0 and "GRAINSCOPE_WHITELIST must name a file of GRAN_MODEL(...) lines, got '/no/such/file'" in output,
+        output,
+    )
 
 
 CASES = {

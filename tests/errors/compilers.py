@@ -15,8 +15,12 @@ SOURCE, HOST = (os.environ[f"GRAINSCOPE_{name}"] for name in ("SOURCE", "HOST_SO
 def configured(*options):
     """(what CMake printed, the build folder)"""
     build = Path(os.environ["GRAINSCOPE_SCRATCH"]) / "build"
-    done = subprocess.run([os.environ["GRAINSCOPE_CMAKE"], "-S", SOURCE, "-B", build, f"-DLIGGGHTS_SOURCE_DIR={HOST}", *options],
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    done = subprocess.run(
+        [os.environ["GRAINSCOPE_CMAKE"], "-S", SOURCE, "-B", build, f"-DLIGGGHTS_SOURCE_DIR={HOST}", *options],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
     require(done.returncode == 0, f"configuring failed:\n{done.stdout}")
     return done.stdout, build
 
@@ -26,9 +30,17 @@ def compile_by_hand(build, names, wanted, *more):
     commands = {Path(entry["file"]).name: entry for entry in json.loads((build / "compile_commands.json").read_text())}
     for name in names:
         words = shlex.split(commands[name]["command"])
-        require(all(word in words for word in wanted), f"{name} is compiled without {' '.join(wanted)}: {' '.join(words)}")
+        require(
+            all(word in words for word in wanted), f"{name} is compiled without {' '.join(wanted)}: {' '.join(words)}"
+        )
         words[words.index("-o") + 1] = os.devnull
-        done = subprocess.run([*words, *more], cwd=commands[name]["directory"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        done = subprocess.run(
+            [*words, *more],
+            cwd=commands[name]["directory"],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
         require(done.returncode == 0 and not done.stdout, f"{name}: {done.stdout[:3000]}")
 
 
@@ -39,10 +51,13 @@ def configured_without_a_warning(ranks):
 
 
 def clang_takes_the_host_as_cxx17(ranks):
-    """Current clang compiles C++17 when it is not asked for less; C++17 has no `register`, which LIGGGHTS says in these files' headers."""
+    """Current clang compiles C++17 when it is not asked for less; C++17 has no `register`, which LIGGGHTS says in these
+    files' headers."""
     require(shutil.which("clang++"), "clang++ is missing: scripts/install-packages clang")
     _, build = configured("-DGRAINSCOPE_TESTS=OFF", "-DCMAKE_CXX_COMPILER=clang++", "-DCMAKE_CXX_STANDARD=17")
-    compile_by_hand(build, ["contact_models.cpp", "lammps.cpp", "pair.cpp", "pair_gran_proxy.cpp"], ["-std=c++17"], "-fsyntax-only")
+    compile_by_hand(
+        build, ["contact_models.cpp", "lammps.cpp", "pair.cpp", "pair_gran_proxy.cpp"], ["-std=c++17"], "-fsyntax-only"
+    )
 
 
 def every_file_for_this_processor(ranks):
@@ -52,5 +67,10 @@ def every_file_for_this_processor(ranks):
     compile_by_hand(build, ours, ["-march=native", "-Wall"])
 
 
-main({"configured-without-a-warning": configured_without_a_warning, "clang-takes-the-host-as-c++17": clang_takes_the_host_as_cxx17,
-      "every-file-for-this-processor": every_file_for_this_processor})
+main(
+    {
+        "configured-without-a-warning": configured_without_a_warning,
+        "clang-takes-the-host-as-c++17": clang_takes_the_host_as_cxx17,
+        "every-file-for-this-processor": every_file_for_this_processor,
+    }
+)

@@ -10,20 +10,44 @@ from case import main, require
 
 # What a fork has in place of the host's lines, and what must then be said.
 LACKS = [
-    ("contact_interface.h", "SurfacesIntersectData", "CollisionData",
-     "contact_interface.h has no SurfacesIntersectData"),
+    (
+        "contact_interface.h",
+        "SurfacesIntersectData",
+        "CollisionData",
+        "contact_interface.h has no SurfacesIntersectData",
+    ),
     ("pair_gran.h", "virtual void compute_pgl(int eflag, int vflag);", "", "pair_gran.h has no compute_pgl"),
-    ("pair_gran.h", "ComputePairGranLocal * cpl() const", "ComputePairGranLocal * other() const",
-     "pair_gran.h has no public cpl() const"),
-    ("granular_pair_style.h", "int vflag, int addflag)", "int vflag)",
-     "granular_pair_style.h: compute_force does not take addflag"),
+    (
+        "pair_gran.h",
+        "ComputePairGranLocal * cpl() const",
+        "ComputePairGranLocal * other() const",
+        "pair_gran.h has no public cpl() const",
+    ),
+    (
+        "granular_pair_style.h",
+        "int vflag, int addflag)",
+        "int vflag)",
+        "granular_pair_style.h: compute_force does not take addflag",
+    ),
     ("fix.h", "restart(char *) {}", "restart(char *, int = 0) {}", "fix.h: restart does not take (char *) alone"),
-    ("pair.h", "read_restart_settings(FILE *, const int major, const int minor)", "read_restart_settings(FILE *)",
-     "pair.h: read_restart_settings does not take (FILE *, int, int)"),
-    ("irregular.h", "  void migrate_atoms();", " private:\n  void migrate_atoms();\n public:",
-     "irregular.h has no public migrate_atoms()"),
-    ("utils.h", "char ** & argv,Custom_contact_models ccm) {", "char ** & argv) {\n      Custom_contact_models ccm;",
-     "utils.h: selectVariant does not take custom_contact_models"),
+    (
+        "pair.h",
+        "read_restart_settings(FILE *, const int major, const int minor)",
+        "read_restart_settings(FILE *)",
+        "pair.h: read_restart_settings does not take (FILE *, int, int)",
+    ),
+    (
+        "irregular.h",
+        "  void migrate_atoms();",
+        " private:\n  void migrate_atoms();\n public:",
+        "irregular.h has no public migrate_atoms()",
+    ),
+    (
+        "utils.h",
+        "char ** & argv,Custom_contact_models ccm) {",
+        "char ** & argv) {\n      Custom_contact_models ccm;",
+        "utils.h: selectVariant does not take custom_contact_models",
+    ),
 ]
 UNFORESEEN = "its headers do not compile with ours: "
 
@@ -58,8 +82,10 @@ def replace_link(file, text):
 
 
 def refusal(source, lacking):
-    return (f"LIGGGHTS_SOURCE_DIR: '{source}' (LIGGGHTS-FORK 9.9) is not supported: {lacking}. "
-            "doc/hosts.md lists the hosts that are.")
+    return (
+        f"LIGGGHTS_SOURCE_DIR: '{source}' (LIGGGHTS-FORK 9.9) is not supported: {lacking}. "
+        "doc/hosts.md lists the hosts that are."
+    )
 
 
 def require_refused(source, lacking, build=None):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Every keyword of every style: missing, of another type, out of range on either side, nan, infinite, empty, twice, unknown. What is refused is
-made from this table; so is what is taken, at the limits."""
+"""Every keyword of every style: missing, of another type, out of range on either side, nan, infinite, empty, twice,
+unknown. What is refused is made from this table; so is what is taken, at the limits."""
 from bad_input import Keyword, Kind, NOT_NUMBERS, Style, choice, even, number, require_all_refused, whole
 from case import main
 from deck import Deck
@@ -9,15 +9,52 @@ from run import run
 
 PLANE = Keyword("plane", choice("xy", "xz", "yz"))
 COMPONENT = Keyword("component", choice("vx", "vy", "vz", "wx", "wy", "wz"))
-FLOW = [Keyword("flow", Kind("box, rate, fit or layers", ("box", "fit"), ("q", "", "nan", "1e999", "BOX", "5"))),
-        Keyword("flow rate", number("a shear rate", ("0", "-1e300", "1e300"), ())),
-        Keyword("flow layers", whole(1, 10000))]
+FLOW = [
+    Keyword("flow", Kind("box, rate, fit or layers", ("box", "fit"), ("q", "", "nan", "1e999", "BOX", "5"))),
+    Keyword("flow rate", number("a shear rate", ("0", "-1e300", "1e300"), ())),
+    Keyword("flow layers", whole(1, 10000)),
+]
 LENGTH = number("a positive length", ("1e-300", "1e300"), ("0", "-1", "-0.0", "1e-999"))
-REFERENCE = Kind("f_ID[n] or v_name", ("v_strain", "f_press[1]"),
-                 NOT_NUMBERS + ("0.1", "strain", "c_x[1]", "f_", "f_press", "f_[1]", "f_press[]", "f_press[0]", "f_press[-1]", "f_press[1.5]",
-                                "f_press[nan]", "f_press[1e999]", "f_press[1", "f_press[1][2]", "f_press[x]"))
+REFERENCE = Kind(
+    "f_ID[n] or v_name",
+    ("v_strain", "f_press[1]"),
+    NOT_NUMBERS
+    + (
+        "0.1",
+        "strain",
+        "c_x[1]",
+        "f_",
+        "f_press",
+        "f_[1]",
+        "f_press[]",
+        "f_press[0]",
+        "f_press[-1]",
+        "f_press[1.5]",
+        "f_press[nan]",
+        "f_press[1e999]",
+        "f_press[1",
+        "f_press[1][2]",
+        "f_press[x]",
+    ),
+)
 STRAIN = Keyword("strain", REFERENCE)
-COLUMNS = ("id", "image", "point", "normal", "branch", "overlap", "force", "fn", "fn_damping", "ft", "un", "ut", "sliding", "slip", "mobilisation")
+COLUMNS = (
+    "id",
+    "image",
+    "point",
+    "normal",
+    "branch",
+    "overlap",
+    "force",
+    "fn",
+    "fn_damping",
+    "ft",
+    "un",
+    "ut",
+    "sliding",
+    "slip",
+    "mobilisation",
+)
 
 
 def compute(style, *keywords, **choices):
@@ -37,51 +74,114 @@ def press(**changes):
     return "fix press all press/strain " + " ".join(f"{k} {v}" for k, v in words.items() if v)
 
 
-PRESS = Style("fix press/strain", "fix press all press/strain", [
-    Keyword("axis", choice("x", "y", "z")),
-    Keyword("target", quantity("a pressure >= 0", ("0", "1e300"), ("-1e-9", "-3"))),
-    Keyword("shear", Kind("xy, xz or yz", ("xy rate 1", "xz rate 1"), ("yx", "XY", "", "nan", "x"))),
-    Keyword("shear xy rate", quantity("a shear rate other than 0", ("1e-300", "-5"), ("0", "-0.0")), "rate"),
-    Keyword("every", number("a strain > 0", ("1e-9", "1e9"), ("0", "-1"))),
-    Keyword("every/time", number("a time > 0", ("1e-9", "1e9"), ("0", "-1"))),
-    Keyword("every/step", number("a whole number of steps >= 1", ("1", "1e9"), ("0", "0.5", "2.5", "-1"))),
-    Keyword("gain", number("auto or a velocity per pressure >= 0", ("auto", "0"), ("-1e-9", "AUTO"))),
-    Keyword("limit", number("between 0 and 1, both excluded", ("1e-9", "0.999"), ("0", "1", "-0.1", "2"))),
-    Keyword("maxrate", number("a rate > 0", ("1e-9", "1e9"), ("0", "-1"))),
-    Keyword("momentum", choice("yes", "no")),
-    Keyword("kinetic", choice("yes", "no"))],
-    needed=NEEDED, before=BOX,
-    order=("axis", "target", "shear", "every", "every/time", "every/step", "gain", "limit", "maxrate", "momentum", "kinetic"),
-    more=[(press(shear="xy"), "expected 'rate' and a shear rate after 'xy', got the end of the command"),
-          (press(shear="xy speed 1"), "'shear xy' must be followed by 'rate' and a shear rate, got 'speed'"),
-          (press(axis=None), "'axis x', 'axis y' or 'axis z' is required"), (press(target=None), "'target' and a pressure are required"),
-          (press(every=None), "'every', 'every/time' or 'every/step' is required"),
-          (press(every=None, shear=None), "without 'shear', 'every/time' or 'every/step' is required"),
-          (press(shear=None), "'every' counts strain, and without 'shear' the box has none: use 'every/time' or 'every/step'"),
-          (press() + " every/step 3", "'every', 'every/time' and 'every/step' exclude each other, got a second one: 'every/step'")])
+PRESS = Style(
+    "fix press/strain",
+    "fix press all press/strain",
+    [
+        Keyword("axis", choice("x", "y", "z")),
+        Keyword("target", quantity("a pressure >= 0", ("0", "1e300"), ("-1e-9", "-3"))),
+        Keyword("shear", Kind("xy, xz or yz", ("xy rate 1", "xz rate 1"), ("yx", "XY", "", "nan", "x"))),
+        Keyword("shear xy rate", quantity("a shear rate other than 0", ("1e-300", "-5"), ("0", "-0.0")), "rate"),
+        Keyword("every", number("a strain > 0", ("1e-9", "1e9"), ("0", "-1"))),
+        Keyword("every/time", number("a time > 0", ("1e-9", "1e9"), ("0", "-1"))),
+        Keyword("every/step", number("a whole number of steps >= 1", ("1", "1e9"), ("0", "0.5", "2.5", "-1"))),
+        Keyword("gain", number("auto or a velocity per pressure >= 0", ("auto", "0"), ("-1e-9", "AUTO"))),
+        Keyword("limit", number("between 0 and 1, both excluded", ("1e-9", "0.999"), ("0", "1", "-0.1", "2"))),
+        Keyword("maxrate", number("a rate > 0", ("1e-9", "1e9"), ("0", "-1"))),
+        Keyword("momentum", choice("yes", "no")),
+        Keyword("kinetic", choice("yes", "no")),
+    ],
+    needed=NEEDED,
+    before=BOX,
+    order=(
+        "axis",
+        "target",
+        "shear",
+        "every",
+        "every/time",
+        "every/step",
+        "gain",
+        "limit",
+        "maxrate",
+        "momentum",
+        "kinetic",
+    ),
+    more=[
+        (press(shear="xy"), "expected 'rate' and a shear rate after 'xy', got the end of the command"),
+        (press(shear="xy speed 1"), "'shear xy' must be followed by 'rate' and a shear rate, got 'speed'"),
+        (press(axis=None), "'axis x', 'axis y' or 'axis z' is required"),
+        (press(target=None), "'target' and a pressure are required"),
+        (press(every=None), "'every', 'every/time' or 'every/step' is required"),
+        (press(every=None, shear=None), "without 'shear', 'every/time' or 'every/step' is required"),
+        (
+            press(shear=None),
+            "'every' counts strain, and without 'shear' the box has none: use 'every/time' or 'every/step'",
+        ),
+        (
+            press() + " every/step 3",
+            "'every', 'every/time' and 'every/step' exclude each other, got a second one: 'every/step'",
+        ),
+    ],
+)
 STYLES = [
-    compute("stress/contact"), compute("nematic"), compute("contact/grain"), compute("contact/solver"), compute("energy/ledger"),
+    compute("stress/contact"),
+    compute("nematic"),
+    compute("contact/grain"),
+    compute("contact/solver"),
+    compute("energy/ledger"),
     compute("dissipation", Keyword("mode", choice("instantaneous", "step", "ledger"))),
     compute("fabric", PLANE, flags=("branch", "force/normal", "force/tangential")),
-    compute("contact/surface", Keyword("bins", whole(1, 1000)), Keyword("angle", choice("polar", "parametric")),
-            Keyword("axis", choice("auto", "x", "y", "z"))),
+    compute(
+        "contact/surface",
+        Keyword("bins", whole(1, 1000)),
+        Keyword("angle", choice("polar", "parametric")),
+        Keyword("axis", choice("auto", "x", "y", "z")),
+    ),
     compute("contact/direction", PLANE, Keyword("bins", even(2, 10000))),
     compute("contact/local", flags=COLUMNS, sort="column"),
     compute("fluctuation", PLANE, Keyword("layers", whole(1, 10000)), Keyword("diameter", LENGTH), *FLOW),
     compute("layering", Keyword("axis", choice("x", "y", "z")), Keyword("layers", even(2, 1000))),
-    compute("velocity/correlation", COMPONENT, Keyword("bins", whole(1, 10000)), Keyword("range", LENGTH),
-            Keyword("method", choice("direct", "mesh")), Keyword("method mesh mesh", whole(1, 100), "mesh"), *FLOW, PLANE,
-            Keyword("average", choice("one", "running")),
-            order=("component", "bins", "range", "method", "mesh", "flow", "plane", "average"),
-            more=[("compute c all velocity/correlation mesh 4", "'mesh' needs 'method mesh'"),
-                  ("compute c all velocity/correlation mesh 4 method mesh mesh 4", "'mesh' is given twice")]),
-    compute("velocity/memory", COMPONENT, Keyword("every", number("a positive strain", ("1e-300", "1e300"), ("0", "-0.1"))),
-            Keyword("lags", whole(1, 400)), STRAIN, *FLOW, PLANE, order=("component", "every", "lags", "strain", "flow", "plane")),
+    compute(
+        "velocity/correlation",
+        COMPONENT,
+        Keyword("bins", whole(1, 10000)),
+        Keyword("range", LENGTH),
+        Keyword("method", choice("direct", "mesh")),
+        Keyword("method mesh mesh", whole(1, 100), "mesh"),
+        *FLOW,
+        PLANE,
+        Keyword("average", choice("one", "running")),
+        order=("component", "bins", "range", "method", "mesh", "flow", "plane", "average"),
+        more=[
+            ("compute c all velocity/correlation mesh 4", "'mesh' needs 'method mesh'"),
+            ("compute c all velocity/correlation mesh 4 method mesh mesh 4", "'mesh' is given twice"),
+        ],
+    ),
+    compute(
+        "velocity/memory",
+        COMPONENT,
+        Keyword("every", number("a positive strain", ("1e-300", "1e300"), ("0", "-0.1"))),
+        Keyword("lags", whole(1, 400)),
+        STRAIN,
+        *FLOW,
+        PLANE,
+        order=("component", "every", "lags", "strain", "flow", "plane"),
+    ),
     compute("displacement/shear", Keyword("start", number("a strain", ("0", "-5", "1e300"), ())), STRAIN),
-    PRESS, Style("fix nve/spheroid", "fix spheroid all nve/spheroid", before=BOX),
-    Style("pair_style gran/insitu", "pair_style gran/insitu model hertz tangential history", [
-        Keyword("ledger", choice("on", "off"), ends="'ledger' must be on or off, got the end of the command"),
-        Keyword("setup", choice("neutral", "host"), ends="'setup' must be neutral or host, got the end of the command")], others=True)]
+    PRESS,
+    Style("fix nve/spheroid", "fix spheroid all nve/spheroid", before=BOX),
+    Style(
+        "pair_style gran/insitu",
+        "pair_style gran/insitu model hertz tangential history",
+        [
+            Keyword("ledger", choice("on", "off"), ends="'ledger' must be on or off, got the end of the command"),
+            Keyword(
+                "setup", choice("neutral", "host"), ends="'setup' must be neutral or host, got the end of the command"
+            ),
+        ],
+        others=True,
+    ),
+]
 
 
 def slug(style):
@@ -90,28 +190,38 @@ def slug(style):
 
 def refused(style):
     """All of them on one rank; on more, one: every rank reads the same words."""
+
     def case(ranks):
         inputs = list(style.refused())
-        require_all_refused(style, inputs if ranks == 1 else inputs[len(inputs) // 2:][:1], ranks)
+        require_all_refused(style, inputs if ranks == 1 else inputs[len(inputs) // 2 :][:1], ranks)
+
     return case
 
 
 def undone(command):
     kind, name = command.split()[:2]
-    return [f"{ {'compute': 'uncompute', 'fix': 'unfix'}[kind]} {name}"] if kind in ("compute", "fix") else ["pair_coeff * *"]
+    return (
+        [f"{ {'compute': 'uncompute', 'fix': 'unfix'}[kind]} {name}"]
+        if kind in ("compute", "fix")
+        else ["pair_coeff * *"]
+    )
 
 
 def taken(style):
     """The other side of the limits, in surroundings that are right."""
+
     def case(ranks):
         grain = Grain((5.0, 5.0, 5.0), (1.0, 1.0, 1.5))
         commands = [line for command in style.taken() for line in (command, *undone(command))]
         run(Deck(Packing((20.0, 20.0, 20.0), [grain]), body=["variable strain equal step", *commands]), ranks)
         print(f"{len(commands) // 2} commands taken")
+
     return case
 
 
-CASES = {f"{slug(style)}-refused": refused(style) for style in STYLES} | {f"{slug(style)}-taken": taken(style) for style in STYLES}
+CASES = {f"{slug(style)}-refused": refused(style) for style in STYLES} | {
+    f"{slug(style)}-taken": taken(style) for style in STYLES
+}
 
 if __name__ == "__main__":
     main(CASES)

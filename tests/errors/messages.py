@@ -46,8 +46,16 @@ def end(deck, ranks, *arguments, folder=None, log="log.liggghts", screen="screen
         (folder / "in.deck").write_text(deck if isinstance(deck, str) else deck.text())
     command = [*_command(ranks, binary()), *(arguments or ("-in", "in.deck"))]
     with open(folder / "screen", "w") as out, open(folder / "stderr", "w") as err:
-        done = subprocess.run(command, cwd=folder, env=environment(ranks), stdout=out, stderr=err,
-                              stdin=subprocess.DEVNULL, timeout=TIME_LIMIT, preexec_fn=limit)
+        done = subprocess.run(
+            command,
+            cwd=folder,
+            env=environment(ranks),
+            stdout=out,
+            stderr=err,
+            stdin=subprocess.DEVNULL,
+            timeout=TIME_LIMIT,
+            preexec_fn=limit,
+        )
     return Ended(done.returncode, read(folder / screen), read(folder / "stderr"), read(folder / log))
 
 
@@ -56,8 +64,10 @@ def require_once(ended, words, **streams):
     require(ended.code > 0, f"ended with code {ended.code}")
     for name, wanted in streams.items():
         text = getattr(ended, name)
-        require(text.count(words) == wanted,
-                f"{name} has the message {text.count(words)} times, not {int(wanted)}; it ends:\n{text[-1500:]}")
+        require(
+            text.count(words) == wanted,
+            f"{name} has the message {text.count(words)} times, not {int(wanted)}; it ends:\n{text[-1500:]}",
+        )
 
 
 def last_rank_complains(ranks, *lines):
@@ -140,12 +150,20 @@ def merged(folder, ranks, terminal):
     command = [*_command(ranks, binary()), "-in", "in.deck"]
     if not terminal:
         with open(folder / "both", "w") as both:
-            subprocess.run(command, cwd=folder, env=environment(ranks), stdout=both, stderr=both,
-                           stdin=subprocess.DEVNULL, timeout=TIME_LIMIT)
+            subprocess.run(
+                command,
+                cwd=folder,
+                env=environment(ranks),
+                stdout=both,
+                stderr=both,
+                stdin=subprocess.DEVNULL,
+                timeout=TIME_LIMIT,
+            )
         return read(folder / "both")
     ours, theirs = os.openpty()
-    process = subprocess.Popen(command, cwd=folder, env=environment(ranks), stdout=theirs, stderr=theirs,
-                               stdin=subprocess.DEVNULL)
+    process = subprocess.Popen(
+        command, cwd=folder, env=environment(ranks), stdout=theirs, stderr=theirs, stdin=subprocess.DEVNULL
+    )
     os.close(theirs)
     text = b""
     try:
@@ -169,9 +187,9 @@ def when_the_program_starts(ranks):
 
 def second_signal(ranks):
     """Both arrive while the program is stopped, so that no step is made in between."""
-    started = Started(body('thermo 1', "run 100000000"))
+    started = Started(body("thermo 1", "run 100000000"))
     wait_for_steps(started)
-    pid, = started.ranks()
+    (pid,) = started.ranks()
     for number in (signal.SIGSTOP, signal.SIGTERM, signal.SIGINT, signal.SIGCONT):
         os.kill(pid, number)
     result = started.end()
@@ -185,8 +203,10 @@ def second_signal(ranks):
 
 def exception(ranks):
     """An array that no memory can hold, which the host asks for in a way that it does not check."""
+
     def limit():
         resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
+
     box = "region box block 0 1 0 1 0 1 units box"
     deck = f'atom_style atomic\n{box}\nprint "{BEFORE}"\ncreate_box 2000000000 box\n'
     ended = end(deck, 1, limit=None if "asan" in binary() else limit)
@@ -199,9 +219,13 @@ STRESS = "compute stress (stress/contact) gives a scalar and a vector of 35"
 MEMORY = "compute memory (velocity/memory) gives a scalar, a vector of 4 and an array of 5 rows and 4 columns"
 GRAIN = "compute grain (contact/grain) gives 6 columns per grain"
 ROWS = "compute rows (contact/local) gives 3 columns per local row"
-COMPUTES = ["compute stress all stress/contact", "variable s equal step",
-            "compute memory all velocity/memory strain v_s lags 4", "compute grain all contact/grain",
-            "compute rows all contact/local branch"]
+COMPUTES = [
+    "compute stress all stress/contact",
+    "variable s equal step",
+    "compute memory all velocity/memory strain v_s lags 4",
+    "compute grain all contact/grain",
+    "compute rows all contact/local branch",
+]
 # How an index is used, in lines with {}; the reference, what there is.
 PLACES = {
     "thermo": ("thermo_style custom step {}", "run 0"),
@@ -211,7 +235,7 @@ PLACES = {
     "ave-correlate": ("fix mean all ave/correlate 1 5 5 c_stress[1] {} file mean.txt",),
     "ave-histo": ("fix mean all ave/histo 1 1 1 0 1 10 {} file mean.txt",),
 }
-SLICE = ("compute few all slice 1 2 1 {}",)   # of columns
+SLICE = ("compute few all slice 1 2 1 {}",)  # of columns
 GRAIN_PLACES = {
     "dump": ("dump d all custom 1 d.dump id {}",),
     "reduce": ("compute few all reduce sum {}",),
@@ -242,10 +266,11 @@ def of_another_kind(ranks):
     """An index that something has, but not what is asked for."""
     require_refused(lines_with(PLACES["thermo"], "c_memory[5]"), ranks, "out-of-range", f"c_memory[5]: {MEMORY}")
     for place, reference, words, what in (
-            (PLACES["thermo"], "c_grain[1]", "does not compute vector", GRAIN),
-            (PLACES["print"], "c_stress[1][1]", "Mismatched compute in variable formula", STRESS),
-            (PLACES["ave-time"], "c_grain", "does not calculate a scalar", GRAIN),
-            (GRAIN_PLACES["dump"], "c_stress", "does not compute per-atom info", STRESS)):
+        (PLACES["thermo"], "c_grain[1]", "does not compute vector", GRAIN),
+        (PLACES["print"], "c_stress[1][1]", "Mismatched compute in variable formula", STRESS),
+        (PLACES["ave-time"], "c_grain", "does not calculate a scalar", GRAIN),
+        (GRAIN_PLACES["dump"], "c_stress", "does not compute per-atom info", STRESS),
+    ):
         require_refused(lines_with(place, reference), ranks, words, f"{reference}: {what}")
 
 
@@ -282,10 +307,14 @@ def index_that_is_none(ranks):
 
 def name_that_is_none(ranks):
     for place in (*PLACES.values(), SLICE):
-        require_refused(lines_with(place, "c_stres[1]"), ranks,
-                        "c_stres[1]: there is no compute 'stres': did you mean 'stress'?")
-    require_refused(lines_with(PLACES["print"], "f_fricton[1]"), ranks,
-                    "f_fricton[1]: there is no fix 'fricton': did you mean 'friction'?")
+        require_refused(
+            lines_with(place, "c_stres[1]"), ranks, "c_stres[1]: there is no compute 'stres': did you mean 'stress'?"
+        )
+    require_refused(
+        lines_with(PLACES["print"], "f_fricton[1]"),
+        ranks,
+        "f_fricton[1]: there is no fix 'fricton': did you mean 'friction'?",
+    )
     deck = lines_with(PLACES["print"], "c_quite_another")
     result = require_refused(deck, ranks, "there is no compute 'quite_another'")
     require("did you mean" not in result.output, "a guess from nowhere")
@@ -305,9 +334,10 @@ STYLES = [
 
 def misspelt_style(ranks):
     for line, complaint, wrong, right in STYLES:
-        require_refused(body(line), ranks, complaint, f'"{wrong}": did you mean \'{right}\'?')
-    require_refused("atom_style supperquadric\n", ranks, "Invalid atom style",
-                    "\"supperquadric\": did you mean 'superquadric'?")
+        require_refused(body(line), ranks, complaint, f"\"{wrong}\": did you mean '{right}'?")
+    require_refused(
+        "atom_style supperquadric\n", ranks, "Invalid atom style", "\"supperquadric\": did you mean 'superquadric'?"
+    )
     result = require_refused(body("compute c all of/nothing/known"), ranks, 'Invalid compute style: "of/nothing/known"')
     require("did you mean" not in result.output, "a guess from nowhere")
 

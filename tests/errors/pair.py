@@ -40,8 +40,10 @@ def boxy_without_surface():
 
 MODEL = "model hertz tangential history"
 WALL = f"fix floor all wall/gran {MODEL} primitive type 1 zplane -1.0"
-BOUNDING = ("grains of atom_style superquadric need a surface model of their shape, or they collide as their bounding "
-            "spheres")
+BOUNDING = (
+    "grains of atom_style superquadric need a surface model of their shape, or they collide as their bounding "
+    "spheres"
+)
 
 
 def warned_under_gran(ranks):
@@ -58,28 +60,52 @@ CASES = {
     "superquadrics-without-a-surface": refusal(
         lambda: spheroids(" surface superquadric", "", rolling="cdt", extra="tangential_damping off"),
         f"pair_style gran/insitu: {BOUNDING}; got surface 'default'. Write 'pair_style gran/insitu {MODEL} "
-        "rolling_friction cdt surface ellipsoid tangential_damping off'"),
+        "rolling_friction cdt surface ellipsoid tangential_damping off'",
+    ),
     "superquadrics-with-the-surface-of-spheres": refusal(
         lambda: spheroids("surface superquadric", "surface default", extra="setup neutral"),
-        f"Write 'pair_style gran/insitu {MODEL} surface ellipsoid setup neutral'"),
+        f"Write 'pair_style gran/insitu {MODEL} surface ellipsoid setup neutral'",
+    ),
     "boxy-grains-without-a-surface": refusal(
-        boxy_without_surface, f"Write 'pair_style gran/insitu {MODEL} surface superquadric'"),
+        boxy_without_surface, f"Write 'pair_style gran/insitu {MODEL} surface superquadric'"
+    ),
     "wall-without-a-surface": refusal(
         lambda: Deck(replace(dense_packing(1.5), triclinic=False), body=[WALL, "run 1"], boundary="p p f"),
-        f"fix floor (wall/gran): {BOUNDING}; got surface 'default'. Add 'surface ellipsoid' behind its other models"),
+        f"fix floor (wall/gran): {BOUNDING}; got surface 'default'. Add 'surface ellipsoid' behind its other models",
+    ),
     "superquadrics-without-a-surface-under-gran": warned_under_gran,
-    "hybrid": refusal(lambda: as_text(PAIR, "pair_style hybrid gran/insitu"), "gran/insitu cannot be a sub-style of hybrid",
-                      "use it alone"),
-    "misspelt-model": refusal(lambda: as_text("model hertz", "model hurtz"), "pair_style gran/insitu: invalid contact model"),
-    "misspelt-setting": refusal(lambda: as_text("tangential history", "tangential history limitFours on"), "limitFours"),
-    "small-periodic-box": refusal(small_box, "pair_style gran/insitu: the periodic box must be at least 2 x (largest diameter x "
-                                  "contact distance factor + skin)", "high along z, got 4"),
-    "setup-twice": refusal(lambda: as_text("tangential history", "tangential history setup host setup neutral"),
-                           "pair_style gran/insitu: 'setup' is given twice"),
-    "guard-by-hand": refusal(lambda: deck("fix gran_insitu_guard all run/guard", "run 1"), "fix run/guard: is made by pair_style gran/insitu"),
-    "memory-by-hand": refusal(lambda: deck("fix gran_insitu_setup all setup/memory", "run 1"), "fix setup/memory: is made by pair_style gran/insitu"),
-    "newton-on": refusal(lambda: deck("compute c all stress/contact", tangential="off").text().replace("newton off", "newton on"),
-                         "compute stress/contact requires 'newton off', got 'newton on'"),
+    "hybrid": refusal(
+        lambda: as_text(PAIR, "pair_style hybrid gran/insitu"),
+        "gran/insitu cannot be a sub-style of hybrid",
+        "use it alone",
+    ),
+    "misspelt-model": refusal(
+        lambda: as_text("model hertz", "model hurtz"), "pair_style gran/insitu: invalid contact model"
+    ),
+    "misspelt-setting": refusal(
+        lambda: as_text("tangential history", "tangential history limitFours on"), "limitFours"
+    ),
+    "small-periodic-box": refusal(
+        small_box,
+        "pair_style gran/insitu: the periodic box must be at least 2 x (largest diameter x "
+        "contact distance factor + skin)",
+        "high along z, got 4",
+    ),
+    "setup-twice": refusal(
+        lambda: as_text("tangential history", "tangential history setup host setup neutral"),
+        "pair_style gran/insitu: 'setup' is given twice",
+    ),
+    "guard-by-hand": refusal(
+        lambda: deck("fix gran_insitu_guard all run/guard", "run 1"), "fix run/guard: is made by pair_style gran/insitu"
+    ),
+    "memory-by-hand": refusal(
+        lambda: deck("fix gran_insitu_setup all setup/memory", "run 1"),
+        "fix setup/memory: is made by pair_style gran/insitu",
+    ),
+    "newton-on": refusal(
+        lambda: deck("compute c all stress/contact", tangential="off").text().replace("newton off", "newton on"),
+        "compute stress/contact requires 'newton off', got 'newton on'",
+    ),
 }
 
 if __name__ == "__main__":

@@ -20,22 +20,42 @@ def refused(*words, before=(), triclinic=True, boundary="p p p", **changes):
     def deck():
         packing = replace(dense_packing(atom_style="sphere"), triclinic=triclinic)
         return Deck(packing, boundary=boundary, body=[*before, line(**changes), "run 1"])
+
     return refusal(deck, *words)
 
 
-WALL = "fix floor all wall/gran model hertz tangential history primitive type 1 {}plane 0.0 allow_special_domain_periodic yes"
+WALL = (
+    "fix floor all wall/gran model hertz tangential history primitive type 1 {}plane 0.0 "
+    "allow_special_domain_periodic yes"
+)
 TUBE = WALL.format("y").replace("floor", "tube").replace("yplane 0.0", "xcylinder 9.0 0.0 0.0")
 CASES = {
-    "target-no-such-variable": refused("'target' must name an equal-style variable, got 'v_nothing'", target="v_nothing"),
-    "target-variable-negative": refused("'target' must be a pressure >= 0, got v_low = -1", target="v_low",
-                                        before=["variable low equal -1"]),
-    "rate-variable-zero": refused("'rate' must be a shear rate other than 0, got v_still = 0", shear="xy rate v_still",
-                                  before=["variable still equal 0"]),
+    "target-no-such-variable": refused(
+        "'target' must name an equal-style variable, got 'v_nothing'", target="v_nothing"
+    ),
+    "target-variable-negative": refused(
+        "'target' must be a pressure >= 0, got v_low = -1", target="v_low", before=["variable low equal -1"]
+    ),
+    "rate-variable-zero": refused(
+        "'rate' must be a shear rate other than 0, got v_still = 0",
+        shear="xy rate v_still",
+        before=["variable still equal 0"],
+    ),
     "orthogonal-box": refused("'shear' needs a triclinic box: add 'change_box all triclinic'", triclinic=False),
-    "not-periodic-along-axis": refused("cannot move box edges along 'y': the box must be periodic there", boundary="p f p",
-                                       shear=None, every=None, every_step="5", triclinic=False),
-    "wall-on-the-axis": refused("cannot move box edges along 'y': fix floor is a wall on that axis", before=[WALL.format("y")]),
-    "cylinder-across-the-axis": refused("cannot move box edges along 'y': fix tube is a wall on that axis", before=[TUBE]),
+    "not-periodic-along-axis": refused(
+        "cannot move box edges along 'y': the box must be periodic there",
+        boundary="p f p",
+        shear=None,
+        every=None,
+        every_step="5",
+        triclinic=False,
+    ),
+    "wall-on-the-axis": refused(
+        "cannot move box edges along 'y': fix floor is a wall on that axis", before=[WALL.format("y")]
+    ),
+    "cylinder-across-the-axis": refused(
+        "cannot move box edges along 'y': fix tube is a wall on that axis", before=[TUBE]
+    ),
     "second-fix-deform": refused("another fix already deforms the box", before=[shear(0.01)]),
 }
 

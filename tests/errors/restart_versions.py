@@ -14,10 +14,15 @@ from refusal import require_refused
 from run import run
 
 PRESS = "fix press all press/strain axis y target 2e5 shear xy rate 0.05 every 7e-4"
-FIXES = {"run/guard": "gran_insitu_guard", "setup/memory": "gran_insitu_setup", "grain/record": "moved_record",
-         "ledger/record": "ledger_ledger", "press/strain": "press"}
+FIXES = {
+    "run/guard": "gran_insitu_guard",
+    "setup/memory": "gran_insitu_setup",
+    "grain/record": "moved_record",
+    "ledger/record": "ledger_ledger",
+    "press/strain": "press",
+}
 MARK = b"grs stat"
-SEAL = struct.Struct("<16sQII")      # mark, length, checksum, format
+SEAL = struct.Struct("<16sQII")  # mark, length, checksum, format
 
 
 def measured():
@@ -29,13 +34,13 @@ def measured():
 
 def resealed(body, whole, **changes):
     """`body` with the seal that fits it."""
-    mark, _, _, form = SEAL.unpack(whole[-SEAL.size:])
+    mark, _, _, form = SEAL.unpack(whole[-SEAL.size :])
     return body + SEAL.pack(mark, len(body), zlib.crc32(body), changes.get("format", form))
 
 
 def with_number(whole, style, offset, value):
     """Another number `offset` bytes after the mark of the state of the style's fix, which follows its ID and style."""
-    body = bytearray(whole[:-SEAL.size])
+    body = bytearray(whole[: -SEAL.size])
     name = body.index(FIXES[style].encode() + b"\0")
     at = body.index(MARK, name)
     require(at - name < 60, f"fix {style} keeps no state with a version")
@@ -54,6 +59,7 @@ def refused(style, offset, value, words):
         file, whole, resume = written(ranks)
         file.write_bytes(with_number(whole, style, offset, value))
         require_refused(resume, ranks, f"fix {FIXES[style]} ({style}): the restart file {words}")
+
     return case
 
 
@@ -69,27 +75,38 @@ def same_file_is_read(ranks):
 def former_seal_refused(ranks):
     """Files from before states had versions."""
     file, whole, resume = written(ranks)
-    file.write_bytes(resealed(whole[:-SEAL.size], whole, format=1))
+    file.write_bytes(resealed(whole[: -SEAL.size], whole, format=1))
     require_refused(resume, ranks, "was written by a version of grainscope that kept format 1, this one keeps format 2")
 
 
 def not_by_an_input_script(ranks):
     deck, lines = measured()
-    for style, words in (("run/guard", "pair_style gran/insitu"), ("setup/memory", "pair_style gran/insitu"),
-                         ("grain/record", "the computes that need it"), ("ledger/record", "the computes that need it")):
+    for style, words in (
+        ("run/guard", "pair_style gran/insitu"),
+        ("setup/memory", "pair_style gran/insitu"),
+        ("grain/record", "the computes that need it"),
+        ("ledger/record", "the computes that need it"),
+    ):
         body = [*lines, f"fix mine all {style}", "run 1"]
         require_refused(replace(deck, body=body), ranks, f"fix {style}: is made by {words}, not by an input script")
 
 
 OTHER = "was written by another version of grainscope: it holds {} of its state, and this program reads version 1"
-CASES = {"same-file-is-read": same_file_is_read, "former-seal": former_seal_refused,
-         "not-by-an-input-script": not_by_an_input_script}
+CASES = {
+    "same-file-is-read": same_file_is_read,
+    "former-seal": former_seal_refused,
+    "not-by-an-input-script": not_by_an_input_script,
+}
 for one in FIXES:
     CASES[f"{one}-version"] = refused(one, 8, 9, OTHER.format("version 9"))
     CASES[f"{one}-size"] = refused(one, 12, 4, OTHER.format("4 bytes"))
     CASES[f"{one}-without-a-version"] = refused(
-        one, 0, 0, "holds its state without a version, as earlier versions of grainscope wrote it, and this program "
-        "reads version 1")
+        one,
+        0,
+        0,
+        "holds its state without a version, as earlier versions of grainscope wrote it, and this program "
+        "reads version 1",
+    )
 
 if __name__ == "__main__":
     main(CASES)

@@ -24,24 +24,41 @@ def refused(*words, packing=None, fix="fix integrate all nve/spheroid", before=(
 
 
 ROUND = (2.0, 2.0)
-INSERT = ["region top block -20 20 -10 10 4 8 units box",
-          "fix odd all particletemplate/superquadric 15485863 atom_type 1 density constant 1000 shape constant 1 1.2 1.5 "
-          "blockiness constant 2 2 volume_limit 1e-9",
-          "fix kinds all particledistribution/discrete 15485867 1 odd 1.0",
-          "fix insert all insert/pack seed 32452843 distributiontemplate kinds insert_every 50 vel constant 0 0 0 "
-          "overlapcheck yes all_in yes particles_in_region 3 region top", "run 200"]
+INSERT = [
+    "region top block -20 20 -10 10 4 8 units box",
+    "fix odd all particletemplate/superquadric 15485863 atom_type 1 density constant 1000 shape constant 1 1.2 1.5 "
+    "blockiness constant 2 2 volume_limit 1e-9",
+    "fix kinds all particledistribution/discrete 15485867 1 odd 1.0",
+    "fix insert all insert/pack seed 32452843 distributiontemplate kinds insert_every 50 vel constant 0 0 0 "
+    "overlapcheck yes all_in yes particles_in_region 3 region top",
+    "run 200",
+]
 CFD = ["fix cfd all couple/cfd couple_every 100 mpi", "fix drag all couple/cfd/force/implicit", "run 1"]
 CASES = {
-    "spheres": refused("fix nve/spheroid: needs atom_style superquadric, got 'sphere'", packing=dense_packing(atom_style="sphere")),
-    "triaxial-grains": refused("fix nve/spheroid: grain 2 has three different moments of inertia (semi-axes 1 1.2 1.5, blockiness 2 2)",
-                               ADVICE, packing=grains((5, (1.0, 2.0, 3.0), ROUND), (2, (1.0, 1.2, 1.5), ROUND))),
-    "boxy-about-an-equator": refused("grain 4 has three different moments of inertia (semi-axes 1.5 1 1, blockiness 4 2)", ADVICE,
-                                     packing=grains((4, (1.5, 1.0, 1.0), (4.0, 2.0)))),
-    "triaxial-between-runs": refused("grain 3 has three different moments of inertia (semi-axes 1 2 3, blockiness 2 2)", ADVICE,
-                                     after=("run 10", "set atom 3 shape 1 2 3", "run 1")),
-    "triaxial-inserted": refused("has three different moments of inertia (semi-axes 1 1.2 1.5, blockiness 2 2)", ADVICE, after=INSERT),
-    "implicit-cfd-coupling": refused("fix nve/spheroid: fix drag (couple/cfd/force/implicit) leaves its torque to the integrator", ADVICE,
-                                     after=CFD),
+    "spheres": refused(
+        "fix nve/spheroid: needs atom_style superquadric, got 'sphere'", packing=dense_packing(atom_style="sphere")
+    ),
+    "triaxial-grains": refused(
+        "fix nve/spheroid: grain 2 has three different moments of inertia (semi-axes 1 1.2 1.5, blockiness 2 2)",
+        ADVICE,
+        packing=grains((5, (1.0, 2.0, 3.0), ROUND), (2, (1.0, 1.2, 1.5), ROUND)),
+    ),
+    "boxy-about-an-equator": refused(
+        "grain 4 has three different moments of inertia (semi-axes 1.5 1 1, blockiness 4 2)",
+        ADVICE,
+        packing=grains((4, (1.5, 1.0, 1.0), (4.0, 2.0))),
+    ),
+    "triaxial-between-runs": refused(
+        "grain 3 has three different moments of inertia (semi-axes 1 2 3, blockiness 2 2)",
+        ADVICE,
+        after=("run 10", "set atom 3 shape 1 2 3", "run 1"),
+    ),
+    "triaxial-inserted": refused(
+        "has three different moments of inertia (semi-axes 1 1.2 1.5, blockiness 2 2)", ADVICE, after=INSERT
+    ),
+    "implicit-cfd-coupling": refused(
+        "fix nve/spheroid: fix drag (couple/cfd/force/implicit) leaves its torque to the integrator", ADVICE, after=CFD
+    ),
 }
 
 if __name__ == "__main__":

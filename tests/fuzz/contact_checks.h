@@ -21,7 +21,8 @@ inline void require_sound(const EllipsoidContact &c) {
   require_below(std::fabs(square - 1.0), 1e-13, "the normal is a unit vector");
   for (int k = 0; k < 2; k++) {
     require(c.depth[k] >= 0.0 && std::isfinite(c.depth[k]), "a depth is finite and not negative", c.depth[k]);
-    require(c.curvature[k] >= 0.0 && std::isfinite(c.curvature[k]), "a curvature is finite and not negative", c.curvature[k]);
+    require(c.curvature[k] >= 0.0 && std::isfinite(c.curvature[k]), "a curvature is finite and not negative",
+            c.curvature[k]);
   }
 }
 
@@ -72,39 +73,46 @@ inline double off_surface(const GrainPair &pair, int side, const double *x) {
   return std::fabs(std::sqrt(g) - 1.0);
 }
 
-/** How far two answers for one contact are apart, in smallest semi-axes; `turned`: the second was found with the grains exchanged. */
+/** How far two answers for one contact are apart, in smallest semi-axes; `turned`: the second was found with the grains
+ *  exchanged. */
 inline double difference(const GrainPair &pair, const EllipsoidContact &a, const EllipsoidContact &b, bool turned) {
   double largest = 0.0;
   for (int k = 0; k < 3; k++) {
     largest = std::max(largest, std::fabs(a.normal[k] - (turned ? -b.normal[k] : b.normal[k])));
-    largest = std::max(largest, std::fabs(a.point[k] - (turned ? pair.d[k] + b.point[k] : b.point[k])) / pair.smallest());
+    largest =
+        std::max(largest, std::fabs(a.point[k] - (turned ? pair.d[k] + b.point[k] : b.point[k])) / pair.smallest());
   }
-  for (int k = 0; k < 2; k++) largest = std::max(largest, std::fabs(a.depth[k] - b.depth[turned ? 1 - k : k]) / pair.smallest());
+  for (int k = 0; k < 2; k++)
+    largest = std::max(largest, std::fabs(a.depth[k] - b.depth[turned ? 1 - k : k]) / pair.smallest());
   return largest;
 }
 
 /** Two answers agree; on whether the grains touch too, but where that hangs on rounding. */
-inline void require_alike(const GrainPair &pair, const EllipsoidContact &a, const EllipsoidContact &b, bool turned, const char *what) {
+inline void require_alike(const GrainPair &pair, const EllipsoidContact &a, const EllipsoidContact &b, bool turned,
+                          const char *what) {
   const auto inside = [&](const EllipsoidContact &c) { return c.touching ? c.depth[0] + c.depth[1] : c.gap; };
   if (a.touching != b.touching) return require_below((inside(a) + inside(b)) / pair.smallest(), 1e-11, what);
   if (a.touching && !a.fallback && !b.fallback) require_below(difference(pair, a, b, turned), 1e-7, what);
 }
 
-/** What must hold of any pair, from the contact alone: both surfaces are where it says, it knows no first and second, and no start. */
+/** What must hold of any pair, from the contact alone: both surfaces are where it says, it knows no first and second,
+ *  and no start. */
 template <class Body>
 void check_pair(const GrainPair &pair, double start, const double *aside) {
   const EllipsoidContact c = kernel_contact<Body>(pair);
   require_sound(c);
   require_sound(kernel_contact<Body>(pair, start));
   require_alike(pair, c, kernel_contact<Body>(exchanged(pair)), true, "exchanged grains have the same contact");
-  if (start > 0.0 && start < 1.0) require_alike(pair, c, kernel_contact<Body>(pair, start), false, "a start does not change the contact");
+  if (start > 0.0 && start < 1.0)
+    require_alike(pair, c, kernel_contact<Body>(pair, start), false, "a start does not change the contact");
   if (c.touching && !c.fallback) {
     double on_one[3], on_two[3];
     for (int k = 0; k < 3; k++) {
       on_one[k] = c.point[k] + c.depth[0] * c.normal[k];
       on_two[k] = c.point[k] - pair.d[k] - c.depth[1] * c.normal[k];
     }
-    const double rounding = 1e-9 + 1e-12 * pair.largest() / pair.smallest();  // of the larger one's lengths, as the smaller one sees it
+    // of the larger one's lengths, as the smaller one sees it
+    const double rounding = 1e-9 + 1e-12 * pair.largest() / pair.smallest();
     require_below(off_surface(pair, 0, on_one), rounding, "the depth ends on the surface of 1");
     require_below(off_surface(pair, 1, on_two), rounding, "the depth ends on the surface of 2");
   }
@@ -112,7 +120,9 @@ void check_pair(const GrainPair &pair, double start, const double *aside) {
     GrainPair moved = pair;
     for (int k = 0; k < 3; k++) moved.d[k] += (1.0 - 1e-9) * c.gap * aside[k];
     const EllipsoidContact after = kernel_contact<Body>(moved);
-    if (after.touching) require_below((after.depth[0] + after.depth[1]) / pair.smallest(), 1e-11, "no way of the length of the gap makes them touch");
+    if (after.touching)
+      require_below((after.depth[0] + after.depth[1]) / pair.smallest(), 1e-11,
+                    "no way of the length of the gap makes them touch");
   }
 }
 

@@ -35,7 +35,8 @@ void require_number(const std::string &text) {
   char again[64];
   std::snprintf(again, sizeof again, "%.17g", value);
   double same = 0.0;
-  fuzz::require(Arguments::is_number(again, same) && same == value, "a number that is printed is the same number", same);
+  fuzz::require(Arguments::is_number(again, same) && same == value, "a number that is printed is the same number",
+                same);
 }
 
 bool is_positive(double x) { return x > 0.0; }
@@ -48,9 +49,11 @@ void read_one(Arguments &arguments, unsigned how) {
     const std::string got = arguments.choice("keyword", choices);
     fuzz::require(std::find(choices.begin(), choices.end(), got) != choices.end(), "a choice is one of those given");
   }
-  if (how % 7 == 2) fuzz::require(arguments.number("number", "a positive length", is_positive) > 0.0, "a number is accepted");
+  if (how % 7 == 2)
+    fuzz::require(arguments.number("number", "a positive length", is_positive) > 0.0, "a number is accepted");
   if (how % 7 == 3) {
-    const int low = how & 8u ? -3 : 1, high = how & 16u ? 10000 : 2147483647, got = arguments.whole_number("whole", low, high);
+    const int low = how & 8u ? -3 : 1, high = how & 16u ? 10000 : 2147483647,
+              got = arguments.whole_number("whole", low, high);
     fuzz::require(low <= got && got <= high, "a whole number is in its range", got);
   }
   if (how % 7 == 4) {
@@ -61,7 +64,8 @@ void read_one(Arguments &arguments, unsigned how) {
   if (how % 7 == 6) {
     grainscope::Plane plane;
     plane.read(arguments);
-    fuzz::require(plane.flow + plane.gradient + plane.vorticity == 3 && plane.flow != plane.gradient && plane.vorticity >= 0,
+    fuzz::require(plane.flow + plane.gradient + plane.vorticity == 3 && plane.flow != plane.gradient &&
+                      plane.vorticity >= 0,
                   "a plane has three different axes", plane.vorticity);
   }
 }
@@ -92,8 +96,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     const std::string &said = refused.message;
     fuzz::require(said.compare(0, style.size() + 2, style + ": ") == 0, "a complaint names the style");
     const std::string got = arguments.done() && said.find("got the end of the command") != std::string::npos
-        ? "the end of the command" : "'" + words[std::min(first + asked, all - 1)] + "'";
-    fuzz::require(said.size() >= got.size() && said.compare(said.size() - got.size(), got.size(), got) == 0, "a complaint ends with what it got");
+                                ? "the end of the command"
+                                : "'" + words[std::min(first + asked, all - 1)] + "'";
+    fuzz::require(said.size() >= got.size() && said.compare(said.size() - got.size(), got.size(), got) == 0,
+                  "a complaint ends with what it got");
   }
   return 0;
 }

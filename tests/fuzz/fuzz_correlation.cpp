@@ -37,7 +37,8 @@ double distance(const PeriodicCell &cell, const Vector3d &s) {
   double shortest = HUGE_VAL;
   for (int a = -most[0]; a <= most[0]; a++)
     for (int b = -most[1]; b <= most[1]; b++)
-      for (int c = -most[2]; c <= most[2]; c++) shortest = std::min(shortest, (cell.edges * (rounded + Vector3d(a, b, c))).norm());
+      for (int c = -most[2]; c <= most[2]; c++)
+        shortest = std::min(shortest, (cell.edges * (rounded + Vector3d(a, b, c))).norm());
   return shortest;
 }
 
@@ -46,7 +47,8 @@ void check_pairs(const PeriodicCell &cell, const PointValues &points, const Dist
   std::vector<double> surely(bins.count + 1, 0.0), perhaps(bins.count + 1, 0.0);  // nearer than the end of bin k
   for (std::size_t i = 0; i < points.size(); i++)
     for (std::size_t j = 0; j < i; j++) {
-      const Vector3d s(points.s[0][i] - points.s[0][j], points.s[1][i] - points.s[1][j], points.s[2][i] - points.s[2][j]);
+      const Vector3d s(points.s[0][i] - points.s[0][j], points.s[1][i] - points.s[1][j],
+                       points.s[2][i] - points.s[2][j]);
       const double r = distance(cell, s), rounding = 1e-9;
       for (int k = 0; k < bins.count; k++) {
         surely[k] += r < (k + 1) * bins.width() - rounding;
@@ -63,10 +65,12 @@ void check_pairs(const PeriodicCell &cell, const PointValues &points, const Dist
 
 /** Two ranks see what one sees, and the order of points does not matter. */
 void check_shares(const PeriodicCell &cell, const PointValues &points, const DistanceBins &bins, const PairSums &sums) {
-  const PairSums first = direct_pair_sums(cell, points, bins, 0, 2), second = direct_pair_sums(cell, points, bins, 1, 2);
+  const PairSums first = direct_pair_sums(cell, points, bins, 0, 2),
+                 second = direct_pair_sums(cell, points, bins, 1, 2);
   for (int k = 0; k < bins.count; k++) {
     require(first.pairs[k] + second.pairs[k] == sums.pairs[k], "ranks share all pairs", sums.pairs[k]);
-    require_below(std::fabs(first.products[k] + second.products[k] - sums.products[k]), 1e-10, "ranks share all products");
+    require_below(std::fabs(first.products[k] + second.products[k] - sums.products[k]), 1e-10,
+                  "ranks share all products");
   }
 }
 
@@ -89,7 +93,8 @@ void check_mesh(const PeriodicCell &cell, const PointValues &points, const Dista
   add_lags(cell, mesh, ones.data(), true, bins, lags);
   double all = 0.0;
   for (double lag : lags) all += lag;
-  require(lags[0] >= 1.0 && all <= static_cast<double>(mesh.size[0]) * mesh.size[1] * mesh.size[2], "lags are cells", all);
+  require(lags[0] >= 1.0 && all <= static_cast<double>(mesh.size[0]) * mesh.size[1] * mesh.size[2], "lags are cells",
+          all);
 }
 
 }
@@ -101,8 +106,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
   PointValues points, lost;
   const bool crowd = input.flag();  // enough of them for a grid of cells
   for (int n = input.whole(0, crowd ? 90 : 12); n > 0; n--) {
-    const double wide = input.flag() ? 1.0 : 2.0;  // beyond the box too: a grain may have left it since it was last wrapped
-    points.add(Vector3d(input.uniform(0.0, wide), input.uniform(0.0, wide), input.uniform(0.0, 1.0)), 2.0 * input.small());
+    // beyond the box too: a grain may have left it since it was last wrapped
+    const double wide = input.flag() ? 1.0 : 2.0;
+    points.add(Vector3d(input.uniform(0.0, wide), input.uniform(0.0, wide), input.uniform(0.0, 1.0)),
+               2.0 * input.small());
   }
   const PairSums sums = direct_pair_sums(cell, points, bins);
   check_pairs(cell, points, bins, sums);

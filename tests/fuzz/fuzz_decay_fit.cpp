@@ -3,10 +3,10 @@
 #include "input.h"
 #include <algorithm>
 
-using grainscope::DecayFit;
-using grainscope::fit_decay;
 using fuzz::require;
 using fuzz::require_below;
+using grainscope::DecayFit;
+using grainscope::fit_decay;
 
 namespace {
 
@@ -35,7 +35,8 @@ void check_frozen(fuzz::Input &input, const std::vector<double> &r) {
   if (farthest < 2.0 * nearest) require(length == 0.0, "what does not decay has no length", length, eps);
 }
 
-/** A fit of whatever a correlation may be: no length has a smaller sum of squares, and another unit of r changes nothing. */
+/** A fit of whatever a correlation may be: no length has a smaller sum of squares, and another unit of r changes
+ *  nothing. */
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
   fuzz::Input input(data, size);
   const bool anything = input.byte() < 32, decaying = input.flag();
@@ -45,7 +46,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
   for (int k = 0; k < n; k++) {
     r.push_back(anything ? std::fabs(input.any()) : input.logarithmic(1e-6, 1e3));
     if (input.byte() < 8) r.back() = 0.0;
-    c.push_back(anything ? input.any() : decaying ? std::exp(-r.back() / true_length) + 0.1 * input.small() : 1.5 * input.small());
+    c.push_back(anything   ? input.any()
+                : decaying ? std::exp(-r.back() / true_length) + 0.1 * input.small()
+                           : 1.5 * input.small());
     scaled.push_back(64.0 * r.back());
   }
   const DecayFit fit = fit_decay(r, c);
@@ -68,8 +71,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     if (other > grainscope::longest_decay * largest) continue;
     require_below(least, squares(r, c, other) * (1.0 + 1e-12) + rounding, "no other length fits better");
   }
-  if (fit.points) require_below(least, squares(r, c, HUGE_VAL) * (1.0 + 1e-12) + 1e-15, "an endless length fits no better");
+  if (fit.points)
+    require_below(least, squares(r, c, HUGE_VAL) * (1.0 + 1e-12) + 1e-15, "an endless length fits no better");
   const DecayFit other = fit_decay(scaled, c);
-  require(other.length == 64.0 * fit.length && other.error == 64.0 * fit.error, "another unit gives the same length", other.length);
+  require(other.length == 64.0 * fit.length && other.error == 64.0 * fit.error, "another unit gives the same length",
+          other.length);
   return 0;
 }

@@ -12,7 +12,8 @@ void change_frame(fuzz::Input &input, LedgerFrame &frame) {
   for (int a = 0; a < 3; a++)
     for (int b = a; b < 3; b++) frame.velocity_gradient(a, b) = input.small();
   frame.edge_lengths = Vector3d(9.0, 10.0, 11.0) + vector(input);
-  frame.edge_rates = input.flag() ? Vector3d(frame.velocity_gradient.diagonal().cwiseProduct(frame.edge_lengths)) : vector(input);
+  frame.edge_rates =
+      input.flag() ? Vector3d(frame.velocity_gradient.diagonal().cwiseProduct(frame.edge_lengths)) : vector(input);
   frame.centre = vector(input);
 }
 
@@ -26,7 +27,8 @@ double turnover(const Pair &pair) {
 
 }
 
-/** Two grains that collide in any way, in a box that is moved, kicked between steps, under changing forces: the books close. */
+/** Two grains that collide in any way, in a box that is moved, kicked between steps, under changing forces: the books
+ *  close. */
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
   fuzz::Input input(data, size);
   Pair pair(input.logarithmic(1e-6, 1e-2));

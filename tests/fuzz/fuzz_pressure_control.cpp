@@ -12,7 +12,8 @@ Contact contact_of(fuzz::Input &input) {
   Contact c;
   ContactMotion &m = c.motion.emplace();
   input.direction(c.normal.data(), 3);
-  c.branch = input.logarithmic(1e-3, 1e3) * c.normal + input.small() * Eigen::Vector3d(input.small(), input.small(), input.small());
+  c.branch = input.logarithmic(1e-3, 1e3) * c.normal +
+             input.small() * Eigen::Vector3d(input.small(), input.small(), input.small());
   c.force = 100.0 * Eigen::Vector3d(input.small(), input.small(), input.small());
   c.weight = input.flag() ? 1.0 : 0.5;
   m.normal_stiffness = input.logarithmic(1e-3, 1e9);
@@ -25,7 +26,8 @@ Contact contact_of(fuzz::Input &input) {
 }
 
 /** The box moves the way that lowers the error, never faster than it may, and says so when it would. */
-void check_input(const PressureControl &control, const NetworkResponse &window, double target, double length, double interval) {
+void check_input(const PressureControl &control, const NetworkResponse &window, double target, double length,
+                 double interval) {
   const PressureControl::Input input = control.input(window, target, length, interval);
   const double bound = length * std::min(control.limit / interval, control.max_rate), error = window.pressure - target;
   require(std::isfinite(input.velocity), "an input is finite", input.velocity);
@@ -44,7 +46,8 @@ void check_intervals(fuzz::Input &input) {
     const double step = interval * (input.flag() ? input.logarithmic(1e-6, 0.9) : 0.1);
     told += intervals.advance(step);
     const double gone = intervals.passed() / interval;
-    require(told == std::floor(gone + 1e-9) + 1.0 || told == std::floor(gone + 1e-9), "multiples of an interval are told once", told - gone);
+    require(told == std::floor(gone + 1e-9) + 1.0 || told == std::floor(gone + 1e-9),
+            "multiples of an interval are told once", told - gone);
     require(intervals.next() > gone, "the next multiple is yet to come", intervals.next());
     if (input.flag()) {
       Intervals other(interval);

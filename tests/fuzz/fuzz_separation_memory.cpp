@@ -6,7 +6,9 @@ using namespace remembered_grains;
 
 namespace {
 
-Vector3d vector(fuzz::Input &input, double size) { return size * Vector3d(input.small(), input.small(), input.small()); }
+Vector3d vector(fuzz::Input &input, double size) {
+  return size * Vector3d(input.small(), input.small(), input.small());
+}
 
 Quaterniond turn(fuzz::Input &input) {
   double q[4];
@@ -43,7 +45,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
       for (int k = 0; k < 3; k++) f.row(k) += vector(input, 0.1).transpose();
     for (int i = 0; i < n; i++) {
       g.x[i] = g.origin + f * (g.x[i] - g.origin) + vector(input, input.flag() ? 1.0 : 0.01);
-      if (input.flag()) g.q[i] = input.flag() ? turn(input) : Quaterniond(1.0, 0.01 * input.small(), 0.01 * input.small(), 0.0).normalized() * g.q[i];
+      if (input.flag())
+        g.q[i] = input.flag() ? turn(input)
+                              : Quaterniond(1.0, 0.01 * input.small(), 0.01 * input.small(), 0.0).normalized() * g.q[i];
     }
     g.edges = f * g.edges;
     g.origin += vector(input, 0.1);

@@ -18,16 +18,20 @@ Spheroid any_spheroid(fuzz::Input &input) {
 bool same(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b)); }
 
 void require_same(const EllipsoidContact &a, const EllipsoidContact &b) {
-  require(a.touching == b.touching && a.fallback == b.fallback && a.steps == b.steps, "alone or side by side, the same decisions");
+  require(a.touching == b.touching && a.fallback == b.fallback && a.steps == b.steps,
+          "alone or side by side, the same decisions");
   require(same(a.lambda, b.lambda) && same(a.gap, b.gap), "alone or side by side, the same lambda and gap");
-  for (int k = 0; k < 3; k++) require(same(a.normal[k], b.normal[k]) && same(a.point[k], b.point[k]), "alone or side by side, the same contact");
+  for (int k = 0; k < 3; k++)
+    require(same(a.normal[k], b.normal[k]) && same(a.point[k], b.point[k]), "alone or side by side, the same contact");
   for (int k = 0; k < 2; k++)
-    require(same(a.depth[k], b.depth[k]) && same(a.curvature[k], b.curvature[k]), "alone or side by side, the same depths");
+    require(same(a.depth[k], b.depth[k]) && same(a.curvature[k], b.curvature[k]),
+            "alone or side by side, the same depths");
 }
 
 }
 
-/** Several pairs, each of a sheared packing or of nothing that makes sense: sound answers, and the same from one pair and from many. */
+/** Several pairs, each of a sheared packing or of nothing that makes sense: sound answers, and the same from one pair
+ *  and from many. */
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
   fuzz::Input input(data, size);
   const int n = input.whole(1, 11);

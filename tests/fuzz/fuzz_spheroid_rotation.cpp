@@ -33,7 +33,8 @@ void rotate_anything(fuzz::Input &input) {
 
 }
 
-/** A free top keeps L (given) and its energy; its quaternion stays a unit one; it turns back; two halves of a turn are one. */
+/** A free top keeps L (given) and its energy; its quaternion stays a unit one; it turns back; two halves of a turn are
+ *  one. */
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
   fuzz::Input input(data, size);
   if (input.byte() < 32) {
@@ -58,7 +59,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
   angular_velocity(inertia, momentum, q, before);
   rotate_freely(inertia, momentum, dt, turned, omega);
   require(fuzz::finite(turned, 4) && fuzz::finite(omega, 3), "rotations are finite");
-  require_below(std::fabs(turned[0] * turned[0] + dot(turned + 1, turned + 1) - 1.0), 1e-14, "a quaternion stays of length 1");
+  require_below(std::fabs(turned[0] * turned[0] + dot(turned + 1, turned + 1) - 1.0), 1e-14,
+                "a quaternion stays of length 1");
   const double energy = dot(before, momentum), spread = dot(momentum, momentum) / std::min(across, along);
   require_below(std::fabs(dot(omega, momentum) - energy) / spread, 1e-8 + rounding, "a free top keeps its energy");
 

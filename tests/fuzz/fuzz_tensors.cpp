@@ -21,15 +21,20 @@ void check_axes(const Matrix3d &m) {
   require(values.allFinite() && axes.allFinite(), "principal axes are finite");
   require(values[0] >= values[1] && values[1] >= values[2], "eigenvalues descend", values[1]);
   require_below(std::fabs(values.sum() - m.trace()), 1e-14 * size * 8.0, "eigenvalues add up to the trace");
-  require_below((axes.transpose() * axes - Matrix3d::Identity()).cwiseAbs().maxCoeff(), 1e-8, "axes are at right angles");
-  require_below((axes * values.asDiagonal() * axes.transpose() - m).cwiseAbs().maxCoeff(), rounding, "axes and values make up the tensor");
+  require_below((axes.transpose() * axes - Matrix3d::Identity()).cwiseAbs().maxCoeff(), 1e-8,
+                "axes are at right angles");
+  require_below((axes * values.asDiagonal() * axes.transpose() - m).cwiseAbs().maxCoeff(), rounding,
+                "axes and values make up the tensor");
   for (int k = 0; k < 3; k++)
-    require_below(axes.col(k).cwiseAbs().maxCoeff() - axes.col(k).maxCoeff(), 1e-10, "the largest component of an axis is positive");
+    require_below(axes.col(k).cwiseAbs().maxCoeff() - axes.col(k).maxCoeff(), 1e-10,
+                  "the largest component of an axis is positive");
   const PrincipalAxes again(Matrix3d(values.asDiagonal()));
   require_below((again.values - values).cwiseAbs().maxCoeff(), rounding, "a diagonal tensor has its diagonal");
 }
 
-Shape shape_of(unsigned kind) { return kind % 3 == 0 ? Shape::prolate : kind % 3 == 1 ? Shape::oblate : Shape::triaxial; }
+Shape shape_of(unsigned kind) {
+  return kind % 3 == 0 ? Shape::prolate : kind % 3 == 1 ? Shape::oblate : Shape::triaxial;
+}
 bool is_line_angle(double theta) { return theta > -M_PI_2 && theta <= M_PI_2; }
 
 void check_nematic(fuzz::Input &input) {
@@ -40,14 +45,18 @@ void check_nematic(fuzz::Input &input) {
     const Shape shape = shape_of(input.byte());
     sums.add_axis(p, shape);
     sums.add_spin(Vector3d(input.small(), input.small(), input.small()));
-    require(is_line_angle(major_axis_angle(p, shape)), "a grain's angle is in (-pi/2, pi/2]", major_axis_angle(p, shape));
-    require_below(std::fabs(std::sin(major_axis_angle(p, shape) - major_axis_angle(-p, shape))), 1e-9, "an axis has no head");
+    require(is_line_angle(major_axis_angle(p, shape)), "a grain's angle is in (-pi/2, pi/2]",
+            major_axis_angle(p, shape));
+    require_below(std::fabs(std::sin(major_axis_angle(p, shape) - major_axis_angle(-p, shape))), 1e-9,
+                  "an axis has no head");
   }
   const Nematic nematic(sums);
   require(nematic.order >= -1e-12 && nematic.order <= 1.0 + 1e-12, "S2 is between 0 and 1", nematic.order);
   require_below(std::fabs(nematic.q.trace()), 1e-14, "Q has no trace");
-  require(nematic.biaxiality >= 0.0 && nematic.biaxiality <= 1.0 + 1e-12, "biaxiality is between 0 and 1", nematic.biaxiality);
-  require(is_line_angle(nematic.theta) && is_line_angle(nematic.director_theta), "angles are in (-pi/2, pi/2]", nematic.theta);
+  require(nematic.biaxiality >= 0.0 && nematic.biaxiality <= 1.0 + 1e-12, "biaxiality is between 0 and 1",
+          nematic.biaxiality);
+  require(is_line_angle(nematic.theta) && is_line_angle(nematic.director_theta), "angles are in (-pi/2, pi/2]",
+          nematic.theta);
   check_axes(nematic.q);
 }
 
@@ -73,7 +82,8 @@ void check_fabric(fuzz::Input &input) {
   for (const ContactMoment &m : moments) weighted.add(m, fabric);
   for (const Matrix3d &m : {weighted.branch(), weighted.normal_force(), weighted.tangential_force()})
     require(m.allFinite(), "weighted tensors are finite");
-  require_below(std::fabs(weighted.branch().trace()), 1e-12 * (1.0 + weighted.branch().cwiseAbs().maxCoeff()), "the branch tensor has no trace");
+  require_below(std::fabs(weighted.branch().trace()), 1e-12 * (1.0 + weighted.branch().cwiseAbs().maxCoeff()),
+                "the branch tensor has no trace");
 }
 
 }

@@ -47,11 +47,12 @@ GrainModes modes_of(const std::vector<Touch> &touches, std::size_t n, const Matr
 
 }
 
-/** One grain and its contacts: the bound grows with every contact, is that of its parts, the same however the grain is turned, and reached
- *  at the time step that is told. */
+/** One grain and its contacts: the bound grows with every contact, is that of its parts, the same however the grain is
+ *  turned, and reached at the time step that is told. */
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
   fuzz::Input input(data, size);
-  const double radius = input.logarithmic(1e-3, 1e3), mass = input.logarithmic(1e-6, 1e6), dt = input.logarithmic(1e-9, 1e3);
+  const double radius = input.logarithmic(1e-3, 1e3), mass = input.logarithmic(1e-6, 1e6),
+               dt = input.logarithmic(1e-9, 1e3);
   const double stiffness = input.logarithmic(1e-6, 1e9);
   std::vector<Touch> touches(input.whole(0, 8));
   for (Touch &touch : touches) touch = touch_of(input, radius, stiffness);
@@ -66,14 +67,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     const GrainModes::Mode mode = modes_of(touches, n, still).fastest(mass, inertia, dt);
     require(std::isfinite(mode.value), "an eigenvalue is finite", mode.value);
     require(mode.value >= last * (1.0 - 1e-9), "a contact more does not make it smaller", mode.value / last);
-    require_below(std::fabs(dt * dt * mode.stiffness + dt * mode.damping - mode.value), 1e-9 * mode.value, "it is what its parts make");
+    require_below(std::fabs(dt * dt * mode.stiffness + dt * mode.damping - mode.value), 1e-9 * mode.value,
+                  "it is what its parts make");
     const double step = mode.largest_step();
     require(step > 0.0, "the step at the limit is positive", step);
     if (std::isfinite(step))
-      require_below(std::fabs(step * (step * mode.stiffness + mode.damping) / limit - 1.0), 1e-9, "the step that is told is at the limit");
+      require_below(std::fabs(step * (step * mode.stiffness + mode.damping) / limit - 1.0), 1e-9,
+                    "the step that is told is at the limit");
     last = mode.value;
   }
-  const GrainModes::Mode turned = modes_of(touches, touches.size(), turn).fastest(mass, turn * inertia * turn.transpose(), dt);
+  const GrainModes::Mode turned =
+      modes_of(touches, touches.size(), turn).fastest(mass, turn * inertia * turn.transpose(), dt);
   require_below(std::fabs(turned.value - last), 1e-9 * last, "a turned grain has the same bound");
   return 0;
 }

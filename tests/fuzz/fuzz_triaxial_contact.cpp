@@ -29,6 +29,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
   input.direction(aside, 3);
   fuzz::check_pair<Triaxial>(pair, start, aside);
   if (triaxial) return 0;
-  fuzz::require_alike(pair, kernel_contact<Triaxial>(pair), kernel_contact<Spheroid>(pair), false, "a spheroid is a triaxial body too");
+  fuzz::require_alike(pair, kernel_contact<Triaxial>(pair), kernel_contact<Spheroid>(pair), false,
+                      "a spheroid is a triaxial body too");
   return 0;
 }

@@ -37,8 +37,18 @@ class Input {
   /** Any double: NaN, infinite, denormal, huge. */
   double any() {
     const unsigned kind = byte();
-    const double special[] = {0.0, -0.0, 1.0, -1.0, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-                              std::numeric_limits<double>::quiet_NaN(), 5e-324, 2.3e-308, 1.7e308, 1e150, 1e-160};
+    const double special[] = {0.0,
+                              -0.0,
+                              1.0,
+                              -1.0,
+                              std::numeric_limits<double>::infinity(),
+                              -std::numeric_limits<double>::infinity(),
+                              std::numeric_limits<double>::quiet_NaN(),
+                              5e-324,
+                              2.3e-308,
+                              1.7e308,
+                              1e150,
+                              1e-160};
     if (kind < 24) return special[kind % 12];
     if (kind < 128) return small();
     const std::uint64_t raw = bits(8);

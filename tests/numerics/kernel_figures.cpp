@@ -11,8 +11,8 @@
 #include <cstdio>
 #include <vector>
 
-/** Results of the kernels for inputs that are the same to the last bit whatever compiled them, as rows of text: a name, what its numbers are
- *  measured in, the numbers. compare.py reads several of them. */
+/** Results of the kernels for inputs that are the same to the last bit whatever compiled them, as rows of text: a name,
+ *  what its numbers are measured in, the numbers. compare.py reads several of them. */
 namespace {
 
 using namespace grainscope;
@@ -52,8 +52,9 @@ void row(const char *name, double unit, std::initializer_list<double> numbers) {
 
 void contact_row(const char *name, const EllipsoidContact &c, double smallest) {
   if (!c.touching) return row(name, smallest, {0.0, c.gap});
-  row(name, smallest, {1.0, c.depth[0] + c.depth[1], c.point[0], c.point[1], c.point[2], c.normal[0] * smallest, c.normal[1] * smallest,
-                       c.normal[2] * smallest});
+  row(name, smallest,
+      {1.0, c.depth[0] + c.depth[1], c.point[0], c.point[1], c.point[2], c.normal[0] * smallest, c.normal[1] * smallest,
+       c.normal[2] * smallest});
 }
 
 /** 1e5 pairs, half spheroids (solved side by side), half triaxial: most of them touch. */
@@ -67,7 +68,8 @@ void contacts(Random &random) {
     std::vector<double> smallest(batch, 5.0);
     for (int p = 0; p < batch; p++) {
       for (int side = 0; side < 2; side++) {
-        const double a = random.ratio(), semi[3] = {1.0, triaxial ? random.uniform(std::fmin(a, 1.0), std::fmax(a, 1.0)) : 1.0, a};
+        const double a = random.ratio(),
+                     semi[3] = {1.0, triaxial ? random.uniform(std::fmin(a, 1.0), std::fmax(a, 1.0)) : 1.0, a};
         double q[4];
         random.direction(q, 4);
         spheroids[2 * p + side] = make_spheroid(semi, q);
@@ -112,8 +114,9 @@ void ledgers(Random &random) {
     for (int step = 0; step < 200; step++) pair.step();
     const EnergyLedger::Entries t = pair.ledger.totals();
     using E = EnergyLedger;
-    row("ledger", pair.ledger.start_energy(), {t[E::W_shear], t[E::W_box], t[E::W_frame], t[E::W_other], t[E::D_n], t[E::D_t], t[E::D_rolling],
-        t[E::G_k], t[E::G_p], t[E::G_n], t[E::G_open], t[E::G_dt]});
+    row("ledger", pair.ledger.start_energy(),
+        {t[E::W_shear], t[E::W_box], t[E::W_frame], t[E::W_other], t[E::D_n], t[E::D_t], t[E::D_rolling], t[E::G_k],
+         t[E::G_p], t[E::G_n], t[E::G_open], t[E::G_dt]});
   }
 }
 
@@ -128,7 +131,8 @@ void sums(Random &random) {
     fabric.add(c);
   }
   const PrincipalAxes axes(fabric.tensor());
-  row("fabric", 1.0, {axes.values[0], axes.values[1], axes.values[2], axes.vectors(0, 0), axes.vectors(1, 0), axes.vectors(2, 0)});
+  row("fabric", 1.0,
+      {axes.values[0], axes.values[1], axes.values[2], axes.vectors(0, 0), axes.vectors(1, 0), axes.vectors(2, 0)});
   for (double area : band_areas(Eigen::Vector3d(1.0, 0.5, 3.0), 10, SurfaceAngle::polar)) row("bands", 1.0, {area});
   PeriodicCell cell;
   cell.edges(0, 1) = 0.3;

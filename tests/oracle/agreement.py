@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Prints, as a Markdown table, the largest difference between grainscope and the oracle for each quantity, relative to its size, by aspect
-ratio: the largest over friction coefficients and snapshots of sheared packings.
+"""Prints, as a Markdown table, the largest difference between grainscope and the oracle for each quantity, relative to
+its size, by aspect ratio: the largest over friction coefficients and snapshots of sheared packings.
 
-    GRAINSCOPE_BINARY=build/release/bin/grainscope PYTHONPATH=tests/tools:tests python3 tests/oracle/agreement.py [ranks] [open|periodic]
+    GRAINSCOPE_BINARY=build/release/bin/grainscope PYTHONPATH=tests/tools:tests python3 tests/oracle/agreement.py
+      [ranks] [open|periodic]
 
-open: a cluster in a box so large that no contact crosses a face, each evaluated once: rounding errors are all that is left. periodic: a
-dense packing; contacts of non-spheres across faces and ranks are evaluated by both owners, by a solver that stops at about 1e-7."""
+open: a cluster in a box so large that no contact crosses a face, each evaluated once: rounding errors are all that is
+left. periodic: a dense packing; contacts of non-spheres across faces and ranks are evaluated by both owners, by a
+solver that stops at about 1e-7."""
 import os
 import re
 import sys
@@ -59,9 +61,19 @@ def of_series(moments):
 
 def differences(alpha, friction, where, ranks):
     packing = packing_of(alpha, where)
-    deck = Deck(packing, extra="tangential_damping off", material=Material(friction=(friction,)), body=c.strain_lines(RATE))
-    moments = watch(deck, c.everything(packing), deforming(RATE), ranks, settle=5 if where == "open" else 100, every=1, steps=10,
-                    extra=("v_strain",))
+    deck = Deck(
+        packing, extra="tangential_damping off", material=Material(friction=(friction,)), body=c.strain_lines(RATE)
+    )
+    moments = watch(
+        deck,
+        c.everything(packing),
+        deforming(RATE),
+        ranks,
+        settle=5 if where == "open" else 100,
+        every=1,
+        steps=10,
+        extra=("v_strain",),
+    )
     doubt = 0.0 if alpha == "sphere" or (where == "open" and ranks == 1) else DOUBT
     for moment in moments[::5]:
         if not len(moment.rows["fn"]):
@@ -79,10 +91,16 @@ def table(where, ranks):
                 name = re.sub(", all bins$", " (sum)", one.name)
                 cells = worst.setdefault(name, {})
                 cells[alpha] = max(cells.get(alpha, 0.0), one.error())
-    print(f"| {where}, {ranks} rank(s) | " + " | ".join(f"{a:g}" if a != "sphere" else "spheres" for a in ALPHAS) + " |")
+    print(
+        f"| {where}, {ranks} rank(s) | " + " | ".join(f"{a:g}" if a != "sphere" else "spheres" for a in ALPHAS) + " |"
+    )
     print("|---" * (len(ALPHAS) + 1) + "|")
     for name, cells in worst.items():
-        print(f"| {name} | " + " | ".join(f"{cells[a]:.0e}" if cells.get(a) else "0" if a in cells else "-" for a in ALPHAS) + " |")
+        print(
+            f"| {name} | "
+            + " | ".join(f"{cells[a]:.0e}" if cells.get(a) else "0" if a in cells else "-" for a in ALPHAS)
+            + " |"
+        )
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Pairs of numbers to compare, found by grainscope and expected by the oracle, each with the scale that its rounding errors have."""
+"""Pairs of numbers to compare, found by grainscope and expected by the oracle, each with the scale that its rounding
+errors have."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -31,7 +32,9 @@ def magnitude(values):
 
 
 def compare(name, found, expected, scale=None, counted=False):
-    return Comparison(name, np.asarray(found, dtype=float), np.asarray(expected, dtype=float), scale or magnitude(expected), counted)
+    return Comparison(
+        name, np.asarray(found, dtype=float), np.asarray(expected, dtype=float), scale or magnitude(expected), counted
+    )
 
 
 def rubbing(rows):
@@ -62,12 +65,15 @@ def of_weighted(found, rows):
         yield compare("fabric weighted", found, np.zeros(18), 1.0)
         return
     share = 1.0 + np.einsum("ca,ab,cb->c", n, 7.5 * fabric.traceless(fabric.fabric_tensor(n)), n)
-    parts = (("branch", fabric.branch, np.linalg.norm(rows["branch"], axis=1)), ("force/normal", fabric.force_normal, rows["fn"]),
-             ("force/tangential", fabric.force_tangential, np.linalg.norm(rows["ft"], axis=1)))
+    parts = (
+        ("branch", fabric.branch, np.linalg.norm(rows["branch"], axis=1)),
+        ("force/normal", fabric.force_normal, rows["fn"]),
+        ("force/tangential", fabric.force_tangential, np.linalg.norm(rows["ft"], axis=1)),
+    )
     for k, (name, tensor, amount) in enumerate(parts):
         total = abs(np.sum((rows["fn"] if k else amount) / share))
-        blown_up = 7.5 * np.sum(np.abs(amount) / share ** 2) / total if total else 1.0
-        yield compare(f"fabric {name}", found[6 * k:6 * k + 6], tensor(rows), max(7.5 * blown_up, 1.0))
+        blown_up = 7.5 * np.sum(np.abs(amount) / share**2) / total if total else 1.0
+        yield compare(f"fabric {name}", found[6 * k : 6 * k + 6], tensor(rows), max(7.5 * blown_up, 1.0))
 
 
 def steady_bins(angles, edges, doubt):
@@ -80,8 +86,8 @@ def steady_bins(angles, edges, doubt):
 
 
 def of_bins(label, found, expected, names, counts, steady, sums, least=0.0):
-    """Columns of a histogram, bin by bin where `steady`, and summed over all bins; `sums`: columns that are sums already; `least`:
-    a size below which values are rounding errors of larger ones."""
+    """Columns of a histogram, bin by bin where `steady`, and summed over all bins; `sums`: columns that are sums
+    already; `least`: a size below which values are rounding errors of larger ones."""
     for column, name in names.items():
         scale = max(magnitude(expected[:, column]), least)
         yield compare(f"{label} {name}", found[steady, column], expected[steady, column], scale)
@@ -93,11 +99,15 @@ def of_bins(label, found, expected, names, counts, steady, sums, least=0.0):
 
 def of_surface(found, vector, moment, angle="polar", axis="auto", doubt=0.0):
     bins, rows, grains = len(found), moment.rows, moment.grains
-    expected, expected_vector = surface.surface_table(rows, grains, moment.force_box.volume, moment.chosen, bins, angle, axis)
+    expected, expected_vector = surface.surface_table(
+        rows, grains, moment.force_box.volume, moment.chosen, bins, angle, axis
+    )
     edges = np.arange(bins + 1) * 0.5 * np.pi / bins
     edges[[0, -1]] = -1.0, 4.0  # folded: nothing leaves there
     index = surface.named_axis(grains.shape[np.flatnonzero(moment.chosen)[0]], axis) if moment.chosen.any() else 2
-    psi = [surface.psi_of(p, grains.shape[i], grains.quaternion[i], index, angle) for _, i, p in surface.ends(rows, grains)]
+    psi = [
+        surface.psi_of(p, grains.shape[i], grains.quaternion[i], index, angle) for _, i, p in surface.ends(rows, grains)
+    ]
     steady = steady_bins(psi, edges, doubt)
     yield compare("surface psi", found[:, 0], expected[:, 0])
     yield compare("surface area", found[:, 1], expected[:, 1])
@@ -105,17 +115,33 @@ def of_surface(found, vector, moment, angle="polar", axis="auto", doubt=0.0):
     yield compare("surface all contacts", found[:, 2].sum(), expected[:, 2].sum(), 1.0, doubt == 0.0)
     yield from of_bins("surface", found, expected, {3: "rho", 4: "rho A", 9: "P_n"}, 2, steady, (3, 4, 9))
     yield from of_bins("surface", found, expected, {10: "P_t"}, 2, steady, (10,), rubbing(rows))
-    yield from of_bins("surface", found, expected, {5: "F_n", 6: "F_t"}, 2, steady, (), SMALL * magnitude(expected[:, 5]))
+    yield from of_bins(
+        "surface", found, expected, {5: "F_n", 6: "F_t"}, 2, steady, (), SMALL * magnitude(expected[:, 5])
+    )
     yield from of_bins("surface", found, expected, {7: "mobilisation", 8: "sliding"}, 2, steady, (), SMALL)
-    sums, least = {13: "sum of F_n", 14: "sum of F_t", 15: "sum of mobilisation", 16: "sum of sliding"}, SMALL * magnitude(expected[:, 13])
+    sums, least = {
+        13: "sum of F_n",
+        14: "sum of F_t",
+        15: "sum of mobilisation",
+        16: "sum of sliding",
+    }, SMALL * magnitude(expected[:, 13])
     yield from of_bins("surface", found, expected, sums, 2, steady, (13, 14, 15, 16), least)
     power = expected[:, 9] + expected[:, 10]
     # The total power is a difference where single contacts gain energy.
     blown_up = np.sum(np.abs(power)) / max(abs(power.sum()), TINY) if power.any() else 1.0
     for column, name in ((11, "inhomogeneity"), (12, "inhomogeneity, printed")):
-        yield compare(f"surface {name}", found[steady, column], expected[steady, column], magnitude(expected[:, column]) * blown_up)
-    yield compare("surface P, area, grains", vector / np.maximum(np.abs(expected_vector), TINY),
-                  expected_vector / np.maximum(np.abs(expected_vector), TINY), 1.0)
+        yield compare(
+            f"surface {name}",
+            found[steady, column],
+            expected[steady, column],
+            magnitude(expected[:, column]) * blown_up,
+        )
+    yield compare(
+        "surface P, area, grains",
+        vector / np.maximum(np.abs(expected_vector), TINY),
+        expected_vector / np.maximum(np.abs(expected_vector), TINY),
+        1.0,
+    )
 
 
 def of_direction(found, rows, plane=(0, 1), doubt=0.0):

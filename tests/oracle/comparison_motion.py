@@ -17,7 +17,7 @@ def of_fluctuation(vector, array, moment, flow=("box",), plane=(0, 1), layers=10
     over_rate = 1.0 / (abs(expected[10]) * moment.box.edges[plane[1], plane[1]]) if expected[10] else 1.0
     yield compare("fluctuation rms dv", vector[:3], expected[:3], speed)
     yield compare("fluctuation rms dw", vector[3:6], expected[3:6], spin)
-    yield compare("fluctuation E_tr", vector[6], expected[6], 0.5 * mass * speed ** 2)
+    yield compare("fluctuation E_tr", vector[6], expected[6], 0.5 * mass * speed**2)
     yield compare("fluctuation E_rot", vector[7], expected[7])
     yield compare("fluctuation E_rot/E_tr", vector[8], expected[8], max(abs(expected[8]), TINY))
     yield compare("fluctuation lever", vector[9], expected[9], max(expected[9], TINY))
@@ -42,8 +42,18 @@ def of_layering(vector, array, moment, axis=1, layers=40):
     yield compare("layering grains", vector[3], expected[3], 1.0, True)
 
 
-def of_correlation(vector, array, moment, name="vy", bins=19, reach=None, flow=("box",), plane=(0, 1), mesh=0,
-                   periodic=(True, True, True)):
+def of_correlation(
+    vector,
+    array,
+    moment,
+    name="vy",
+    bins=19,
+    reach=None,
+    flow=("box",),
+    plane=(0, 1),
+    mesh=0,
+    periodic=(True, True, True),
+):
     """`mesh`: cells to a bin's width, 0 for the direct sum."""
     grains, chosen, box = moment.grains, moment.chosen, moment.box
     reach = reach or 0.5 * min(correlation.heights(box))
@@ -52,7 +62,7 @@ def of_correlation(vector, array, moment, name="vy", bins=19, reach=None, flow=(
     x = correlation.on_mesh(grains.x[chosen], box, mesh, reach / bins) if mesh else grains.x[chosen]
     numerator, pairs = correlation.pair_sums(x, values, box, bins, reach, smallest, periodic)
     r = (np.arange(bins) + 0.5) * reach / bins
-    table, expected = correlation.correlation_table(r, numerator, pairs, np.mean(values ** 2), len(values))
+    table, expected = correlation.correlation_table(r, numerator, pairs, np.mean(values**2), len(values))
     yield from of_correlation_table(f"C(r) of {name}" + (" on a mesh" if mesh else ""), vector, array, table, expected)
 
 
@@ -60,7 +70,9 @@ def of_correlation_table(label, vector, array, table, expected):
     mean_square = expected[2]
     yield compare(f"{label}: r", array[:, 0], table[:, 0])
     # Terms of either sign: their sizes carry the rounding errors.
-    yield compare(f"{label}: numerator", array[:, 2], table[:, 2], max(mean_square, TINY) * math.sqrt(max(table[:, 3].max(), 1.0)))
+    yield compare(
+        f"{label}: numerator", array[:, 2], table[:, 2], max(mean_square, TINY) * math.sqrt(max(table[:, 3].max(), 1.0))
+    )
     yield compare(f"{label}: pairs", array[:, 3], table[:, 3], 1.0, True)
     yield compare(f"{label}: C", array[:, 1], table[:, 1], 1.0)
     yield from of_decay(label, vector[:2], vector[4], expected)
@@ -69,7 +81,8 @@ def of_correlation_table(label, vector, array, table, expected):
 
 
 def of_decay(label, found, bins, expected):
-    """The bottom of a parabola is known to the square root of the precision; both sides look for the zero of its slope."""
+    """The bottom of a parabola is known to the square root of the precision; both sides look for the zero of its
+    slope."""
     yield compare(f"{label}: bins in the fit", bins, expected[4], 1.0, True)
     yield compare(f"{label}: decay length", found[0], expected[0], max(expected[0], TINY))
     yield compare(f"{label}: its error", found[1], expected[1], max(expected[0], TINY))

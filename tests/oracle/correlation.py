@@ -64,8 +64,8 @@ def on_mesh(x, box, per_bin, width):
 
 
 def decay(r, c):
-    """(l, standard error, bins) of exp(-r/l) fitted to the bins with C > 0.05: the best of a fine grid of l, then the zero of the
-    derivative by bisection. l = 0 where an endless one is best."""
+    """(l, standard error, bins) of exp(-r/l) fitted to the bins with C > 0.05: the best of a fine grid of l, then the
+    zero of the derivative by bisection. l = 0 where an endless one is best."""
     chosen = c > WORTH_FITTING
     r, c = r[chosen], c[chosen]
     if not len(r):
@@ -88,7 +88,7 @@ def decay(r, c):
     e = np.exp(-r / length)
     if len(r) < 2:
         return length, 0.0, len(r)
-    return length, math.sqrt(np.sum((e - c) ** 2) / (len(r) - 1) / np.sum((e * r / length ** 2) ** 2)), len(r)
+    return length, math.sqrt(np.sum((e - c) ** 2) / (len(r) - 1) / np.sum((e * r / length**2) ** 2)), len(r)
 
 
 def ratio(a, b):
@@ -117,7 +117,8 @@ def memory_table(samples, strains, lags):
 
 
 def samples_of(strains, every):
-    """Which calls take a sample: the first, and each that finds the strain beyond another multiple of `every` since then."""
+    """Which calls take a sample: the first, and each that finds the strain beyond another multiple of `every` since
+    then."""
     taken, last = [], -1
     for k, strain in enumerate(strains):
         multiple = math.floor(abs(strain - strains[0]) / every + 1e-9)

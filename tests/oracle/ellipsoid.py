@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Contact of two ellipsoids by the Perram-Wertheim function: p = ((1-l) B1 + l B2)^-1 d with B = R diag(s^2) R^T, d = x2 - x1, and l where
-(1-l) sqrt(p.B1 p) = l sqrt(p.B2 p). The contact point is x1 + (1-l) B1 p, the normal lies along p, and the overlap is the sum of the
-distances from the contact point to the two surfaces along the normal."""
+"""Contact of two ellipsoids by the Perram-Wertheim function: p = ((1-l) B1 + l B2)^-1 d with B = R diag(s^2) R^T, d =
+x2 - x1, and l where (1-l) sqrt(p.B1 p) = l sqrt(p.B2 p). The contact point is x1 + (1-l) B1 p, the normal lies along p,
+and the overlap is the sum of the distances from the contact point to the two surfaces along the normal."""
 import itertools
 
 import numpy as np
@@ -19,17 +19,17 @@ def contact(x1, b1, x2, b2):
     d = x2 - x1
     low, high = 0.0, 1.0
     for _ in range(60):
-        l = 0.5 * (low + high)
-        p = np.linalg.solve((1 - l) * b1 + l * b2, d)
+        lam = 0.5 * (low + high)
+        p = np.linalg.solve((1 - lam) * b1 + lam * b2, d)
         a, b = np.sqrt(p @ b1 @ p), np.sqrt(p @ b2 @ p)
         if d @ p > a + b:
             return None
-        if (1 - l) * a > l * b:
-            low = l
+        if (1 - lam) * a > lam * b:
+            low = lam
         else:
-            high = l
+            high = lam
     n = p / np.linalg.norm(p)
-    point = x1 + (1 - l) * b1 @ p
+    point = x1 + (1 - lam) * b1 @ p
     return point, -n, to_surface(point - x1, n, b1) + to_surface(point - x2, -n, b2)
 
 

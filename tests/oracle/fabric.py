@@ -15,8 +15,8 @@ def upright(vector):
 
 
 def axes(tensor):
-    """(eigenvalues descending, unit eigenvectors in rows). Where two are equal, the lab axis least along the third, laid into their
-    plane, and the normal to both; where all are, x, y, z."""
+    """(eigenvalues descending, unit eigenvectors in rows). Where two are equal, the lab axis least along the third,
+    laid into their plane, and the normal to both; where all are, x, y, z."""
     values, vectors = np.linalg.eigh(tensor)
     values, vectors = values[::-1], vectors[:, ::-1].T
     same = values[:-1] - values[1:] <= DEGENERATE

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The energy ledger of spheres, step by step, from positions, velocities and a contact law written on its own. Every contact is followed by
-name from one step to the next and paired with its own velocities at both ends of the step; nothing is summed over grains first."""
+"""The energy ledger of spheres, step by step, from positions, velocities and a contact law written on its own. Every
+contact is followed by name from one step to the next and paired with its own velocities at both ends of the step;
+nothing is summed over grains first."""
 import numpy as np
 
 from oracle.sphere_law import contacts
@@ -18,13 +19,15 @@ class Snapshot:
         before = dict(law.springs)
         rows = contacts(law, grains, box, first)
         self.grains, self.box, self.first = grains, box, first
-        self.inertia = 0.4 * grains.mass * grains.radius ** 2
+        self.inertia = 0.4 * grains.mass * grains.radius**2
         index = {identity: k for k, identity in enumerate(grains.ids)}
         self.contacts = {}
         for k in range(len(rows["fn"])):
             i, j = (index[identity] for identity in rows["id"][k])
             row = {name: values[k] for name, values in rows.items()}
-            row["before"], row["spring"] = (springs.get((i, j), NONE) if law.tangential == "history" else NONE for springs in (before, law.springs))
+            row["before"], row["spring"] = (
+                springs.get((i, j), NONE) if law.tangential == "history" else NONE for springs in (before, law.springs)
+            )
             row["elastic"] = row["kn"] * row["overlap"]
             row["viscous"] = -row["gamma_t"] * row["ut"]
             self.contacts[(i, j)] = row
@@ -33,15 +36,20 @@ class Snapshot:
         """Peculiar kinetic energy in the frame (gradient, centre): sum m p^2/2 - dt^2 F^2/8m."""
         g, (gradient, centre) = self.grains, frame
         p = v - (x - centre) @ gradient.T
-        return 0.5 * (g.mass * (p ** 2).sum(axis=1) - 0.25 * dt ** 2 * (g.force ** 2).sum(axis=1) / g.mass).sum()
+        return 0.5 * (g.mass * (p**2).sum(axis=1) - 0.25 * dt**2 * (g.force**2).sum(axis=1) / g.mass).sum()
 
     def stored(self, dt):
         """What does not depend on the frame: U_n, U_t, K_rot."""
-        g, rows = self.grains, self.contacts.values()
-        return {"U_n": sum(0.4 * r["elastic"] * r["overlap"] for r in rows),
-                "U_t": sum(0.5 * r["kt"] * r["spring"] @ r["spring"] for r in rows),
-                "K_rot": 0.5 * (self.inertia * (g.omega ** 2).sum(axis=1)
-                                - 0.25 * dt ** 2 * (g.torque ** 2).sum(axis=1) / self.inertia).sum()}
+        rows = self.contacts.values()
+        return {
+            "U_n": sum(0.4 * r["elastic"] * r["overlap"] for r in rows),
+            "U_t": sum(0.5 * r["kt"] * r["spring"] @ r["spring"] for r in rows),
+            "K_rot": 0.5 * self.rotations(dt).sum(),
+        }
+
+    def rotations(self, dt):
+        g = self.grains
+        return self.inertia * (g.omega**2).sum(axis=1) - 0.25 * dt**2 * (g.torque**2).sum(axis=1) / self.inertia
 
     def half_way(self, dt):
         """Velocities of the coming step."""
@@ -54,12 +62,18 @@ class Snapshot:
         row = self.contacts[key]
         arm_i = row["point"] - self.grains.x[i]
         arm_j = arm_i + row["branch"]
-        return v[i] - v[j] - gradient @ self.box.edges @ row["image"] + np.cross(omega[i], arm_i) - np.cross(omega[j], arm_j)
+        return (
+            v[i]
+            - v[j]
+            - gradient @ self.box.edges @ row["image"]
+            + np.cross(omega[i], arm_i)
+            - np.cross(omega[j], arm_j)
+        )
 
 
 def book(last, now, dt, frame, springs=True):
-    """What the step between two snapshots moved, in the frame (gradient, centre) of that step, and the kinetic energy at its end.
-    `springs`: the law has tangential springs."""
+    """What the step between two snapshots moved, in the frame (gradient, centre) of that step, and the kinetic energy
+    at its end. `springs`: the law has tangential springs."""
     gradient, centre = frame
     g, (v, omega) = last.grains, last.half_way(dt)
     moved = dict.fromkeys(ENTRIES, 0.0)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The measures of grainscope recomputed from contact rows and grains. Tension is positive; F acts on i, r = x_i - x_j."""
+"""The measures of grainscope recomputed from contact rows and grains. Tension is positive; F acts on i, r = x_i -
+x_j."""
 import math
 
 import numpy as np
@@ -35,12 +36,25 @@ def stress_vector(rows, grains, box, chosen, softest, flattest):
     pressure = -total[1, 1]
     per_pressure = 1.0 / pressure if pressure > 0.0 else 0.0
     contacts, count = len(rows["overlap"]), int(np.sum(chosen))
-    return np.array([
-        *six(total), total[1, 0], *six(total - tangential), *six(tangential), *six(kinetic_stress(grains, box, chosen)),
-        pressure, total[0, 1] * per_pressure, (total[0, 0] - total[1, 1]) * per_pressure, (total[1, 1] - total[2, 2]) * per_pressure,
-        contacts, 2.0 * contacts / count if count else 0.0, rows["sliding"].mean() if contacts else 0.0,
-        rows["overlap"].mean() if contacts else 0.0, rows["overlap"].max() if contacts else 0.0,
-        flattest * (softest * per_pressure) ** (2.0 / 3.0)])
+    return np.array(
+        [
+            *six(total),
+            total[1, 0],
+            *six(total - tangential),
+            *six(tangential),
+            *six(kinetic_stress(grains, box, chosen)),
+            pressure,
+            total[0, 1] * per_pressure,
+            (total[0, 0] - total[1, 1]) * per_pressure,
+            (total[1, 1] - total[2, 2]) * per_pressure,
+            contacts,
+            2.0 * contacts / count if count else 0.0,
+            rows["sliding"].mean() if contacts else 0.0,
+            rows["overlap"].mean() if contacts else 0.0,
+            rows["overlap"].max() if contacts else 0.0,
+            flattest * (softest * per_pressure) ** (2.0 / 3.0),
+        ]
+    )
 
 
 def dissipation_instantaneous(rows):
@@ -57,8 +71,8 @@ def friction_of_step(rows, dt):
 
 
 def normal_loss_of_step(rows, grains, box):
-    """Minus the power of the damping forces with the velocities at the end of the step: per grain force . v and torque . omega,
-    and for contacts across a face the velocity of the partner's image."""
+    """Minus the power of the damping forces with the velocities at the end of the step: per grain force . v and torque
+    . omega, and for contacts across a face the velocity of the partner's image."""
     force = rows["fn_damping"][:, None] * rows["normal"]
     i, j = grains.index(rows["id"][:, 0]), grains.index(rows["id"][:, 1])
     lever_i = rows["point"] - grains.x[i]
@@ -70,9 +84,13 @@ def normal_loss_of_step(rows, grains, box):
 
 def rotation(q):
     w, x, y, z = q
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
 
 
 def axis_of(shape):
@@ -93,7 +111,8 @@ def line_angle(angle):
 
 
 def nematic(grains, chosen):
-    """Q = <p p - 1/3>, S2 = 3/2 of its largest eigenvalue, and the mean angle of the major axes: half the argument of <exp 2 i theta>."""
+    """Q = <p p - 1/3>, S2 = 3/2 of its largest eigenvalue, and the mean angle of the major axes: half the argument of
+    <exp 2 i theta>."""
     tensor, count, phasor, counted, oblate = np.zeros((3, 3)), 0, 0j, 0, 0
     for k in np.flatnonzero(chosen):
         index, kind = axis_of(grains.shape[k])
@@ -109,6 +128,14 @@ def nematic(grains, chosen):
             counted += 1
     q = tensor / count if count else tensor
     values, vectors = np.linalg.eigh(q)
-    return {"q": six(q), "s2": 1.5 * values[2], "director": vectors[:, 2], "biaxiality": values[1] - values[0],
-            "theta": line_angle(0.5 * math.atan2(phasor.imag, phasor.real)) if counted else 0.0, "with_axis": count,
-            "with_theta": counted, "eigenvalues": values[::-1], "spin": grains.omega[chosen].mean(axis=0) if chosen.any() else np.zeros(3)}
+    return {
+        "q": six(q),
+        "s2": 1.5 * values[2],
+        "director": vectors[:, 2],
+        "biaxiality": values[1] - values[0],
+        "theta": line_angle(0.5 * math.atan2(phasor.imag, phasor.real)) if counted else 0.0,
+        "with_axis": count,
+        "with_theta": counted,
+        "eigenvalues": values[::-1],
+        "spin": grains.omega[chosen].mean(axis=0) if chosen.any() else np.zeros(3),
+    }

@@ -23,7 +23,7 @@ def layer_of(x, box, gradient, layers):
 def slope_against(y, v, m):
     """Of the mass-weighted least squares straight line of v (3 components) against y."""
     from_middle = y - mass_mean(m, y)
-    spread = m @ from_middle ** 2
+    spread = m @ from_middle**2
     return (m * from_middle) @ v / spread if spread > 0.0 else np.zeros(3)
 
 
@@ -96,14 +96,14 @@ def fluctuation(grains, chosen, box, flow=("box",), plane=(0, 1), layers=10, dia
         return vector, array
     dv, dw = of_group(grains, chosen, box, flow, plane)
     m, members = grains.mass[chosen], np.flatnonzero(chosen)
-    vector[:3], vector[3:6] = np.sqrt(np.mean(dv ** 2, axis=0)), np.sqrt(np.mean(dw ** 2, axis=0))
-    vector[6] = 0.5 * m @ np.sum(dv ** 2, axis=1)
+    vector[:3], vector[3:6] = np.sqrt(np.mean(dv**2, axis=0)), np.sqrt(np.mean(dw**2, axis=0))
+    vector[6] = 0.5 * m @ np.sum(dv**2, axis=1)
     vector[7] = sum(0.5 * w @ inertia(grains, k) @ w for w, k in zip(dw, members))
     vector[8] = vector[7] / vector[6] if vector[6] else 0.0
     vector[11] = slope_against(grains.x[chosen][:, b], grains.v[chosen], m)[a]
     if rate:
         deq = diameter or equivalent_diameter(grains, chosen)
-        vector[9] = math.sqrt(np.mean(np.sum(dv ** 2, axis=1))) / (abs(rate) * deq)
+        vector[9] = math.sqrt(np.mean(np.sum(dv**2, axis=1))) / (abs(rate) * deq)
         vector[12] = math.sqrt(np.mean(means[counts > 0, a] ** 2)) / (abs(rate) * length)
         vector[13] = math.sqrt(np.mean(dv[:, a] ** 2) / (count / layers)) / (abs(rate) * length)
     return vector, array

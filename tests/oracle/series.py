@@ -7,7 +7,8 @@ from oracle.motion import fractions
 
 
 def unflipped(before, now, strain, plane):
-    """Edges of the box `now` with the driven tilt as if it had not been turned back since `before`; `strain`: what was sheared."""
+    """Edges of the box `now` with the driven tilt as if it had not been turned back since `before`; `strain`: what was
+    sheared."""
     a, b = plane
     expected = before.edges[a, b] + strain * 0.5 * (before.edges[b, b] + now.edges[b, b])
     edges = now.edges.copy()
@@ -16,9 +17,9 @@ def unflipped(before, now, strain, plane):
 
 
 def reduced(x, image, box, wrapping, edges):
-    """Unwrapped positions in units of `edges`, from a point that the flow leaves where it is: the centre but for the tilts, with which the
-    centre moves (and jumps where the box is turned back). Image flags count the edges of the box `wrapping`
-    that grains were last wrapped into: that of the force evaluation, one step behind."""
+    """Unwrapped positions in units of `edges`, from a point that the flow leaves where it is: the centre but for the
+    tilts, with which the centre moves (and jumps where the box is turned back). Image flags count the edges of the box
+    `wrapping` that grains were last wrapped into: that of the force evaluation, one step behind."""
     still = box.origin + 0.5 * np.diag(box.edges)
     return np.linalg.solve(edges, (x + image @ wrapping.edges.T - still).T).T
 
@@ -29,8 +30,8 @@ def modulo_images(step):
 
 
 def displacements(calls, plane=(0, 1)):
-    """Non-affine displacements d (grains x 3) after each of the calls (x, image, box, box of the force evaluation, strain), zero at the
-    first."""
+    """Non-affine displacements d (grains x 3) after each of the calls (x, image, box, box of the force evaluation,
+    strain), zero at the first."""
     d, found = np.zeros_like(calls[0][0]), []
     for k, (x, image, box, wrapping, strain) in enumerate(calls):
         if k:
@@ -51,13 +52,14 @@ def half_slope(strain, values):
 
 def displacement_vector(calls, plane=(0, 1)):
     """The 8 entries of compute displacement/shear after the last of the calls."""
-    squares = np.array([np.mean(d ** 2, axis=0) for d in displacements(calls, plane)])
+    squares = np.array([np.mean(d**2, axis=0) for d in displacements(calls, plane)])
     strain = np.array([call[-1] for call in calls]) - calls[0][-1]
     return np.array([strain[-1], *squares[-1], *half_slope(strain, squares), len(calls[0][0])])
 
 
 def layering(x, box, axis=1, layers=40):
-    """(array (layers/2 + 1) x 2, vector of 4). L is the distance between the faces that cut the axis, so that V/L is their area."""
+    """(array (layers/2 + 1) x 2, vector of 4). L is the distance between the faces that cut the axis, so that V/L is
+    their area."""
     length, grains = heights(box)[axis], len(x)
     array = np.zeros((layers // 2 + 1, 2))
     array[:, 0] = np.arange(layers // 2 + 1) * length / layers

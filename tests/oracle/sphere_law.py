@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Contacts of spheres from positions and velocities alone: geometry, Hertz (or Hooke-free) forces, the tangential spring followed from
-step to step. F_n = 4/3 E* sqrt(R* d) d - gamma_n u_n; k_t = 8 G* sqrt(R* d); gamma = -2 sqrt(5/6) b sqrt(S m*), S = 2 E* sqrt(R* d)
-for the normal part and k_t for the tangential one, b = ln e / sqrt(ln^2 e + pi^2). Cohesion adds -energy x area along the normal, after the
-friction limit mu |F_n| is taken, or before it with `tangential_reduce on`."""
+"""Contacts of spheres from positions and velocities alone: geometry, Hertz (or Hooke-free) forces, the tangential
+spring followed from step to step. F_n = 4/3 E* sqrt(R* d) d - gamma_n u_n; k_t = 8 G* sqrt(R* d); gamma = -2 sqrt(5/6)
+b sqrt(S m*), S = 2 E* sqrt(R* d) for the normal part and k_t for the tangential one, b = ln e / sqrt(ln^2 e + pi^2).
+Cohesion adds -energy x area along the normal, after the friction limit mu |F_n| is taken, or before it with
+`tangential_reduce on`."""
 from dataclasses import dataclass, field
 import itertools
 import math
@@ -12,9 +13,9 @@ import numpy as np
 
 @dataclass
 class Law:
-    young: np.ndarray          # per type
+    young: np.ndarray  # per type
     poisson: float
-    restitution: np.ndarray    # types x types
+    restitution: np.ndarray  # types x types
     friction: np.ndarray
     dt: float
     tangential: str = "history"
@@ -22,8 +23,8 @@ class Law:
     limit_force: bool = False
     cohesion: str = "off"
     energy: np.ndarray = None  # of cohesion, types x types
-    reduces: bool = False      # cohesion lowers the friction limit
-    bounded: bool = False      # tangential damping is kept to the limit in the first evaluation
+    reduces: bool = False  # cohesion lowers the friction limit
+    bounded: bool = False  # tangential damping is kept to the limit in the first evaluation
     springs: dict = field(default_factory=dict)
 
     def stiffness(self, a, b):
@@ -37,30 +38,39 @@ class Law:
 def cohesive_area(model, ri, rj, distance):
     """Of the circle in which two spheres meet; or sjkr2's."""
     if model == "sjkr":
-        height = (distance ** 2 + ri ** 2 - rj ** 2) / (2 * distance)  # of that circle's plane over the centre of i
-        return math.pi * (ri ** 2 - height ** 2)
+        height = (distance**2 + ri**2 - rj**2) / (2 * distance)  # of that circle's plane over the centre of i
+        return math.pi * (ri**2 - height**2)
     return 2.0 * math.pi * (2.0 * ri * rj / (ri + rj)) * (ri + rj - distance)
 
 
 def half_step_velocities(grains, dt, first):
-    """The velocities that entered the force: v_n less the half kick that the same force gave; in the first evaluation v itself."""
+    """The velocities that entered the force: v_n less the half kick that the same force gave; in the first evaluation v
+    itself."""
     if first:
         return grains.v, grains.omega
-    inertia = 0.4 * grains.mass * grains.radius ** 2
-    return grains.v - 0.5 * dt * grains.force / grains.mass[:, None], grains.omega - 0.5 * dt * grains.torque / inertia[:, None]
+    inertia = 0.4 * grains.mass * grains.radius**2
+    return (
+        grains.v - 0.5 * dt * grains.force / grains.mass[:, None],
+        grains.omega - 0.5 * dt * grains.torque / inertia[:, None],
+    )
 
 
 def touching(grains, box):
     """(i, j, image) with i < j in ID, x_j + H image touching x_i."""
     shifts = np.array(list(itertools.product((-1, 0, 1), repeat=3)))
     for i, j in itertools.combinations(range(len(grains.ids)), 2):
-        gaps = np.linalg.norm(grains.x[i] - grains.x[j] - shifts @ box.edges.T, axis=1) - grains.radius[i] - grains.radius[j]
+        gaps = (
+            np.linalg.norm(grains.x[i] - grains.x[j] - shifts @ box.edges.T, axis=1)
+            - grains.radius[i]
+            - grains.radius[j]
+        )
         for k in np.flatnonzero(gaps < 0.0):
             yield i, j, shifts[k]
 
 
 def contacts(law, grains, box, first):
-    """Rows like those of compute contact/local, with stiffnesses and damping coefficients as well. Springs move on by one step."""
+    """Rows like those of compute contact/local, with stiffnesses and damping coefficients as well. Springs move on by
+    one step."""
     v, omega = half_step_velocities(grains, law.dt, first)
     rows, springs = [], {}
     for i, j, image in touching(grains, box):
@@ -89,14 +99,36 @@ def contacts(law, grains, box, first):
         if law.cohesion != "off":
             cohesion = -law.energy[a, b] * cohesive_area(law.cohesion, grains.radius[i], grains.radius[j], distance)
         limit = law.friction[a, b] * abs(fn + cohesion if law.reduces else fn)
-        ft, kind, slip, spring, gamma_t = tangential_force(law, law.springs.get((i, j)), ut, n, kt, gamma_t, limit, first)
+        ft, kind, slip, spring, gamma_t = tangential_force(
+            law, law.springs.get((i, j)), ut, n, kt, gamma_t, limit, first
+        )
         springs[(i, j)] = spring
         fn += cohesion
         mobilisation = 0.0 if law.tangential == "off" or limit == 0.0 else np.linalg.norm(ft) / limit
-        rows.append({"id": (grains.ids[i], grains.ids[j]), "image": image, "point": grains.x[i] - ri * n, "normal": n, "branch": branch,
-                     "overlap": overlap, "force": fn * n + ft, "fn": fn, "fn_damping": damped, "ft": ft, "un": un, "ut": ut,
-                     "sliding": float(kind != "sticks"), "cut": kind == "cut", "slip": slip, "gamma_t": gamma_t, "mobilisation": mobilisation,
-                     "kn": kn, "kt": kt, "gamma_n": gamma_n})
+        rows.append(
+            {
+                "id": (grains.ids[i], grains.ids[j]),
+                "image": image,
+                "point": grains.x[i] - ri * n,
+                "normal": n,
+                "branch": branch,
+                "overlap": overlap,
+                "force": fn * n + ft,
+                "fn": fn,
+                "fn_damping": damped,
+                "ft": ft,
+                "un": un,
+                "ut": ut,
+                "sliding": float(kind != "sticks"),
+                "cut": kind == "cut",
+                "slip": slip,
+                "gamma_t": gamma_t,
+                "mobilisation": mobilisation,
+                "kn": kn,
+                "kt": kt,
+                "gamma_n": gamma_n,
+            }
+        )
     law.springs = springs
     return {name: np.array([row[name] for row in rows]) for name in rows[0]}
 

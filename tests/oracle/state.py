@@ -1,22 +1,37 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a run wrote, as numpy arrays: grains, box, and the rows of compute contact/local. Written from the definitions in
-doc/, sharing no code with src/."""
+"""What a run wrote, as numpy arrays: grains, box, and the rows of compute contact/local. Written from the definitions
+in doc/, sharing no code with src/."""
 from dataclasses import dataclass
 
 import numpy as np
 
 from columns import outputs
 
-ROW_COLUMNS = {"id": 2, "image": 3, "point": 3, "normal": 3, "branch": 3, "overlap": 1, "force": 3, "fn": 1, "fn_damping": 1, "ft": 3,
-               "un": 1, "ut": 3, "sliding": 1, "slip": 1, "mobilisation": 1}
+ROW_COLUMNS = {
+    "id": 2,
+    "image": 3,
+    "point": 3,
+    "normal": 3,
+    "branch": 3,
+    "overlap": 1,
+    "force": 3,
+    "fn": 1,
+    "fn_damping": 1,
+    "ft": 3,
+    "un": 1,
+    "ut": 3,
+    "sliding": 1,
+    "slip": 1,
+    "mobilisation": 1,
+}
 ROW_WIDTH = sum(ROW_COLUMNS.values())
 
 
 @dataclass
 class Box:
-    edges: np.ndarray      # edge vectors in columns
+    edges: np.ndarray  # edge vectors in columns
     origin: np.ndarray
-    rate: np.ndarray       # dH/dt
+    rate: np.ndarray  # dH/dt
 
     @property
     def volume(self):
@@ -32,9 +47,12 @@ class Box:
 
 
 def box_of(table, row, shear_rate=0.0, length_rate=0.0):
-    """From the thermo columns of deck.box_columns(); the box shears in xy at `shear_rate`, and L_y grows at `length_rate`."""
+    """From the thermo columns of deck.box_columns(); the box shears in xy at `shear_rate`, and L_y grows at
+    `length_rate`."""
     value = {name: float(table[name][row]) for name in ("lx", "ly", "lz", "xy", "xz", "yz", "xlo", "ylo", "zlo")}
-    edges = np.array([[value["lx"], value["xy"], value["xz"]], [0.0, value["ly"], value["yz"]], [0.0, 0.0, value["lz"]]])
+    edges = np.array(
+        [[value["lx"], value["xy"], value["xz"]], [0.0, value["ly"], value["yz"]], [0.0, 0.0, value["lz"]]]
+    )
     rate = np.zeros((3, 3))
     rate[0, 1] = shear_rate * value["ly"]
     rate[1, 1] = length_rate
@@ -64,9 +82,17 @@ def _vectors(columns, *names):
 
 
 def grains_of(columns):
-    grains = Grains(columns["id"].astype(int), columns["type"].astype(int), _vectors(columns, "x", "y", "z"),
-                    _vectors(columns, "vx", "vy", "vz"), _vectors(columns, "omegax", "omegay", "omegaz"),
-                    _vectors(columns, "fx", "fy", "fz"), _vectors(columns, "tqx", "tqy", "tqz"), columns["mass"], columns["radius"])
+    grains = Grains(
+        columns["id"].astype(int),
+        columns["type"].astype(int),
+        _vectors(columns, "x", "y", "z"),
+        _vectors(columns, "vx", "vy", "vz"),
+        _vectors(columns, "omegax", "omegay", "omegaz"),
+        _vectors(columns, "fx", "fy", "fz"),
+        _vectors(columns, "tqx", "tqy", "tqz"),
+        columns["mass"],
+        columns["radius"],
+    )
     if "shapex" in columns:
         grains.shape = _vectors(columns, "shapex", "shapey", "shapez")
         grains.quaternion = _vectors(columns, "quat1", "quat2", "quat3", "quat4")
@@ -78,7 +104,7 @@ def rows_of(columns, compute):
     table = np.stack([columns[word] for word in outputs("contact/local").of(compute).all("local")], axis=1)
     rows, first = {}, 0
     for name, width in ROW_COLUMNS.items():
-        rows[name] = table[:, first] if width == 1 else table[:, first:first + width]
+        rows[name] = table[:, first] if width == 1 else table[:, first : first + width]
         first += width
     order = np.lexsort((*rows["image"].T, rows["id"][:, 1], rows["id"][:, 0]))
     return {name: values[order] for name, values in rows.items()}

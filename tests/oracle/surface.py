@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Where on their surface grains touch: bins in the angle psi between the contact point and an axis of the grain, areas of the bins by
-quadrature (Gauss-Legendre in psi, trapezoid around the axis), contacts, forces and powers per bin."""
+"""Where on their surface grains touch: bins in the angle psi between the contact point and an axis of the grain, areas
+of the bins by quadrature (Gauss-Legendre in psi, trapezoid around the axis), contacts, forces and powers per bin."""
 import math
 
 import numpy as np
@@ -17,8 +17,8 @@ def across(shape, axis):
 
 
 def area_element(psi, phi, abc, angle):
-    """dA / (dpsi dphi). parametric: x = a sin psi cos phi, y = b sin psi sin phi, z = c cos psi. polar: the point of the surface in
-    direction s, at r = (s.D s)^(-1/2) with D = diag(1/a^2, 1/b^2, 1/c^2): r^4 |D s| sin psi."""
+    """dA / (dpsi dphi). parametric: x = a sin psi cos phi, y = b sin psi sin phi, z = c cos psi. polar: the point of
+    the surface in direction s, at r = (s.D s)^(-1/2) with D = diag(1/a^2, 1/b^2, 1/c^2): r^4 |D s| sin psi."""
     a, b, c = abc
     s = np.array([np.sin(psi) * np.cos(phi), np.sin(psi) * np.sin(phi), np.cos(psi) * np.ones_like(phi)])
     if angle == "parametric":
@@ -41,12 +41,12 @@ def areas(shape, axis, bins, angle, pieces=4):
 def spheroid_area(equator, pole):
     """Closed form."""
     if equator == pole:
-        return 4.0 * math.pi * equator ** 2
+        return 4.0 * math.pi * equator**2
     if pole > equator:
         e = math.sqrt(1.0 - (equator / pole) ** 2)
-        return 2.0 * math.pi * equator ** 2 * (1.0 + pole / (equator * e) * math.asin(e))
+        return 2.0 * math.pi * equator**2 * (1.0 + pole / (equator * e) * math.asin(e))
     e = math.sqrt(1.0 - (pole / equator) ** 2)
-    return 2.0 * math.pi * equator ** 2 * (1.0 + (1.0 - e * e) / e * math.atanh(e))
+    return 2.0 * math.pi * equator**2 * (1.0 + (1.0 - e * e) / e * math.atanh(e))
 
 
 def named_axis(shape, name):
@@ -101,8 +101,15 @@ def surface_table(rows, grains, volume, chosen, bins=10, angle="polar", axis="au
     sums = np.zeros((bins, 7))  # contacts, F_n/(P A), |F_t|/(P A), mobilisation, sliding, P_n, P_t
     for k, i, point in ends(rows, grains):
         j = bin_of(psi_of(point, grains.shape[i], grains.quaternion[i], index, angle), bins)
-        sums[j] += (1.0, rows["fn"][k] * scale / own[i], np.linalg.norm(rows["ft"][k]) * scale / own[i], rows["mobilisation"][k],
-                    rows["sliding"][k], 0.5 * normal[k], 0.5 * friction[k])
+        sums[j] += (
+            1.0,
+            rows["fn"][k] * scale / own[i],
+            np.linalg.norm(rows["ft"][k]) * scale / own[i],
+            rows["mobilisation"][k],
+            rows["sliding"][k],
+            0.5 * normal[k],
+            0.5 * friction[k],
+        )
     fill(table, sums, shares / shares.sum() * mean_area, mean_area)
     return table, np.array([pressure, mean_area, len(members)])
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One small deck per style under valgrind: no invalid access and no use of what was never written with one of our functions on the stack, and
-nothing of ours lost. What the host and the libraries do among themselves is counted, and not judged."""
+"""One small deck per style under valgrind: no invalid access and no use of what was never written with one of our
+functions on the stack, and nothing of ours lost. What the host and the libraries do among themselves is counted, and
+not judged."""
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
@@ -18,8 +19,17 @@ from lifetimes import COMPUTES, PAIRS, asked  # noqa: E402
 from packing import dense_packing  # noqa: E402
 from run import binary, count_errors, environment  # noqa: E402
 
-VALGRIND = ["valgrind", "--leak-check=full", "--show-leak-kinds=definite", "--errors-for-leak-kinds=definite", "--num-callers=60",
-            "--track-origins=yes", "--error-limit=no", f"--suppressions={ROOT / 'tests/sanitizers/valgrind.supp'}", "--xml=yes"]
+VALGRIND = [
+    "valgrind",
+    "--leak-check=full",
+    "--show-leak-kinds=definite",
+    "--errors-for-leak-kinds=definite",
+    "--num-callers=60",
+    "--track-origins=yes",
+    "--error-limit=no",
+    f"--suppressions={ROOT / 'tests/sanitizers/valgrind.supp'}",
+    "--xml=yes",
+]
 OPEN_MPI = Path("/usr/share/openmpi/openmpi-valgrind.supp")
 LEDGER = "ledger on tangential_damping off"
 PRESS = "fix press all press/strain axis y target 2e4 shear xy rate 0.02 every 1e-4"
@@ -35,8 +45,17 @@ def ours():
 def measured(compute):
     deck = Deck(dense_packing(1.5), surface="ellipsoid", extra=LEDGER)
     use, leave = asked("compute", compute)
-    deck.body = ["variable strain equal 0.02*step*dt", PRESS, f"compute it all {compute}", *use[:-1], "thermo 2", "run 8", *leave, "uncompute it",
-                 "run 1"]
+    deck.body = [
+        "variable strain equal 0.02*step*dt",
+        PRESS,
+        f"compute it all {compute}",
+        *use[:-1],
+        "thermo 2",
+        "run 8",
+        *leave,
+        "uncompute it",
+        "run 1",
+    ]
     return deck
 
 
@@ -54,14 +73,22 @@ def modelled(words):
     """The model that the words of a pair_style name, in the order that a Deck gives them."""
     surface = re.search(r"surface (\w+)", words)[1]
     rolling = re.search(r"rolling_friction (\w+)", words)
-    return moved(surface=surface, rolling=rolling[1] if rolling else "off", extra=LEDGER if "ledger on" in words else "")
+    return moved(
+        surface=surface, rolling=rolling[1] if rolling else "off", extra=LEDGER if "ledger on" in words else ""
+    )
 
 
 def continued():
     """All that is in restart files, written and read by one process."""
     deck = measured("energy/ledger")
-    state = ["variable strain equal 0.02*step*dt", PRESS, "compute ledger all energy/ledger", "compute walk all displacement/shear",
-             "compute memory all velocity/memory every 1e-4 lags 3", *thermo(2, "c_ledger", "c_walk", "c_memory", "f_press")]
+    state = [
+        "variable strain equal 0.02*step*dt",
+        PRESS,
+        "compute ledger all energy/ledger",
+        "compute walk all displacement/shear",
+        "compute memory all velocity/memory every 1e-4 lags 3",
+        *thermo(2, "c_ledger", "c_walk", "c_memory", "f_press"),
+    ]
     deck.body = [*state, "run 4", "write_restart half.restart", "run 4", "clear"]
     return deck.text() + deck.restarted("half.restart", [*state, "run 4"])
 
@@ -81,8 +108,10 @@ DECKS = {
     "pair_style gran/insitu, two sizes and types": moved(packing=dense_packing(1.5, sizes=(1.0, 1.2), types=2)),
     "pair_style gran/insitu, triaxial grains": moved(packing=triaxial()),
     "pair_style gran surface ellipsoid": moved(pair="gran"),
-    "compute pair/gran/local": moved("compute pairs all pair/gran/local pos id force contactPoint delta",
-                                     "dump pairs all local 5 pairs.dump c_pairs[1] c_pairs[9]"),
+    "compute pair/gran/local": moved(
+        "compute pairs all pair/gran/local pos id force contactPoint delta",
+        "dump pairs all local 5 pairs.dump c_pairs[1] c_pairs[9]",
+    ),
     "fix wall/gran surface ellipsoid": walled(),
     "restart": continued(),
 }
@@ -101,9 +130,26 @@ def check(name, deck, mine, folder):
     where = Path(tempfile.mkdtemp(dir=folder))
     (where / "in.deck").write_text(deck if isinstance(deck, str) else deck.text())
     suppressions = [f"--suppressions={OPEN_MPI}"] if OPEN_MPI.exists() else []
-    command = [*VALGRIND, *suppressions, f"--xml-file={where / 'valgrind.xml'}", binary(), "-in", "in.deck", "-log", "log.liggghts"]
-    done = subprocess.run(command, cwd=where, env=environment(1), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True, errors="replace")
+    command = [
+        *VALGRIND,
+        *suppressions,
+        f"--xml-file={where / 'valgrind.xml'}",
+        binary(),
+        "-in",
+        "in.deck",
+        "-log",
+        "log.liggghts",
+    ]
+    done = subprocess.run(
+        command,
+        cwd=where,
+        env=environment(1),
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
+    )
     if done.returncode != 0 or count_errors(done.stdout):
         return [f"{name}: ended with code {done.returncode}: {done.stdout[-1500:]}"], Counter()
     found, others = [], Counter()
@@ -111,7 +157,10 @@ def check(name, deck, mine, folder):
         if any(mine.search(frame) for frame in frames):
             found.append(f"{name}: {kind}: {what}\n    " + "\n    ".join(frames[:25]))
         else:
-            host = next((frame for frame in frames if "LAMMPS_NS::" in frame or "LIGGGHTS::" in frame), frames[0] if frames else "?")
+            host = next(
+                (frame for frame in frames if "LAMMPS_NS::" in frame or "LIGGGHTS::" in frame),
+                frames[0] if frames else "?",
+            )
             others[f"{kind} in {host}"] += 1
     return found, others
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""From a description of a style's command line, the inputs that must be refused, each with the message that must say so."""
+"""From a description of a style's command line, the inputs that must be refused, each with the message that must say
+so."""
 from dataclasses import dataclass, field
 
 from case import require
@@ -14,7 +15,9 @@ def listed(words):
 
 @dataclass
 class Kind:
-    """What may follow a keyword: how it is told, values that are taken (the limits, where there are any), and values that are not."""
+    """What may follow a keyword: how it is told, values that are taken (the limits, where there are any), and values
+    that are not."""
+
     requirement: str
     good: tuple
     bad: tuple
@@ -29,16 +32,25 @@ def number(requirement, good, bad):
 
 
 def whole(low, high):
-    return number(f"a whole number from {low} to {high}", (str(low), str(high), "1e1"), (str(low - 1), str(high + 1), "-3", "2.5", "1e99"))
+    return number(
+        f"a whole number from {low} to {high}",
+        (str(low), str(high), "1e1"),
+        (str(low - 1), str(high + 1), "-3", "2.5", "1e99"),
+    )
 
 
 def even(low, high):
-    return number(f"an even whole number from {low} to {high}", (str(low), str(high)), (str(low - 2), str(high + 2), "-4", "2.5", str(high - 1)))
+    return number(
+        f"an even whole number from {low} to {high}",
+        (str(low), str(high)),
+        (str(low - 2), str(high + 2), "-4", "2.5", str(high - 1)),
+    )
 
 
 @dataclass
 class Keyword:
     """`text` is what stands before the value; `label` is its name in messages."""
+
     text: str
     kind: Kind
     label: str = ""
@@ -51,13 +63,16 @@ class Keyword:
         return self.text.split()[0]
 
     def end(self):
-        return self.ends or f"expected {self.kind.requirement} after '{self.text.split()[-1]}', got the end of the command"
+        return (
+            self.ends or f"expected {self.kind.requirement} after '{self.text.split()[-1]}', got the end of the command"
+        )
 
 
 @dataclass
 class Style:
-    """`line` is the command up to its first keyword, `needed` are keywords that it must have, `flags` those without a value; `more` are
-    lines and messages of its own."""
+    """`line` is the command up to its first keyword, `needed` are keywords that it must have, `flags` those without a
+    value; `more` are lines and messages of its own."""
+
     name: str
     line: str
     keywords: list = field(default_factory=list)
@@ -65,9 +80,9 @@ class Style:
     sort: str = "keyword"
     needed: dict = field(default_factory=dict)
     more: list = field(default_factory=list)
-    order: tuple = ()       # of the keywords in messages, where it is not that above
-    before: tuple = ()      # lines of the deck that the host insists on
-    others: bool = False    # other keywords are the host's
+    order: tuple = ()  # of the keywords in messages, where it is not that above
+    before: tuple = ()  # lines of the deck that the host insists on
+    others: bool = False  # other keywords are the host's
 
     def command(self, *words, leave_out=""):
         needed = [f"{k} {v}" for k, v in self.needed.items() if k != leave_out.split("/")[0]]

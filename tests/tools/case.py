@@ -28,9 +28,12 @@ def require_close(found, expected, tolerance, what, scale=None):
     scale = float(np.max(np.abs(expected))) if scale is None else scale
     difference = np.abs(found - expected)
     k = np.unravel_index(int(np.argmax(difference)), difference.shape)
-    require(bool(difference[k] <= tolerance * scale),
-            f"{what}: at {tuple(int(i) for i in k)} found {found[k]!r}, expected {expected[k]!r}: off by {difference[k]:.3e}, "
-            f"allowed {tolerance * scale:.3e}")
+    require(
+        bool(difference[k] <= tolerance * scale),
+        f"{what}: at {tuple(int(i) for i in k)} found {found[k]!r}, expected {expected[k]!r}: off by "
+        f"{difference[k]:.3e}, "
+        f"allowed {tolerance * scale:.3e}",
+    )
 
 
 def require_equal(found, expected, what):
@@ -49,11 +52,12 @@ def require_same_snapshots(found, expected, what):
 
 
 def main(cases):
-    """Runs `cases[name](ranks)` for the name and rank count on the command line; folders are kept where a case fails."""
+    """Runs `cases[name](ranks)` for the name and rank count on the command line; folders are kept where a case
+    fails."""
     name, ranks = sys.argv[1], int(sys.argv[2])
     scratch = tempfile.mkdtemp(prefix="grainscope-")
     os.environ["GRAINSCOPE_SCRATCH"] = scratch
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit("stopped by SIGTERM"))   # what was started is ended first
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit("stopped by SIGTERM"))  # what was started is ended first
     try:
         cases[name](ranks)
     except Failure as failure:

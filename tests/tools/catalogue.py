@@ -14,8 +14,16 @@ MEMORY = Watched("memory", "velocity/memory strain v_strain every 1e-4 lags 3", 
 GRAIN = Watched("grain", "contact/grain", peratom=6)
 
 # Entries of a vector that have one unit, and so one scale.
-BLOCKS = {"fabric": (21, 1, 18), "surface": (1, 1, 1), "moving": (3, 3, 2, 1, 1, 2, 2), "layers": (1, 1, 1, 1), "direct": (2, 1, 1, 1),
-          "mesh": (2, 1, 1, 1), "moved": (1, 3, 3, 1), "memory": (2, 1)}
+BLOCKS = {
+    "fabric": (21, 1, 18),
+    "surface": (1, 1, 1),
+    "moving": (3, 3, 2, 1, 1, 2, 2),
+    "layers": (1, 1, 1, 1),
+    "direct": (2, 1, 1, 1),
+    "mesh": (2, 1, 1, 1),
+    "moved": (1, 3, 3, 1),
+    "memory": (2, 1),
+}
 
 
 def everything(packing):

@@ -17,6 +17,7 @@ def rayleigh_time(smallest=1.0, young=YOUNG):
 @dataclass
 class Material:
     """Per type, or per pair of types in row-major order."""
+
     young: tuple = (YOUNG,)
     restitution: tuple = (0.5,)
     friction: tuple = (0.4,)
@@ -44,6 +45,7 @@ class Material:
 @dataclass
 class Deck:
     """`body` is what a test is about: lines after the set-up, with their own `run` commands."""
+
     packing: Packing
     body: list = field(default_factory=list)
     pair: str = "gran/insitu"
@@ -68,11 +70,19 @@ class Deck:
         return f"model {self.normal} tangential {self.tangential}{cohesion}{rolling}{surface}{extra}"
 
     def dt(self):
-        return self.timestep or 0.1 * rayleigh_time(min(min(g.semi_axes) for g in self.packing.grains), max(self.material.young))
+        return self.timestep or 0.1 * rayleigh_time(
+            min(min(g.semi_axes) for g in self.packing.grains), max(self.material.young)
+        )
 
     def header(self):
-        yield from ("atom_style " + self.packing.atom_style, "atom_modify map array", "boundary " + self.boundary, "newton off",
-                    "communicate single vel yes", "units " + self.units)
+        yield from (
+            "atom_style " + self.packing.atom_style,
+            "atom_modify map array",
+            "boundary " + self.boundary,
+            "newton off",
+            "communicate single vel yes",
+            "units " + self.units,
+        )
         if self.processors:
             yield "processors " + self.processors
 
@@ -84,7 +94,9 @@ class Deck:
         yield f"pair_style {self.pair} {self.model()}"
         yield "pair_coeff * *"
         yield f"timestep {number(self.dt())}"
-        yield "fix integrate all nve/" + ("sphere" if self.packing.atom_style == "sphere" else "superquadric integration_scheme 1")
+        yield "fix integrate all nve/" + (
+            "sphere" if self.packing.atom_style == "sphere" else "superquadric integration_scheme 1"
+        )
         yield "thermo_style custom step"
         yield "thermo_modify format float %.17g lost error norm no"
 
@@ -109,8 +121,11 @@ SPHEROID_COLUMNS = GRAIN_COLUMNS + " shapex shapey shapez quat1 quat2 quat3 quat
 
 def thermo(every, *quantities):
     """Thermo output of what is asked, always at %.17g."""
-    return [f"thermo_style custom step {' '.join(quantities)}", "thermo_modify format float %.17g lost error norm no",
-            f"thermo {every}"]
+    return [
+        f"thermo_style custom step {' '.join(quantities)}",
+        "thermo_modify format float %.17g lost error norm no",
+        f"thermo {every}",
+    ]
 
 
 def box_columns():

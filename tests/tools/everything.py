@@ -1,11 +1,24 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Asks every measurement that there is in every step of one run, and tells by how much two such runs differ, quantity by quantity."""
+"""Asks every measurement that there is in every step of one run, and tells by how much two such runs differ, quantity
+by quantity."""
 from dataclasses import dataclass
 
 import numpy as np
 
 from case import require
-from catalogue import DIRECT, DIRECTION, DISPLACEMENT, FABRIC, FLUCTUATION, GRAIN, LAYERING, MEMORY, MESH, SURFACE, strain_lines
+from catalogue import (
+    DIRECT,
+    DIRECTION,
+    DISPLACEMENT,
+    FABRIC,
+    FLUCTUATION,
+    GRAIN,
+    LAYERING,
+    MEMORY,
+    MESH,
+    SURFACE,
+    strain_lines,
+)
 from columns import outputs
 from deck import box_columns, dump_grains, dump_local, thermo
 from oracle.state import ROW_COLUMNS, ROW_WIDTH, grains_of, rows_of
@@ -24,28 +37,71 @@ LEDGER = Watched("energy", "energy/ledger", True, 37)
 # Entries of one scale: the scalar is 0. The scale of a block is its largest entry in all steps of the reference.
 LOSSES = {"power": (0, 1, 2, 3), "contacts": (4,), "sliding contacts": (5,)}
 BLOCKS = {
-    "stress": {"stress, its parts, P": (0, *range(1, 27)), "mu_eff, N1, N2": (27, 28, 29), "N_c": (30,), "Z": (31,), "sliding": (32,),
-               "overlaps": (33, 34), "kappa": (35,)},
-    "instant": LOSSES, "stepwise": LOSSES, "exact": LOSSES,
-    "order": {"S2, Q, eigenvalues": (0, *range(1, 7), 10, 18, 19, 20), "director": (7, 8, 9), "theta": (11, 12), "spin": (13, 14, 15),
-              "grains": (16, 17)},
-    "energy": {"totals": tuple(range(1, 19)), "rates": tuple(range(20, 38))},  # 0 and 19: a residual of rounding, over the losses
-    "fabric": {"F": (0, *range(1, 7), 19), "eigenvalues": (7, 8, 9), "eigenvectors": tuple(range(10, 19)), "angle": (20,), "ratio": (21,),
-               "N_c": (22,), "weighted F": tuple(range(23, 41))},
+    "stress": {
+        "stress, its parts, P": (0, *range(1, 27)),
+        "mu_eff, N1, N2": (27, 28, 29),
+        "N_c": (30,),
+        "Z": (31,),
+        "sliding": (32,),
+        "overlaps": (33, 34),
+        "kappa": (35,),
+    },
+    "instant": LOSSES,
+    "stepwise": LOSSES,
+    "exact": LOSSES,
+    "order": {
+        "S2, Q, eigenvalues": (0, *range(1, 7), 10, 18, 19, 20),
+        "director": (7, 8, 9),
+        "theta": (11, 12),
+        "spin": (13, 14, 15),
+        "grains": (16, 17),
+    },
+    "energy": {
+        "totals": tuple(range(1, 19)),
+        "rates": tuple(range(20, 38)),
+    },  # 0 and 19: a residual of rounding, over the losses
+    "fabric": {
+        "F": (0, *range(1, 7), 19),
+        "eigenvalues": (7, 8, 9),
+        "eigenvectors": tuple(range(10, 19)),
+        "angle": (20,),
+        "ratio": (21,),
+        "N_c": (22,),
+        "weighted F": tuple(range(23, 41)),
+    },
     "surface": {"P": (1,), "area": (2,), "grains": (3,)},
-    "moving": {"rms dv": (1, 2, 3), "rms dw": (4, 5, 6), "energies": (7, 8), "E_rot/E_tr": (9,), "lever": (0, 10), "shear rates": (11, 12),
-               "profile": (13, 14)},
+    "moving": {
+        "rms dv": (1, 2, 3),
+        "rms dw": (4, 5, 6),
+        "energies": (7, 8),
+        "E_rot/E_tr": (9,),
+        "lever": (0, 10),
+        "shear rates": (11, 12),
+        "profile": (13, 14),
+    },
     "layers": {"largest C": (1, 3), "its lag": (2,), "order": (0,), "grains": (4,)},
     "direct": {"length": (0, 1, 2), "<dv^2>": (3,), "grains": (4,), "bins in the fit": (5,)},
     "mesh": {"length": (0, 1, 2), "<dv^2>": (3,), "grains": (4,), "bins in the fit": (5,)},
     "moved": {"strain": (1,), "<d^2>": (0, 2, 3, 4), "D": (5, 6, 7), "grains": (8,)},
     "memory": {"strain of memory": (0, 1, 2), "samples": (3,)},
 }
-PRESS = {"pressure": ("f_press", F_PRESS["target"], F_PRESS["P"]), "strain": (F_PRESS["strain"],), "L": (F_PRESS["L"],), "dL/dt": (F_PRESS["L_rate"],),
-         "inputs": (F_PRESS["inputs"], F_PRESS["clipped"]), "error": (F_PRESS["error"],), "box": box_columns()}
+PRESS = {
+    "pressure": ("f_press", F_PRESS["target"], F_PRESS["P"]),
+    "strain": (F_PRESS["strain"],),
+    "L": (F_PRESS["L"],),
+    "dL/dt": (F_PRESS["L_rate"],),
+    "inputs": (F_PRESS["inputs"], F_PRESS["clipped"]),
+    "error": (F_PRESS["error"],),
+    "box": box_columns(),
+}
 BOUNDED = {"surface": 2, "direction": 1}  # the column of counts of computes that bin contacts by an angle
-MOTION = {"x": ("x", "y", "z"), "v": ("vx", "vy", "vz"), "omega": ("omegax", "omegay", "omegaz"), "force": ("fx", "fy", "fz"),
-          "torque": ("tqx", "tqy", "tqz")}
+MOTION = {
+    "x": ("x", "y", "z"),
+    "v": ("vx", "vy", "vz"),
+    "omega": ("omegax", "omegay", "omegaz"),
+    "force": ("fx", "fy", "fz"),
+    "torque": ("tqx", "tqy", "tqz"),
+}
 
 
 def press(target, rate=RATE, every=7e-4):
@@ -55,6 +111,7 @@ def press(target, rate=RATE, every=7e-4):
 @dataclass(frozen=True)
 class Questions:
     """What of all this is asked: a deck with `ledger on`, fix press/strain, one shape, can be asked everything."""
+
     packing: object
     ledger: bool = True
     pressed: bool = True
@@ -62,17 +119,40 @@ class Questions:
     def computes(self):
         surface = [SURFACE] if self.packing.atom_style == "superquadric" else []
         ledger = [EXACT, LEDGER] if self.ledger else []
-        return [STRESS, INSTANT, STEP, NEMATIC, *ledger, FABRIC, DIRECTION, *surface, FLUCTUATION, LAYERING, DIRECT, MESH, DISPLACEMENT, MEMORY]
+        return [
+            STRESS,
+            INSTANT,
+            STEP,
+            NEMATIC,
+            *ledger,
+            FABRIC,
+            DIRECTION,
+            *surface,
+            FLUCTUATION,
+            LAYERING,
+            DIRECT,
+            MESH,
+            DISPLACEMENT,
+            MEMORY,
+        ]
 
     def defined(self, rate=RATE):
         """Variables and computes; `rate` is that of the flow, which comes before."""
-        return [*strain_lines(rate), *(w.define("all") for w in (*self.computes(), GRAIN)), "compute rows all contact/local"]
+        return [
+            *strain_lines(rate),
+            *(w.define("all") for w in (*self.computes(), GRAIN)),
+            "compute rows all contact/local",
+        ]
 
     def output(self, every=1):
         quantities = [q for w in self.computes() for q in w.columns()]
         quantities += [q for names in PRESS.values() for q in names if self.pressed or q[0] != "f"]
         columns = grain_columns(self.packing, *GRAIN.atom_columns())
-        return [*thermo(every, *quantities), *dump_grains(self.packing, every, columns=columns), *dump_local("rows", ROW_WIDTH, every, "rows")]
+        return [
+            *thermo(every, *quantities),
+            *dump_grains(self.packing, every, columns=columns),
+            *dump_local("rows", ROW_WIDTH, every, "rows"),
+        ]
 
 
 def _blocks_of_thermo(questions, table):
@@ -117,7 +197,9 @@ def _scaled(found, expected, scale=None):
 
 
 class Differences(dict):
-    """The worst difference of each quantity, over its scale. `moved`: contacts that two runs count in neighbouring bins."""
+    """The worst difference of each quantity, over its scale. `moved`: contacts that two runs count in neighbouring
+    bins."""
+
     moved = 0
 
     def note(self, name, value):
@@ -130,23 +212,34 @@ class Differences(dict):
 
 
 def _compare_bins(watched, found, expected, differences):
-    """Column by column. A contact on the edge between two bins may be counted in either: those bins are then compared in sum only."""
+    """Column by column. A contact on the edge between two bins may be counted in either: those bins are then compared
+    in sum only."""
     name, counts = watched.command.split(" bins")[0], BOUNDED.get(watched.name)
     alike = np.ones(expected.shape[:2], dtype=bool)
     if counts is not None:
         alike = found[:, :, counts] == expected[:, :, counts]
         differences.moved += int((~alike).sum())
-        require(bool((found[:, :, counts].sum(axis=1) == expected[:, :, counts].sum(axis=1)).all()), f"{name}: contacts over all bins differ")
+        require(
+            bool((found[:, :, counts].sum(axis=1) == expected[:, :, counts].sum(axis=1)).all()),
+            f"{name}: contacts over all bins differ",
+        )
     for column in range(expected.shape[2]):
         scale = float(np.abs(expected[:, :, column]).max())
-        if watched.name in ("direct", "mesh", "memory") and column == 2:  # a sum of terms of either sign, of which there are [4]
+        if (
+            watched.name in ("direct", "mesh", "memory") and column == 2
+        ):  # a sum of terms of either sign, of which there are [4]
             scale = max(scale, np.sqrt(expected[:, :, 3].max()) * 0.1)
-        differences.note(f"{name}: bins", _scaled(found[:, :, column][alike], expected[:, :, column][alike], max(scale, 1e-300)))
+        differences.note(
+            f"{name}: bins", _scaled(found[:, :, column][alike], expected[:, :, column][alike], max(scale, 1e-300))
+        )
 
 
 def differences(questions, found, expected, moments=slice(None), numbers=None):
-    """Of two results: every number that was told at these moments. `numbers`: what grain 1, 2, ... of `found` is called in `expected`."""
-    worst, tables = Differences(), [{name: values[moments] for name, values in r.thermo()[-1].items()} for r in (found, expected)]
+    """Of two results: every number that was told at these moments. `numbers`: what grain 1, 2, ... of `found` is called
+    in `expected`."""
+    worst, tables = Differences(), [
+        {name: values[moments] for name, values in r.thermo()[-1].items()} for r in (found, expected)
+    ]
     require(len(tables[0]["step"]) == len(tables[1]["step"]) > 0, "different steps")
     for (name, a), (_, b) in zip(*(_blocks_of_thermo(questions, t) for t in tables)):
         require(bool(np.isfinite(a).all()), f"{name}: not finite")
@@ -160,9 +253,13 @@ def differences(questions, found, expected, moments=slice(None), numbers=None):
     grains = [[columns for _, columns in r.dump("grains.dump")][moments] for r in (found, expected)]
     rows = [[rows_of(table, "rows") for _, table in r.dump("rows.dump")][moments] for r in (found, expected)]
     if numbers is not None:
-        grains[0], rows[0] = [_renamed(columns, numbers) for columns in grains[0]], [{**r, "id": numbers[r["id"].astype(int) - 1]} for r in rows[0]]
+        grains[0], rows[0] = [_renamed(columns, numbers) for columns in grains[0]], [
+            {**r, "id": numbers[r["id"].astype(int) - 1]} for r in rows[0]
+        ]
     _compare_grains(*grains, worst)
-    _compare_rows(*([rows_from_lower(r, grains_of(columns)) for r, columns in zip(*pair)] for pair in zip(rows, grains)), worst)
+    _compare_rows(
+        *([rows_from_lower(r, grains_of(columns)) for r, columns in zip(*pair)] for pair in zip(rows, grains)), worst
+    )
     return worst
 
 
@@ -179,8 +276,10 @@ def _largest(tables, *names):
 def _compare_grains(found, expected, worst):
     """Grains are about 1 large: places are told over 1, torques over the largest force times 1."""
     scales = {"x": 1.0, "torque": _largest(expected, *MOTION["force"])}
-    for label, names in (*MOTION.items(), *((f"[{k}]", (word,)) for k,
-                                            word in enumerate(outputs("contact/grain").of("grain").all("per grain"), 1))):
+    for label, names in (
+        *MOTION.items(),
+        *((f"[{k}]", (word,)) for k, word in enumerate(outputs("contact/grain").of("grain").all("per grain"), 1)),
+    ):
         scale = scales.get(label) or _largest(expected, *names)
         for a, b in zip(found, expected):
             value = max(_scaled(a[n], b[n], scale) for n in names)
@@ -193,7 +292,16 @@ def _compare_grains(found, expected, worst):
 
 def _compare_rows(found, expected, worst):
     force, speed, overlap = (_largest(expected, *names) for names in (("force",), ("un", "ut"), ("overlap",)))
-    scales = {"force": force, "fn": force, "fn_damping": force, "ft": force, "un": speed, "ut": speed, "overlap": overlap, "slip": overlap}
+    scales = {
+        "force": force,
+        "fn": force,
+        "fn_damping": force,
+        "ft": force,
+        "un": speed,
+        "ut": speed,
+        "overlap": overlap,
+        "slip": overlap,
+    }
     for a, b in zip(found, expected):
         same = a["id"].shape == b["id"].shape and (a["id"] == b["id"]).all() and (a["image"] == b["image"]).all()
         require(bool(same), f"{len(a['id'])} contacts, and {len(b['id'])}: not the same ones")

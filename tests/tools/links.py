@@ -4,9 +4,11 @@ import re
 
 FENCED = re.compile(r"^(```|~~~).*?^\1", re.M | re.S)
 CODE = re.compile(r"(`+)(?!`).*?(?<!`)\1(?!`)", re.S)
-LINKS = (re.compile(r"\]\(\s*<?([^)\s>]+)>?(?:\s+[\"'][^)]*)?\)"),          # [text](target), ![picture](target "title")
-         re.compile(r"^ {0,3}\[[^\]]+\]:\s*<?([^\s>]+)", re.M),             # [name]: target
-         re.compile(r"<(?:a|img)\b[^>]*?\b(?:href|src)=[\"']([^\"']+)", re.I))
+LINKS = (
+    re.compile(r"\]\(\s*<?([^)\s>]+)>?(?:\s+[\"'][^)]*)?\)"),  # [text](target), ![picture](target "title")
+    re.compile(r"^ {0,3}\[[^\]]+\]:\s*<?([^\s>]+)", re.M),  # [name]: target
+    re.compile(r"<(?:a|img)\b[^>]*?\b(?:href|src)=[\"']([^\"']+)", re.I),
+)
 HEADING = re.compile(r"^#{1,6}\s+(.*?)\s*#*\s*$", re.M)
 
 
@@ -32,7 +34,12 @@ def anchors(text):
 def links_of(page):
     """The targets of a page's links that do not lead to the web."""
     text = prose(page.read_text())
-    return [target for pattern in LINKS for target in pattern.findall(text) if not re.match(r"[a-z][a-z0-9+.-]*:", target, re.I)]
+    return [
+        target
+        for pattern in LINKS
+        for target in pattern.findall(text)
+        if not re.match(r"[a-z][a-z0-9+.-]*:", target, re.I)
+    ]
 
 
 def broken_links(pages, top):

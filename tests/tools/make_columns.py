@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """tools/columns.json from the program: one run in which every style of ours says its outputs.
 
-    make_columns.py            prints it
-    make_columns.py --write    and writes tools/columns.json
+Usage: make_columns.py            # prints it
+       make_columns.py --write    # and writes tools/columns.json
 """
 import json
 from pathlib import Path

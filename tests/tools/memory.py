@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Memory of a run at places that its deck names: what it has written to, in RAM or swapped out. Pages of its files, which
-come and go with what else runs on the machine, are not counted."""
+"""Memory of a run at places that its deck names: what it has written to, in RAM or swapped out. Pages of its files,
+which come and go with what else runs on the machine, are not counted."""
 import ctypes
 import os
 from pathlib import Path
@@ -49,8 +49,15 @@ def watched_run(deck, ranks=1, **options):
 
 
 def require_flat(kilobytes, allowed, what):
-    """From the first row on, no rank ever grows by more than `allowed` kB. The address sanitizer keeps what is freed: it tells leaks itself."""
+    """From the first row on, no rank ever grows by more than `allowed` kB. The address sanitizer keeps what is freed:
+    it tells leaks itself."""
     growth = kilobytes.max(axis=0) - kilobytes[0]
-    print(f"{what}: {kilobytes[0].astype(int)} kB at first, {kilobytes[-1].astype(int)} kB at last, {growth.astype(int)} kB more at most")
-    require(SANITIZED or bool((growth <= allowed).all()), f"{what}: memory grew by {growth} kB, allowed {allowed}: {kilobytes.tolist()}")
+    print(
+        f"{what}: {kilobytes[0].astype(int)} kB at first, {kilobytes[-1].astype(int)} kB at last, "
+        f"{growth.astype(int)} kB more at most"
+    )
+    require(
+        SANITIZED or bool((growth <= allowed).all()),
+        f"{what}: memory grew by {growth} kB, allowed {allowed}: {kilobytes.tolist()}",
+    )
     return float(growth.max())

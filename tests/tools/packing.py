@@ -38,6 +38,7 @@ class Grain:
 @dataclass
 class Packing:
     """atom_style is 'superquadric', or 'sphere', which needs three equal semi-axes."""
+
     edges: tuple
     grains: list
     tilt: float = 0.0
@@ -59,8 +60,10 @@ class Packing:
     def _shape(self, grain):
         if self.atom_style == "sphere":
             return f"diameter {number(2.0 * grain.semi_axes[0])} density {number(DENSITY)}"
-        return (f"shape {numbers(grain.semi_axes)} blockiness {numbers(grain.blockiness)} density {number(DENSITY)} "
-                f"quat_direct {numbers(grain.quaternion)}")
+        return (
+            f"shape {numbers(grain.semi_axes)} blockiness {numbers(grain.blockiness)} density {number(DENSITY)} "
+            f"quat_direct {numbers(grain.quaternion)}"
+        )
 
     @staticmethod
     def _motion(grain):
@@ -76,14 +79,26 @@ def _random_quaternion(random, wobble):
     return (math.cos(half), *(math.sin(half) * axis))
 
 
-def dense_packing(alpha=1.0, sizes=(1.0,), types=1, overlap=0.02, speed=0.4, wobble=0.15, seed=7, atom_style="superquadric",
-                  minimum=100, blockiness=(2.0, 2.0)):
-    """Spheroids a, a, alpha a on a stretched face-centred lattice whose neighbours overlap by `overlap` diameters, slightly
-    turned, with random velocities: dense and full of contacts from the first step. The box holds the host's smallest periodic
-    height, 2 x (largest diameter + skin), and at least `minimum` grains."""
+def dense_packing(
+    alpha=1.0,
+    sizes=(1.0,),
+    types=1,
+    overlap=0.02,
+    speed=0.4,
+    wobble=0.15,
+    seed=7,
+    atom_style="superquadric",
+    minimum=100,
+    blockiness=(2.0, 2.0),
+):
+    """Spheroids a, a, alpha a on a stretched face-centred lattice whose neighbours overlap by `overlap` diameters,
+    slightly turned, with random velocities: dense and full of contacts from the first step. The box holds the host's
+    smallest periodic height, 2 x (largest diameter + skin), and at least `minimum` grains."""
     random = np.random.default_rng(seed)
     cell = 2.0 * math.sqrt(2.0) * (1.0 - overlap) * np.array([1.0, 1.0, alpha]) * float(np.mean(sizes))
-    needed = 2.0 * (2.0 * max(sizes) * max(1.0, alpha) * 1.05 + SKIN) * np.array([1.13, 1.0, 1.0])  # a sheared box loses height
+    needed = (
+        2.0 * (2.0 * max(sizes) * max(1.0, alpha) * 1.05 + SKIN) * np.array([1.13, 1.0, 1.0])
+    )  # a sheared box loses height
     counts = np.ceil(needed / cell + 1e-9).astype(int)
     counts[0] += counts[0] % 2  # so that the lattice also fits a box tilted by half its length
     while 4 * counts.prod() < minimum:
@@ -95,8 +110,17 @@ def dense_packing(alpha=1.0, sizes=(1.0,), types=1, overlap=0.02, speed=0.4, wob
     grains = []
     for k, point in enumerate(points):
         a = sizes[k % len(sizes)]
-        grains.append(Grain(tuple(point), (a, a, alpha * a), _random_quaternion(random, wobble if alpha != 1.0 else 0.0),
-                            tuple(speed * random.normal(size=3)), tuple(speed * random.normal(size=3)), 1 + k % types, blockiness))
+        grains.append(
+            Grain(
+                tuple(point),
+                (a, a, alpha * a),
+                _random_quaternion(random, wobble if alpha != 1.0 else 0.0),
+                tuple(speed * random.normal(size=3)),
+                tuple(speed * random.normal(size=3)),
+                1 + k % types,
+                blockiness,
+            )
+        )
     return Packing(tuple(counts * cell), grains, atom_style=atom_style, types=types)
 
 

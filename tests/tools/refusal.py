@@ -6,7 +6,10 @@ from run import attempt, count_errors, tail
 
 def require_refused(deck, ranks, *words):
     result = attempt(deck, ranks)
-    require(result.code > 0, f"the run was not refused but ended with code {result.code}; its output ends:\n{tail(result.output)}")
+    require(
+        result.code > 0,
+        f"the run was not refused but ended with code {result.code}; its output ends:\n{tail(result.output)}",
+    )
     text = " ".join(result.output.split())
     for word in words:
         require(" ".join(word.split()) in text, f"the message lacks {word!r}; the output ends:\n{tail(result.output)}")

@@ -14,10 +14,10 @@ import numpy as np
 
 from open_mpi import Session
 
-# Seconds, against hangs alone: on a busy machine a run takes many times as long. tests/limits.cmake has it, and more for
-# what is long.
+# Seconds, against hangs alone: on a busy machine a run takes many times as long. tests/limits.cmake has it, and more
+# for what is long.
 TIME_LIMIT = float(os.environ.get("GRAINSCOPE_TIME_LIMIT", "1200"))
-PAUSE = 0.01    # between looks at what is waited for
+PAUSE = 0.01  # between looks at what is waited for
 FINDINGS = ("ERROR: AddressSanitizer", "ERROR: LeakSanitizer", "runtime error: ", "AddressSanitizer:DEADLYSIGNAL")
 
 
@@ -50,8 +50,13 @@ def session_of_this_test():
 def environment(ranks, session=None):
     """Environment of a run on so many ranks, with the directories of an open_mpi.Session: one for all runs of this test
     that start one after the other and name none of their own."""
-    env = dict(os.environ, OMP_NUM_THREADS="1", OMPI_MCA_btl_vader_single_copy_mechanism="none",
-               OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_mpi_yield_when_idle="1")
+    env = dict(
+        os.environ,
+        OMP_NUM_THREADS="1",
+        OMPI_MCA_btl_vader_single_copy_mechanism="none",
+        OMPI_MCA_rmaps_base_oversubscribe="1",
+        OMPI_MCA_mpi_yield_when_idle="1",
+    )
     if ranks == 1:
         env.update(ALONE)
     if ranks > 1 or session:
@@ -102,7 +107,8 @@ class Result:
         return path
 
     def thermo(self):
-        """One dict of arrays per `run` command, columns named as in the deck's thermo_style (the host cuts its own headings)."""
+        """One dict of arrays per `run` command, columns named as in the deck's thermo_style (the host cuts its own
+        headings)."""
         blocks, names, rows, inside = [], [], [], False
         for line in self.file("log.liggghts").read_text().splitlines():
             words = line.split()
@@ -196,9 +202,16 @@ class Started:
         self._command = [*_command(ranks, program or binary()), "-in", "in.deck", "-log", "log.liggghts", *arguments]
         self._session = Session()
         self._output = open(self.folder / "output", "w")
-        self._process = subprocess.Popen(self._command, cwd=self.folder, env=environment(ranks, self._session),
-                                         stdin=subprocess.DEVNULL, stdout=self._output, stderr=subprocess.STDOUT,
-                                         start_new_session=True, restore_signals=restore_signals)
+        self._process = subprocess.Popen(
+            self._command,
+            cwd=self.folder,
+            env=environment(ranks, self._session),
+            stdin=subprocess.DEVNULL,
+            stdout=self._output,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+            restore_signals=restore_signals,
+        )
 
     def kill(self):
         """SIGKILL to all ranks, and to mpirun."""
@@ -235,15 +248,17 @@ def rows_so_far(started):
     log = started.folder / "log.liggghts"
     text = log.read_text(errors="replace") if log.exists() else ""
     begun = re.search(r"^ *Step .*$", text, flags=re.M)
-    return len(re.findall(r"^ *\d+( |$)", text[begun.end():], flags=re.M)) if begun else 0
+    return len(re.findall(r"^ *\d+( |$)", text[begun.end() :], flags=re.M)) if begun else 0
 
 
 def wait_for_steps(started, rows=2):
     """Until it has written so many rows of thermo output: the first is that of the state before the first step."""
+
     def begun():
         if started.ended():
             raise Failure(f"the run in {started.folder} ended before its first steps")
         return rows_so_far(started) >= rows
+
     wait_until(begun, f"{rows} rows of thermo output in {started.folder}")
 
 

@@ -30,7 +30,7 @@ def lines_of(block, deck):
         at = next(k for k, line in enumerate(lines) if line.startswith("pair_style"))
         own = [line for line in block.splitlines() if line.lstrip().startswith("pair_style")]
         rest = [line for line in block.splitlines() if not line.lstrip().startswith("pair_style")]
-        lines[at:at + 1] = [own[-1] if "surface" in own[-1] else own[-1] + " surface superquadric"]
+        lines[at : at + 1] = [own[-1] if "surface" in own[-1] else own[-1] + " surface superquadric"]
         return lines + rest + ["run 20"]
     if re.search(r"^\s*(run|read_restart)\b", block, flags=re.M):
         return lines + ["run 20"] + block.splitlines()

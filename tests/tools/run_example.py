@@ -10,8 +10,14 @@ import numpy as np
 
 from run import Failure, columns_of, run
 
-REDUCE = {"mean": np.mean, "last": lambda v: v[-1], "first": lambda v: v[0], "min": np.min, "max": np.max,
-          "rms": lambda v: np.sqrt(np.mean(v * v))}
+REDUCE = {
+    "mean": np.mean,
+    "last": lambda v: v[-1],
+    "first": lambda v: v[0],
+    "min": np.min,
+    "max": np.max,
+    "rms": lambda v: np.sqrt(np.mean(v * v)),
+}
 
 
 def table(path):
@@ -47,8 +53,10 @@ def check(result, value):
         raise Failure(f"no row of {value['file']} at or after {value['from']}")
     reduced = float(REDUCE[value["reduce"]](found))
     good = abs(reduced - value["expected"]) <= value["tolerance"]
-    print(f"{'ok  ' if good else 'OFF '} {value['reduce']} of {value['column']} in {value['file']}: {reduced!r}, "
-          f"expected {value['expected']} +- {value['tolerance']} ({value['reason']})")
+    print(
+        f"{'ok  ' if good else 'OFF '} {value['reduce']} of {value['column']} in {value['file']}: {reduced!r}, "
+        f"expected {value['expected']} +- {value['tolerance']} ({value['reason']})"
+    )
     return good
 
 

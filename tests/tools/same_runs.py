@@ -29,13 +29,19 @@ def example(folder):
     def start(scratch):
         copy = scratch / folder.name
         shutil.copytree(folder, copy)
-        return run((copy / f"in.{folder.name}").read_text(), expected["ranks"][0], folder=copy,
-                   arguments=list(arguments(expected.get("variables", {}))))
+        return run(
+            (copy / f"in.{folder.name}").read_text(),
+            expected["ranks"][0],
+            folder=copy,
+            arguments=list(arguments(expected.get("variables", {}))),
+        )
+
     return start
 
 
 def flow(packing, pair, ranks, **words):
     """A sheared packing: dumped, written to a restart file half way, and taken up from it."""
+
     def start(scratch):
         steps = [*thermo(20, "ke", "vol", "xy"), *dump_grains(packing, 20)]
         halves = ["run 100", "write_restart half.restart", "run 100"]
@@ -46,6 +52,7 @@ def flow(packing, pair, ranks, **words):
         shutil.copy(scratch / "whole" / "half.restart", again)
         second = deck.restarted("half.restart", [shear(0.05), *steps, "run 100"])
         return run(second, ranks, folder=again)
+
     return start
 
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Runs a deck with computes in thermo and grains and contacts in dumps, and hands back one Moment per snapshot: what the deck was told,
-and what the oracle starts from."""
+"""Runs a deck with computes in thermo and grains and contacts in dumps, and hands back one Moment per snapshot: what
+the deck was told, and what the oracle starts from."""
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,6 +16,7 @@ F_FLOW = outputs("press/strain").of("flow")
 @dataclass(frozen=True)
 class Watched:
     """A compute and what it gives: `vector` entries, an `array` of (rows, columns), `peratom` columns."""
+
     name: str
     command: str
     scalar: bool = False
@@ -30,7 +31,11 @@ class Watched:
         scalar = [f"c_{self.name}"] if self.scalar else []
         vector = [f"c_{self.name}[{k}]" for k in range(1, self.vector + 1)]
         rows, columns = self.array
-        return [*scalar, *vector, *(f"c_{self.name}[{r}][{c}]" for r in range(1, rows + 1) for c in range(1, columns + 1))]
+        return [
+            *scalar,
+            *vector,
+            *(f"c_{self.name}[{r}][{c}]" for r in range(1, rows + 1) for c in range(1, columns + 1)),
+        ]
 
     def atom_columns(self):
         return [f"c_{self.name}[{k}]" for k in range(1, self.peratom + 1)]
@@ -39,6 +44,7 @@ class Watched:
 @dataclass(frozen=True)
 class Flow:
     """How the box of a deck moves: its fix, the shear rate, the plane, the thermo column of dL/dt along y (if any)."""
+
     line: str = ""
     rate: float = 0.0
     plane: tuple = (0, 1)
@@ -63,9 +69,9 @@ class Moment:
     told: dict
     columns: dict
     grains: object
-    rows: dict          # of the group, or None
-    box: Box            # as it is now
-    force_box: Box      # as the force evaluation saw it
+    rows: dict  # of the group, or None
+    box: Box  # as it is now
+    force_box: Box  # as the force evaluation saw it
     chosen: np.ndarray
 
     def scalar(self, watched):
@@ -76,7 +82,9 @@ class Moment:
 
     def array(self, watched):
         rows, columns = watched.array
-        return np.array([[self.told[f"c_{watched.name}[{r}][{c}]"] for c in range(1, columns + 1)] for r in range(1, rows + 1)])
+        return np.array(
+            [[self.told[f"c_{watched.name}[{r}][{c}]"] for c in range(1, columns + 1)] for r in range(1, rows + 1)]
+        )
 
     def peratom(self, watched):
         return np.stack([self.columns[c] for c in watched.atom_columns()], axis=1)
@@ -92,13 +100,21 @@ def grain_columns(packing, *more):
     return " ".join([base, *more])
 
 
-def watched_deck(deck, computes, flow=Flow(), group="all", every=5, steps=20, settle=0, contacts=True, extra=(), told=1):
-    """`settle` steps of flow first, then `steps` with dumps every `every` and thermo every `told`; `extra`: further thermo columns."""
+def watched_deck(
+    deck, computes, flow=Flow(), group="all", every=5, steps=20, settle=0, contacts=True, extra=(), told=1
+):
+    """`settle` steps of flow first, then `steps` with dumps every `every` and thermo every `told`; `extra`: further
+    thermo columns."""
     start = [f"group chosen id {group}"] if group != "all" else ["group chosen union all"]
     start += [flow.line] if flow.line else []
     start += [*thermo(100, "step"), f"run {settle}"] if settle else []
     more = ["ix", "iy", "iz", *(c for w in computes for c in w.atom_columns())]
-    quantities = [*box_columns(), *extra, *([flow.length_rate] if flow.length_rate else []), *(q for w in computes for q in w.columns())]
+    quantities = [
+        *box_columns(),
+        *extra,
+        *([flow.length_rate] if flow.length_rate else []),
+        *(q for w in computes for q in w.columns()),
+    ]
     output = [*thermo(told, *quantities), *dump_grains(deck.packing, every, columns=grain_columns(deck.packing, *more))]
     if contacts:
         output += ["compute rows chosen contact/local", *dump_local("rows", ROW_WIDTH, every, "rows")]
@@ -107,7 +123,9 @@ def watched_deck(deck, computes, flow=Flow(), group="all", every=5, steps=20, se
 
 def box_at(table, row, flow):
     value = {name: float(table[name][row]) for name in box_columns()}
-    edges = np.array([[value["lx"], value["xy"], value["xz"]], [0.0, value["ly"], value["yz"]], [0.0, 0.0, value["lz"]]])
+    edges = np.array(
+        [[value["lx"], value["xy"], value["xz"]], [0.0, value["ly"], value["yz"]], [0.0, 0.0, value["lz"]]]
+    )
     rate, (a, b) = np.zeros((3, 3)), flow.plane
     rate[a, b] = flow.rate * edges[b, b]
     if flow.length_rate:
@@ -125,14 +143,24 @@ def force_box(table, row, flow):
 def moments_of(result, flow=Flow(), group="all"):
     table = result.thermo()[-1]
     grains_dump = result.dump("grains.dump")
-    rows_dump = result.dump("rows.dump") if (result.folder / "rows.dump").exists() else [(None, None)] * len(grains_dump)
+    rows_dump = (
+        result.dump("rows.dump") if (result.folder / "rows.dump").exists() else [(None, None)] * len(grains_dump)
+    )
     for (step, columns), (_, rows) in zip(grains_dump, rows_dump):
         row, grains = int(np.searchsorted(table["step"], step)), grains_of(columns)
         low, high = map(int, group.split(":")) if group != "all" else (1, len(grains.ids))
-        # The force evaluation of a step saw the box that the end of the step before had left (if that was told), turned back if due.
-        yield Moment(step, {name: float(values[row]) for name, values in table.items()}, columns, grains,
-                     None if rows is None else rows_of(rows, "rows"), box_at(table, row, flow), force_box(table, row, flow),
-                     (grains.ids >= low) & (grains.ids <= high))
+        # The force evaluation of a step saw the box that the end of the step before had left (if that was told), turned
+        # back if due.
+        yield Moment(
+            step,
+            {name: float(values[row]) for name, values in table.items()},
+            columns,
+            grains,
+            None if rows is None else rows_of(rows, "rows"),
+            box_at(table, row, flow),
+            force_box(table, row, flow),
+            (grains.ids >= low) & (grains.ids <= high),
+        )
 
 
 def watch(deck: Deck, computes, flow=Flow(), ranks=1, group="all", **choices):

@@ -2,10 +2,12 @@
 #include "affine_flow.h"
 #include <gtest/gtest.h>
 
-using grainscope::AffineFlow;
 using Eigen::Vector3d;
+using grainscope::AffineFlow;
 
-TEST(affine_flow, box_that_does_not_deform_has_none) { EXPECT_EQ(AffineFlow().flow(Vector3d(1.0, 2.0, 3.0)), Vector3d::Zero()); }
+TEST(affine_flow, box_that_does_not_deform_has_none) {
+  EXPECT_EQ(AffineFlow().flow(Vector3d(1.0, 2.0, 3.0)), Vector3d::Zero());
+}
 
 /** Simple shear: v_x = rate (y - y_c). */
 TEST(affine_flow, shear_about_the_centre) {

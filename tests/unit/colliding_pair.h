@@ -29,8 +29,9 @@ struct Sphere {
   EnergyLedger::Grain shown(int index) const { return {index, mass, x.data(), v.data(), force.data(), torque.data()}; }
 };
 
-/** Two spheres under a law of this test's own: an elastic force k d^(3/2), damping c d^(1/4) u_n, a tangential spring of stiffness h d^(1/2)
- *  with friction, a torque against rolling; and a constant force from outside. The ledger is told what it would be told by the pair style. */
+/** Two spheres under a law of this test's own: an elastic force k d^(3/2), damping c d^(1/4) u_n, a tangential spring
+ *  of stiffness h d^(1/2) with friction, a torque against rolling; and a constant force from outside. The ledger is
+ *  told what it would be told by the pair style. */
 class Pair {
  public:
   static constexpr double radius = 1.0, k = 1e4, c = 30.0, h = 8e3, friction = 0.3;
@@ -91,8 +92,9 @@ class Pair {
     contact.rolling = ContactRolling{spin, torque};
     contact.past = past_;
     ledger.add(contact, dt, springs_move);
-    past_ = ContactPast{d, motion.normal_stiffness * d, motion.tangential_stiffness, -0.5 * dt * motion.normal_stiffness * d * u.dot(n),
-             0.5 * dt * motion.tangential_stiffness * spring_.dot(motion.tangential_velocity)};
+    past_ = ContactPast{d, motion.normal_stiffness * d, motion.tangential_stiffness,
+                        -0.5 * dt * motion.normal_stiffness * d * u.dot(n),
+                        0.5 * dt * motion.tangential_stiffness * spring_.dot(motion.tangential_velocity)};
     i.force += contact.force;
     j.force -= contact.force;
     i.torque += motion.arm.cross(contact.force) + torque;

@@ -135,7 +135,8 @@ TEST(decay_fit, tells_a_slow_decay_from_none) {
 }
 
 TEST(decay_fit, what_grows_or_is_negative_has_no_length) {
-  for (const std::vector<double> &c : {std::vector<double>{1.0, 1.5, 2.0}, {1.1, 3.0, 40.0}, {-1.0, -0.5, -0.2}, {0.04, -3.0, 0.0}})
+  for (const std::vector<double> &c :
+       {std::vector<double>{1.0, 1.5, 2.0}, {1.1, 3.0, 40.0}, {-1.0, -0.5, -0.2}, {0.04, -3.0, 0.0}})
     EXPECT_EQ(fit_decay({1.0, 2.0, 3.0}, c).length, 0.0);
   EXPECT_EQ(fit_decay({1.0, 2.0, 3.0}, {-1.0, -0.5, -0.2}).points, 0);
 }

@@ -9,12 +9,14 @@ using Eigen::Vector3d;
 
 namespace {
 
-/** Area of a spheroid a, a, c between the equator and the parametric angle t from the pole, both hemispheres: closed form. */
+/** Area of a spheroid a, a, c between the equator and the parametric angle t from the pole, both hemispheres: closed
+ *  form. */
 double closed_form_beyond(double a, double c, double t) {
   const double z = c * std::cos(t), k = (a * a - c * c) / (c * c * c * c);  // of sqrt(1 + k z^2), times a
   const double one = 1.0 + k * z * z;
   if (std::fabs(k) < 1e-14) return 4.0 * M_PI * a * z;
-  const double part = k > 0.0 ? std::asinh(std::sqrt(k) * z) / std::sqrt(k) : std::asin(std::sqrt(-k) * z) / std::sqrt(-k);
+  const double part =
+      k > 0.0 ? std::asinh(std::sqrt(k) * z) / std::sqrt(k) : std::asin(std::sqrt(-k) * z) / std::sqrt(-k);
   return 2.0 * M_PI * a * (z * std::sqrt(one) + part);
 }
 
@@ -36,7 +38,9 @@ TEST(ellipsoid_bands, each_is_the_closed_form) {
   for (double alpha : {0.33, 0.67, 1.5, 3.0})
     for (SurfaceAngle angle : {SurfaceAngle::polar, SurfaceAngle::parametric}) {
       const auto areas = band_areas(Vector3d(0.7, 0.7, 0.7 * alpha), bands, angle);
-      const auto parametric = [&](double psi) { return angle == SurfaceAngle::polar ? std::atan2(alpha * std::sin(psi), std::cos(psi)) : psi; };
+      const auto parametric = [&](double psi) {
+        return angle == SurfaceAngle::polar ? std::atan2(alpha * std::sin(psi), std::cos(psi)) : psi;
+      };
       for (int k = 0; k < bands; k++) {
         const double from = parametric(k * M_PI_2 / bands), to = parametric((k + 1) * M_PI_2 / bands);
         const double exact = closed_form_beyond(0.7, 0.7 * alpha, from) - closed_form_beyond(0.7, 0.7 * alpha, to);
@@ -77,9 +81,11 @@ TEST(ellipsoid_bands, equator_belongs_to_the_last_band) {
 }
 
 TEST(ellipsoid_bands, long_and_flat_triaxial_grains_have_one_area) {
-  for (const Vector3d &semi : {Vector3d(0.02, 10, 1), Vector3d(50, 0.1, 1), Vector3d(10, 0.1, 1), Vector3d(0.3, 10, 1), Vector3d(0.02, 0.1, 1)}) {
+  for (const Vector3d &semi : {Vector3d(0.02, 10, 1), Vector3d(50, 0.1, 1), Vector3d(10, 0.1, 1), Vector3d(0.3, 10, 1),
+                               Vector3d(0.02, 0.1, 1)}) {
     const double area = sum(band_areas(semi, 1, SurfaceAngle::parametric));
-    for (int bands : {1, 3, 10}) EXPECT_NEAR(sum(band_areas(semi, bands, SurfaceAngle::polar)) / area, 1.0, 5e-12) << semi.transpose();
+    for (int bands : {1, 3, 10})
+      EXPECT_NEAR(sum(band_areas(semi, bands, SurfaceAngle::polar)) / area, 1.0, 5e-12) << semi.transpose();
   }
 }
 

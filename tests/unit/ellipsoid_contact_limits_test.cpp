@@ -10,10 +10,11 @@ using reference::Quad;
 
 namespace {
 
-const double UPRIGHT[4] = {1.0, 0.0, 0.0, 0.0}, ALONG_X[4] = {std::sqrt(0.5), 0.0, std::sqrt(0.5), 0.0};  // where body z points: z, x
+// where body z points: z, x
+const double UPRIGHT[4] = {1.0, 0.0, 0.0, 0.0}, ALONG_X[4] = {std::sqrt(0.5), 0.0, std::sqrt(0.5), 0.0};
 
-GrainPair pair_of(const double (&semi1)[3], const double (&semi2)[3], double dx, double dy, double dz, const double *q1 = UPRIGHT,
-                      const double *q2 = UPRIGHT) {
+GrainPair pair_of(const double (&semi1)[3], const double (&semi2)[3], double dx, double dy, double dz,
+                  const double *q1 = UPRIGHT, const double *q2 = UPRIGHT) {
   GrainPair pair;
   std::copy_n(semi1, 3, pair.semi[0]);
   std::copy_n(semi2, 3, pair.semi[1]);
@@ -25,7 +26,8 @@ GrainPair pair_of(const double (&semi1)[3], const double (&semi2)[3], double dx,
   return pair;
 }
 
-/** What holds for every contact and every miss: no NaN, a unit normal, depths and gaps not negative, no endless search. */
+/** What holds for every contact and every miss: no NaN, a unit normal, depths and gaps not negative, no endless
+ *  search. */
 void expect_sound(const EllipsoidContact &c) {
   ASSERT_TRUE(c.lambda >= 0.0 && c.lambda <= 1.0) << c.lambda;
   ASSERT_LE(c.steps, ELLIPSOID_STEPS);
@@ -39,8 +41,8 @@ void expect_sound(const EllipsoidContact &c) {
 
 /** Both forms, cold and warm, against known values to `tolerance`. */
 template <class Body>
-void expect_form(const GrainPair &pair, const double (&normal)[3], const double (&point)[3], double depth1, double depth2,
-                 double tolerance) {
+void expect_form(const GrainPair &pair, const double (&normal)[3], const double (&point)[3], double depth1,
+                 double depth2, double tolerance) {
   for (double start : {0.0, 0.3, kernel_contact<Body>(pair).lambda}) {
     const EllipsoidContact c = kernel_contact<Body>(pair, start);
     expect_sound(c);
@@ -55,8 +57,8 @@ void expect_form(const GrainPair &pair, const double (&normal)[3], const double 
   }
 }
 
-void expect_contact(const GrainPair &pair, const double (&normal)[3], const double (&point)[3], double depth1, double depth2,
-                    double tolerance = 1e-14) {
+void expect_contact(const GrainPair &pair, const double (&normal)[3], const double (&point)[3], double depth1,
+                    double depth2, double tolerance = 1e-14) {
   expect_form<Spheroid>(pair, normal, point, depth1, depth2, tolerance);
   expect_form<Triaxial>(pair, normal, point, depth1, depth2, tolerance);
 }
@@ -145,8 +147,8 @@ TEST(ellipsoid_contact_limits, one_inside_the_other) {
 
 TEST(ellipsoid_contact_limits, two_spheres) {
   const double r = 3.0, sum = 2.5 + 1.0;  // d = (2, 1, 2)
-  expect_contact(pair_of({2.5, 2.5, 2.5}, {1, 1, 1}, 2, 1, 2), {2 / r, 1 / r, 2 / r}, {2 * 2.5 / sum, 2.5 / sum, 2 * 2.5 / sum},
-                 2.5 * (1 - r / sum), 1.0 - r / sum);
+  expect_contact(pair_of({2.5, 2.5, 2.5}, {1, 1, 1}, 2, 1, 2), {2 / r, 1 / r, 2 / r},
+                 {2 * 2.5 / sum, 2.5 / sum, 2 * 2.5 / sum}, 2.5 * (1 - r / sum), 1.0 - r / sum);
   for_both_forms(pair_of({1.5, 1.5, 1.5}, {1, 1, 1}, 2, 1, 2), [](const EllipsoidContact &c) {
     EXPECT_FALSE(c.touching);
     EXPECT_NEAR(c.gap, 0.5, 1e-14);
@@ -157,31 +159,35 @@ TEST(ellipsoid_contact_limits, two_spheres) {
 TEST(ellipsoid_contact_limits, sphere_on_the_pole_and_on_the_equator_of_a_spheroid) {
   for (double alpha : {0.01, 0.05, 0.33, 1.5, 3.0, 20.0, 100.0}) {
     const double pole = (alpha + 1.0) * 0.99, equator = 2.0 * 0.99;
-    expect_contact(pair_of({1, 1, alpha}, {1, 1, 1}, 0, 0, pole), {0, 0, 1}, {0, 0, 0.99 * alpha}, 0.01 * alpha, 0.01, 1e-14 * (1 + alpha));
+    expect_contact(pair_of({1, 1, alpha}, {1, 1, 1}, 0, 0, pole), {0, 0, 1}, {0, 0, 0.99 * alpha}, 0.01 * alpha, 0.01,
+                   1e-14 * (1 + alpha));
     expect_contact(pair_of({1, 1, alpha}, {1, 1, 1}, 0, equator, 0), {0, 1, 0}, {0, 0.99, 0}, 0.01, 0.01);
   }
 }
 
 TEST(ellipsoid_contact_limits, stacked_discs) {
   for (double alpha : {0.01, 0.05, 0.33}) {
-    expect_contact(pair_of({1, 1, alpha}, {1, 1, alpha}, 0, 0, 1.9 * alpha), {0, 0, 1}, {0, 0, 0.95 * alpha}, 0.05 * alpha, 0.05 * alpha,
-                   3e-14);
-    for (double aside : {1e-12, 1e-8, 1e-4, 0.3}) expect_exact(pair_of({1, 1, alpha}, {1, 1, alpha}, aside, -aside / 2, 1.8 * alpha));
+    expect_contact(pair_of({1, 1, alpha}, {1, 1, alpha}, 0, 0, 1.9 * alpha), {0, 0, 1}, {0, 0, 0.95 * alpha},
+                   0.05 * alpha, 0.05 * alpha, 3e-14);
+    for (double aside : {1e-12, 1e-8, 1e-4, 0.3})
+      expect_exact(pair_of({1, 1, alpha}, {1, 1, alpha}, aside, -aside / 2, 1.8 * alpha));
   }
 }
 
 TEST(ellipsoid_contact_limits, parallel_rods) {
   for (double alpha : {3.0, 20.0, 100.0}) {
     expect_contact(pair_of({1, 1, alpha}, {1, 1, alpha}, 1.9, 0, 0), {1, 0, 0}, {0.95, 0, 0}, 0.05, 0.05);
-    expect_contact(pair_of({1, 1, alpha}, {1, 1, alpha}, 0, 0, 1.9 * alpha), {0, 0, 1}, {0, 0, 0.95 * alpha}, 0.05 * alpha, 0.05 * alpha,
-                   1e-15 * alpha * alpha);
-    for (double along : {1e-12, 1e-8, 1e-4, 0.5 * alpha}) expect_exact(pair_of({1, 1, alpha}, {1, 1, alpha}, 1.5, 0.1, along));
+    expect_contact(pair_of({1, 1, alpha}, {1, 1, alpha}, 0, 0, 1.9 * alpha), {0, 0, 1}, {0, 0, 0.95 * alpha},
+                   0.05 * alpha, 0.05 * alpha, 1e-15 * alpha * alpha);
+    for (double along : {1e-12, 1e-8, 1e-4, 0.5 * alpha})
+      expect_exact(pair_of({1, 1, alpha}, {1, 1, alpha}, 1.5, 0.1, along));
   }
 }
 
 TEST(ellipsoid_contact_limits, crossed_rods) {
   for (double alpha : {3.0, 20.0, 100.0}) {
-    expect_contact(pair_of({1, 1, alpha}, {1, 1, alpha}, 0, 1.9, 0, UPRIGHT, ALONG_X), {0, 1, 0}, {0, 0.95, 0}, 0.05, 0.05);
+    expect_contact(pair_of({1, 1, alpha}, {1, 1, alpha}, 0, 1.9, 0, UPRIGHT, ALONG_X), {0, 1, 0}, {0, 0.95, 0}, 0.05,
+                   0.05);
     for (double angle : {1e-12, 1e-8, 1e-4, 0.1, 1.0}) {
       const double turned[4] = {std::cos(0.5 * angle), std::sin(0.5 * angle), 0.0, 0.0};
       expect_exact(pair_of({1, 1, alpha}, {1, 1, alpha}, 1.9, 0, 0, UPRIGHT, turned), 1e-9);
@@ -212,7 +218,8 @@ TEST(ellipsoid_contact_limits, sizes_of_a_hundred_to_one) {
   }
 }
 
-/** Also across the 1e-9 within which semi-axes count as equal: a sphere of the mean equatorial semi-axis is at most that far off. */
+/** Also across the 1e-9 within which semi-axes count as equal: a sphere of the mean equatorial semi-axis is at most
+ *  that far off. */
 TEST(ellipsoid_contact_limits, nearly_spheres_are_nearly_as_spheres) {
   RandomPairs random(35);
   for (double off : {1e-6, 1e-7, 1e-8, 1.1e-9, 1.01e-9, 0.99e-9, 0.9e-9, 1e-10, 1e-11, 1e-12, 1e-16})
@@ -233,7 +240,8 @@ TEST(ellipsoid_contact_limits, nearly_spheres_are_nearly_as_spheres) {
         for (int k = 0; k < 2; k++) EXPECT_NEAR(c.depth[k], exact.depth[k], 3.0 * off + 1e-14);
       });
       const EllipsoidContact as_spheroid = kernel_contact<Spheroid>(pair), as_triaxial = kernel_contact<Triaxial>(pair);
-      for (int k = 0; k < 3; k++) EXPECT_NEAR(as_spheroid.point[k], as_triaxial.point[k], (off < 1e-9 ? off : 0.0) + 1e-14);
+      for (int k = 0; k < 3; k++)
+        EXPECT_NEAR(as_spheroid.point[k], as_triaxial.point[k], (off < 1e-9 ? off : 0.0) + 1e-14);
     }
 }
 
@@ -253,12 +261,13 @@ TEST(ellipsoid_contact_limits, tangent_to_rounding) {
 
 TEST(ellipsoid_contact_limits, far_apart) {
   for (double away : {1e3, 1e6, 1e60})
-    for_both_forms(pair_of({1, 1, 20}, {0.01, 0.01, 0.005}, away, 0.3 * away, 0.1 * away, ALONG_X), [&](const EllipsoidContact &c) {
-      expect_sound(c);
-      EXPECT_FALSE(c.touching);
-      EXPECT_LE(c.steps, 1);
-      EXPECT_GT(c.gap, 0.1 * away);
-    });
+    for_both_forms(pair_of({1, 1, 20}, {0.01, 0.01, 0.005}, away, 0.3 * away, 0.1 * away, ALONG_X),
+                   [&](const EllipsoidContact &c) {
+                     expect_sound(c);
+                     EXPECT_FALSE(c.touching);
+                     EXPECT_LE(c.steps, 1);
+                     EXPECT_GT(c.gap, 0.1 * away);
+                   });
 }
 
 /** Of what is no number one pair and many say that the answer is none. */
@@ -269,7 +278,8 @@ TEST(ellipsoid_contact_limits, no_numbers_are_told_as_fallbacks) {
     const EllipsoidContact alone = kernel_contact<Spheroid>(pair);
     EXPECT_TRUE(alone.fallback);
     EXPECT_TRUE(kernel_contact<Triaxial>(pair).fallback);
-    const Spheroid one = make_spheroid(pair.semi[0], pair.quaternion[0]), two = make_spheroid(pair.semi[1], pair.quaternion[1]);
+    const Spheroid one = make_spheroid(pair.semi[0], pair.quaternion[0]),
+                   two = make_spheroid(pair.semi[1], pair.quaternion[1]);
     EllipsoidPair many[8];
     EllipsoidContact contacts[8];
     for (EllipsoidPair &same : many) same = {&one, &two, {pair.d[0], pair.d[1], pair.d[2]}, 0.0};

@@ -15,7 +15,8 @@ namespace {
 
 using Make = std::function<void(RandomPairs &, GrainPair &)>;
 
-/** Limits of the errors, in units of the smallest semi-axis of the two; of lambda, of the smaller of lambda and 1 - lambda. */
+/** Limits of the errors, in units of the smallest semi-axis of the two; of lambda, of the smaller of lambda and 1 -
+ *  lambda. */
 struct Limits {
   double lambda, point, normal, overlap, curvature;
 };
@@ -35,9 +36,9 @@ void triaxial(RandomPairs &random, GrainPair &pair) {
   random.triaxial(pair, 1, 20.0, random.logarithmic(0.01, 100.0));
 }
 
-/** The last step, up to 3e-5, is carried over to second order: an error of some 3e-14 in lambda, more where C changes quickly with it. The
- *  point moves by as much times the larger semi-axis and the curvature of flat sides: up to 20^2 times the smallest semi-axis, 100 times
- *  more in unlike sizes. Twice to three times the largest of 1e7. */
+/** The last step, up to 3e-5, is carried over to second order: an error of some 3e-14 in lambda, more where C changes
+ *  quickly with it. The point moves by as much times the larger semi-axis and the curvature of flat sides: up to 20^2
+ *  times the smallest semi-axis, 100 times more in unlike sizes. Twice to three times the largest of 1e7. */
 const Limits ALIKE = {2e-11, 5e-11, 1e-11, 1e-10, 1e-10}, MIXED = {1e-11, 1e-9, 5e-12, 1e-10, 3e-11};
 
 /** Decisions agree with the exact ones where |F - 1| is above this many times the distance of 1 to the next number. */
@@ -117,13 +118,15 @@ struct Worst {
     EXPECT_LT(curvature, limits.curvature);
     EXPECT_LE(cold_steps, 10);
     EXPECT_LE(warm_steps, 3);
-    std::printf("%s: lambda %.1e, point %.1e, normal %.1e, overlap %.1e, curvature %.1e, wrong decisions up to |F - 1| = %.1e, "
-                "steps %d cold, %d warm\n", name, lambda, point, normal, overlap, curvature, wrong, cold_steps, warm_steps);
+    std::printf(
+        "%s: lambda %.1e, point %.1e, normal %.1e, overlap %.1e, curvature %.1e, wrong decisions up to |F - 1| = %.1e, "
+        "steps %d cold, %d warm\n",
+        name, lambda, point, normal, overlap, curvature, wrong, cold_steps, warm_steps);
   }
 };
 
-/** Nine in ten touch, with centres 1e-12 to 0.1 nearer than at tangency, some much deeper; the rest are apart by as little, or tangent to
- *  rounding. */
+/** Nine in ten touch, with centres 1e-12 to 0.1 nearer than at tangency, some much deeper; the rest are apart by as
+ *  little, or tangent to rounding. */
 double any_shift(RandomPairs &random) {
   const double kind = random.uniform();
   if (kind < 0.8) return random.logarithmic(1e-12, 1e-1);
@@ -206,8 +209,8 @@ TYPED_TEST(ellipsoid_form, same_from_any_start) {
     random.place(pair, random.logarithmic(1e-6, 1e-1) * (n % 10 ? 1.0 : -1.0));
     const Limits &limits = n % 2 ? ALIKE : MIXED;
     const EllipsoidContact cold = kernel_contact<TypeParam>(pair);
-    for (double start : {nan, -nan, infinity, -infinity, -1.0, -1e-300, 1e-300, 1e-20, 1e-5, 0.5, random.uniform(), 1.0 - 1e-5, 1.0 - 1e-16,
-                         1.0, 7.0}) {
+    for (double start : {nan, -nan, infinity, -infinity, -1.0, -1e-300, 1e-300, 1e-20, 1e-5, 0.5, random.uniform(),
+                         1.0 - 1e-5, 1.0 - 1e-16, 1.0, 7.0}) {
       const EllipsoidContact warm = kernel_contact<TypeParam>(pair, start);
       ASSERT_TRUE(finite(warm)) << start;
       ASSERT_EQ(warm.touching, cold.touching) << start;
@@ -310,7 +313,8 @@ TYPED_TEST(ellipsoid_form, same_in_any_unit) {
   }
 }
 
-/** Decisions close to tangency: of the pairs apart or overlapping by less than 1e-12, none outside BAND is told wrongly. */
+/** Decisions close to tangency: of the pairs apart or overlapping by less than 1e-12, none outside BAND is told
+ *  wrongly. */
 TYPED_TEST(ellipsoid_form, decides_as_exact_arithmetic_does) {
   RandomPairs random(25);
   int decided = 0;
@@ -330,7 +334,8 @@ TYPED_TEST(ellipsoid_form, decides_as_exact_arithmetic_does) {
   EXPECT_GT(decided, 15000);
 }
 
-/** For any direction n, the points of the two surfaces that are farthest along n and -n are no nearer to each other than the surfaces. */
+/** For any direction n, the points of the two surfaces that are farthest along n and -n are no nearer to each other
+ *  than the surfaces. */
 TYPED_TEST(ellipsoid_form, gap_is_a_lower_bound_of_the_distance) {
   RandomPairs random(26);
   for (int n = 0; n < 1000; n++) {
@@ -365,10 +370,8 @@ TYPED_TEST(ellipsoid_form, curvatures_are_those_of_the_fundamental_forms) {
   RandomPairs random(27);
   for (int n = 0; n < 20000; n++) {
     GrainPair pair;
-    if (std::is_same<TypeParam, Triaxial>::value)
-      random.triaxial(pair, 0, 20.0, random.logarithmic(1e-3, 1e3));
-    else
-      random.spheroid(pair, 0, random.logarithmic(0.05, 20.0), random.logarithmic(1e-3, 1e3));
+    if (std::is_same<TypeParam, Triaxial>::value) random.triaxial(pair, 0, 20.0, random.logarithmic(1e-3, 1e3));
+    else random.spheroid(pair, 0, random.logarithmic(0.05, 20.0), random.logarithmic(1e-3, 1e3));
     const reference::Body exact = pair.body(0);
     double w[3], y[3];
     random.direction(w, 3);
@@ -379,12 +382,14 @@ TYPED_TEST(ellipsoid_form, curvatures_are_those_of_the_fundamental_forms) {
     reference::curvatures(exact, at, gaussian, mean);
     TypeParam body;
     make(pair, 0, body);
-    EXPECT_NEAR(gaussian_curvature(body, y) / static_cast<double>(gaussian), 1.0, 5e-13);  // y is rounded: 1e-16 of the longest semi-axis
+    // y is rounded: 1e-16 of the longest semi-axis
+    EXPECT_NEAR(gaussian_curvature(body, y) / static_cast<double>(gaussian), 1.0, 5e-13);
     EXPECT_NEAR(mean_curvature(body, y) / static_cast<double>(mean), 1.0, 5e-13);
   }
 }
 
-/** Touching, apart, spheres, concentric, cold and warm, in any mixture and number: what each gives alone, to the last bit. */
+/** Touching, apart, spheres, concentric, cold and warm, in any mixture and number: what each gives alone, to the last
+ *  bit. */
 TEST(ellipsoid_contacts, are_those_found_one_by_one) {
   RandomPairs random(41);
   for (int round = 0; round < 3000; round++) {
@@ -396,8 +401,7 @@ TEST(ellipsoid_contacts, are_those_found_one_by_one) {
       const double kind = random.uniform();
       if (kind < 0.1)
         for (int i = 0; i < 2; i++) random.spheroid(pair, i, 1.0);
-      else
-        (kind < 0.5 ? alike : mixed)(random, pair);
+      else (kind < 0.5 ? alike : mixed)(random, pair);
       random.place(pair, random.logarithmic(1e-12, 1.0) * (random.uniform() < 0.6 ? 1.0 : -1.0));
       if (random.uniform() < 0.02) std::fill_n(pair.d, 3, 0.0);
       const double lambda = kernel_contact<Spheroid>(pair).lambda, start = random.uniform();

@@ -12,8 +12,12 @@ struct GrainPair {
   double semi[2][3], quaternion[2][4], d[3];
 
   reference::Body body(int k) const { return {semi[k], quaternion[k]}; }
-  double largest() const { return std::max(*std::max_element(semi[0], semi[0] + 3), *std::max_element(semi[1], semi[1] + 3)); }
-  double smallest() const { return std::min(*std::min_element(semi[0], semi[0] + 3), *std::min_element(semi[1], semi[1] + 3)); }
+  double largest() const {
+    return std::max(*std::max_element(semi[0], semi[0] + 3), *std::max_element(semi[1], semi[1] + 3));
+  }
+  double smallest() const {
+    return std::min(*std::min_element(semi[0], semi[0] + 3), *std::min_element(semi[1], semi[1] + 3));
+  }
 };
 
 inline void make(const GrainPair &pair, int k, grainscope::Spheroid &body) {
@@ -28,7 +32,8 @@ grainscope::EllipsoidContact kernel_contact(const GrainPair &pair, double start 
   Body one, two;
   make(pair, 0, one);
   make(pair, 1, two);
-  return tolerance > 0.0 ? ellipsoid_contact(one, two, pair.d, start, tolerance) : ellipsoid_contact(one, two, pair.d, start);
+  return tolerance > 0.0 ? ellipsoid_contact(one, two, pair.d, start, tolerance)
+                         : ellipsoid_contact(one, two, pair.d, start);
 }
 
 /** Pairs at random, repeatable. */
@@ -63,9 +68,9 @@ class RandomPairs {
   void place(GrainPair &pair, double shift, const double *along = nullptr) {
     if (along)
       for (int k = 0; k < 3; k++) pair.d[k] = along[k];
-    else
-      direction(pair.d, 3);
-    const reference::Quad scale = (1 - reference::Quad(shift)) / reference::scale_of_tangency(pair.body(0), pair.body(1), pair.d);
+    else direction(pair.d, 3);
+    const reference::Quad scale =
+        (1 - reference::Quad(shift)) / reference::scale_of_tangency(pair.body(0), pair.body(1), pair.d);
     for (int k = 0; k < 3; k++) pair.d[k] = static_cast<double>(scale * pair.d[k]);
   }
 

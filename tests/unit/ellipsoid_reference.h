@@ -4,8 +4,9 @@
 
 #include <cmath>
 
-/** Contact of two ellipsoids in quadruple precision, by another way than the kernel's: matrices in the laboratory's axes, Cramer's rule,
- *  and the derivative of the contact function F = lambda (1 - lambda) d.C^-1 d, which falls from positive to negative, by bisection. */
+/** Contact of two ellipsoids in quadruple precision, by another way than the kernel's: matrices in the laboratory's
+ *  axes, Cramer's rule, and the derivative of the contact function F = lambda (1 - lambda) d.C^-1 d, which falls from
+ *  positive to negative, by bisection. */
 namespace reference {
 
 #ifdef __SIZEOF_FLOAT128__
@@ -89,10 +90,10 @@ struct Body {
       for (int k = 0; k < 3; k++) at[k] += semi[i] * semi[i] * dot(axis[i], n) * axis[i][k] / h;
     return h;
   }
-
 };
 
-/** Gaussian and mean curvature from the fundamental forms of S w(u, v), where w runs over the unit sphere from y/s along great circles. */
+/** Gaussian and mean curvature from the fundamental forms of S w(u, v), where w runs over the unit sphere from y/s
+ *  along great circles. */
 inline void curvatures(const Body &body, const Quad *y, Quad &gaussian, Quad &mean) {
   Quad w[3], e[2][3], r[2][3], n[3];
   for (int i = 0; i < 3; i++) w[i] = dot(body.axis[i], y) / body.semi[i];
@@ -190,7 +191,8 @@ inline Quad scale_of_tangency(const Body &one, const Body &two, const double d[3
 inline Contact solve(const Body &one, const Body &two, const double d[3]) {
   Derivative<Quad> slope(one, two, d);
   const auto end = [](Quad lambda) { return lambda < Quad(0.5) ? lambda : 1 - lambda; };
-  Quad lambda = rough_lambda(one, two, d), before = lambda + Quad(1e-10) * end(lambda), f = slope.at(lambda), f_before = slope.at(before);
+  Quad lambda = rough_lambda(one, two, d), before = lambda + Quad(1e-10) * end(lambda), f = slope.at(lambda),
+       f_before = slope.at(before);
   for (int k = 0; k < 8 && f != 0 && f != f_before; k++) {  // secants
     const Quad next = lambda - f * (lambda - before) / (f - f_before), moved = (next - lambda) / end(lambda);
     before = lambda;

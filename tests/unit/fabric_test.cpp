@@ -35,7 +35,8 @@ TEST(weighted_fabric, of_an_isotropic_network_tells_where_forces_are) {
   // Contacts along x, y, z: a_c = 0 and all weights 1/3. The branch along x is 2, others 1: D = diag(2, 1, 1)/3.
   WeightedFabricSums sums;
   const Matrix3d isotropic = Matrix3d::Identity() / 3.0;
-  for (int k = 0; k < 3; k++) sums.add({Vector3d::Unit(k), 1.0, k == 0 ? 2.0 : 1.0, 3.0, k == 2 ? 1.0 : 0.0}, isotropic);
+  for (int k = 0; k < 3; k++)
+    sums.add({Vector3d::Unit(k), 1.0, k == 0 ? 2.0 : 1.0, 3.0, k == 2 ? 1.0 : 0.0}, isotropic);
   EXPECT_NEAR(sums.branch()(0, 0), 7.5 * (2.0 / 4.0 - 1.0 / 3.0), 1e-15);
   EXPECT_NEAR(sums.branch().trace(), 0.0, 1e-15);
   EXPECT_NEAR(sums.normal_force().norm(), 0.0, 1e-15);

@@ -12,7 +12,8 @@ double v0[3] = {0.3, -0.1, 0.2}, v1[3] = {-0.4, 0.5, 0.1}, w0[3] = {0.1, 0.2, 0.
 const double *v[2] = {v0, v1}, *omega[2] = {w0, w1};
 
 double relative_power(const Vector3d &image_velocity) {
-  const Vector3d u = Vector3d(v0) + Vector3d(w0).cross(lever_i) - Vector3d(v1) - image_velocity - Vector3d(w1).cross(lever_j);
+  const Vector3d u =
+      Vector3d(v0) + Vector3d(w0).cross(lever_i) - Vector3d(v1) - image_velocity - Vector3d(w1).cross(lever_j);
   return force.dot(u);
 }
 
@@ -21,7 +22,8 @@ double relative_power(const Vector3d &image_velocity) {
 TEST(grain_power, is_the_force_times_the_relative_velocity) {
   grainscope::GrainPower power;
   power.reset(2);
-  power.add(make_contact(), force, lever_i, lever_j, Vector3d(9.0, 9.0, 9.0));  // no ghost: the image velocity is ignored
+  // no ghost: the image velocity is ignored
+  power.add(make_contact(), force, lever_i, lever_j, Vector3d(9.0, 9.0, 9.0));
   EXPECT_NEAR(power.power(v, omega), relative_power(Vector3d::Zero()), 1e-15);
 }
 

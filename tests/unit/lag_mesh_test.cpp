@@ -61,7 +61,8 @@ TEST(lag_mesh, every_lag_goes_to_the_bin_of_its_nearest_image) {
   const PeriodicCell cell = sheared();
   for (double range : {cell.rounding_radius(), 3.9}) {
     const DistanceBins bins{range, 8};
-    std::vector<double> field(12 * 10 * whole.row, 1e9), expected(8, 0.0), found(8, 0.0);  // the padding must not be read
+    // the padding must not be read
+    std::vector<double> field(12 * 10 * whole.row, 1e9), expected(8, 0.0), found(8, 0.0);
     for (int a = 0; a < 12; a++)
       for (int b = 0; b < 10; b++)
         for (int c = 0; c < 9; c++) {
@@ -81,7 +82,8 @@ TEST(lag_mesh, slabs_add_up_and_an_empty_one_adds_nothing) {
   for (std::size_t k = 0; k < field.size(); k++) field[k] = std::sin(static_cast<double>(k));
   std::vector<double> all(4, 0.0), parts(4, 0.0);
   add_lags(cell, whole, field.data(), false, bins, all);
-  for (const LagMesh &slab : {LagMesh{{{12, 10, 9}}, 0, 5, 10}, LagMesh{{{12, 10, 9}}, 5, 7, 10}, LagMesh{{{12, 10, 9}}, 0, 0, 10}})
+  for (const LagMesh &slab :
+       {LagMesh{{{12, 10, 9}}, 0, 5, 10}, LagMesh{{{12, 10, 9}}, 5, 7, 10}, LagMesh{{{12, 10, 9}}, 0, 0, 10}})
     add_lags(cell, slab, field.data() + slab.first_plane * 10 * slab.row, false, bins, parts);
   for (int k = 0; k < 4; k++) EXPECT_NEAR(parts[k], all[k], 1e-13);
 }

@@ -4,7 +4,8 @@
 
 #include "contact_law.h"
 
-/** Grain 0 touches grain 1 along x, two apart: a normal force of 10, of which 4 is damping, and friction of 3 along y. */
+/** Grain 0 touches grain 1 along x, two apart: a normal force of 10, of which 4 is damping, and friction of 3 along
+ *  y. */
 inline grainscope::Contact make_contact(double weight = 1.0) {
   grainscope::Contact c;
   grainscope::ContactMotion &motion = c.motion.emplace();

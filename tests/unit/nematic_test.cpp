@@ -27,7 +27,7 @@ TEST(nematic, two_of_four_along_z) {
 
 TEST(nematic, axes_in_a_plane_have_order_a_quarter_and_biaxiality_a_half) {
   const Nematic n(axes({{1, 0, 0}, {0, 1, 0}}));
-  EXPECT_NEAR(n.order, 0.25, 1e-15);       // eigenvalues 1/6, 1/6, -1/3
+  EXPECT_NEAR(n.order, 0.25, 1e-15);  // eigenvalues 1/6, 1/6, -1/3
   EXPECT_NEAR(n.biaxiality, 0.5, 1e-15);
 }
 

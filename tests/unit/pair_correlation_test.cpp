@@ -64,7 +64,8 @@ PairSums brute_force(const PeriodicCell &c, const PointValues &p, const Distance
 void expect_equal(const PairSums &found, const PairSums &expected, const std::string &what) {
   for (std::size_t k = 0; k < expected.pairs.size(); k++) {
     EXPECT_EQ(found.pairs[k], expected.pairs[k]) << what << ", bin " << k;
-    EXPECT_NEAR(found.products[k], expected.products[k], 1e-11) << what << ", bin " << k;  // sums of some thousand terms below 1
+    // sums of some thousand terms below 1
+    EXPECT_NEAR(found.products[k], expected.products[k], 1e-11) << what << ", bin " << k;
   }
 }
 
@@ -85,7 +86,8 @@ TEST(periodic_cell, heights_of_a_sheared_cell) {
 TEST(periodic_cell, nearest_image_at_any_distance) {
   const PointValues p = random_points(500, -0.5, 0.5);
   // In the flat cell, which leans over by more than its height, they are up to three cells away.
-  for (const PeriodicCell &c : {sheared, cell(7.0, 8.0, 6.5), cell(10.0, 1.0, 3.0, 0.3, 2.0, 4.9), cell(5.0, 5.0, 5.0, 2.5, -2.5, 2.5)}) {
+  for (const PeriodicCell &c :
+       {sheared, cell(7.0, 8.0, 6.5), cell(10.0, 1.0, 3.0, 0.3, 2.0, 4.9), cell(5.0, 5.0, 5.0, 2.5, -2.5, 2.5)}) {
     const grainscope::NearestImages images(c, 100.0);
     for (std::size_t i = 0; i < p.size(); i++) {
       const Vector3d d = c.edges * position(p, i);
@@ -114,11 +116,13 @@ TEST(direct_pair_sums, neighbour_shells_of_a_cubic_lattice) {
   PointValues p;
   for (int k = 0; k < 512; k++) p.add(Vector3d(k % 8, k / 8 % 8, k / 64) / 8.0, 1.0);
   const PairSums sums = direct_pair_sums(cell(8.0, 8.0, 8.0), p, {2.3, 23});  // bins of 0.1
-  const double shells[][2] = {{1.0, 6.0}, {std::sqrt(2.0), 12.0}, {std::sqrt(3.0), 8.0}, {2.0, 6.0}, {std::sqrt(5.0), 24.0}};
+  const double shells[][2] = {
+      {1.0, 6.0}, {std::sqrt(2.0), 12.0}, {std::sqrt(3.0), 8.0}, {2.0, 6.0}, {std::sqrt(5.0), 24.0}};
   double found = 0.0;
   for (const auto &shell : shells) {
     const int bin = static_cast<int>(shell[0] / 0.1 + 1e-9);
-    const double pairs = sums.pairs[bin] + (std::fabs(shell[0] / 0.1 - bin) < 1e-6 ? sums.pairs[bin - 1] : 0.0);  // either side of an edge
+    // either side of an edge
+    const double pairs = sums.pairs[bin] + (std::fabs(shell[0] / 0.1 - bin) < 1e-6 ? sums.pairs[bin - 1] : 0.0);
     EXPECT_EQ(pairs, 256.0 * shell[1]) << shell[0];
     found += pairs;
   }
@@ -131,7 +135,8 @@ TEST(direct_pair_sums, are_those_of_27_images) {
   const PointValues p = random_points(300, -0.2, 1.3);  // some outside the cell
   const double half = half_height(sheared);
   expect_equal(direct_pair_sums(sheared, p, {half, 19}), brute_force(sheared, p, {half, 19}), "half the box");
-  expect_equal(direct_pair_sums(sheared, p, {1.7 * half, 7}), brute_force(sheared, p, {1.7 * half, 7}), "beyond half the box");
+  expect_equal(direct_pair_sums(sheared, p, {1.7 * half, 7}), brute_force(sheared, p, {1.7 * half, 7}),
+               "beyond half the box");
 }
 
 TEST(direct_pair_sums, short_ranges_are_sorted_into_cells_and_lose_no_pair) {
@@ -147,7 +152,8 @@ TEST(direct_pair_sums, edges_that_do_not_repeat) {
   PeriodicCell c = cell(9.0, 8.0, 30.0, 0.0, 0.0, 4.4);
   c.periodic = {{true, false, false}};
   const PointValues p = random_points(900, -0.1, 1.1);
-  for (double range : {0.7, 3.0, 12.0, 30.0}) expect_equal(direct_pair_sums(c, p, {range, 6}), brute_force(c, p, {range, 6}), std::to_string(range));
+  for (double range : {0.7, 3.0, 12.0, 30.0})
+    expect_equal(direct_pair_sums(c, p, {range, 6}), brute_force(c, p, {range, 6}), std::to_string(range));
 }
 
 TEST(direct_pair_sums, shares_of_the_ranks_add_up) {

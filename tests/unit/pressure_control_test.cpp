@@ -18,7 +18,7 @@ const ContactLaw hertz = make_law(1.5, TangentialLaw::spring), frictionless_hert
 TEST(network_response, one_contact_by_hand) {
   NetworkResponse along, across, frictionless;
   along.add(make_contact(), 0, hertz);
-  EXPECT_DOUBLE_EQ(along.pressure, 20.0);               // F_x r_x
+  EXPECT_DOUBLE_EQ(along.pressure, 20.0);                // F_x r_x
   EXPECT_DOUBLE_EQ(along.stiffness, 1.5 * 600.0 * 4.0);  // the tangent of Hertz, n_x = 1
   EXPECT_DOUBLE_EQ(along.damping, 8.0 * 4.0);
   grainscope::Contact c = make_contact();
@@ -56,11 +56,11 @@ TEST(pressure_control, clips_where_nothing_resists) {
   EXPECT_TRUE(input.clipped);
   control.max_rate = 0.02;
   input = control.input({0.0, 0.0, 0.0}, 5.0, 10.0, 0.1);
-  EXPECT_DOUBLE_EQ(input.velocity, -10.0 * 0.02);        // limit per time
+  EXPECT_DOUBLE_EQ(input.velocity, -10.0 * 0.02);  // limit per time
 }
 
-/** A network that answers as it says, P' = -(K x' + eta x'')/L in the box velocity v = L', held between inputs: the error shrinks by
- *  the factor 1 - beta' with 0 < beta' <= beta, for any stiffness, damping and interval. */
+/** A network that answers as it says, P' = -(K x' + eta x'')/L in the box velocity v = L', held between inputs: the
+ *  error shrinks by the factor 1 - beta' with 0 < beta' <= beta, for any stiffness, damping and interval. */
 TEST(pressure_control, automatic_gain_is_stable_for_any_stiffness_and_damping) {
   for (double stiffness : {1.0, 1e6})
     for (double damping : {0.0, 1e-3, 1e7})
@@ -73,7 +73,8 @@ TEST(pressure_control, automatic_gain_is_stable_for_any_stiffness_and_damping) {
           const double pressure = elastic - damping * velocity / length;
           velocity = control.input({pressure, stiffness, damping}, target, length, interval).velocity;
           elastic -= stiffness * velocity * interval / length;
-          ASSERT_LT(std::fabs(elastic - damping * velocity / length - target), 60.0) << stiffness << " " << damping << " " << interval;
+          ASSERT_LT(std::fabs(elastic - damping * velocity / length - target), 60.0)
+              << stiffness << " " << damping << " " << interval;
         }
       }
 }

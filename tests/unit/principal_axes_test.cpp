@@ -11,7 +11,8 @@ namespace {
 
 Matrix3d turned(const Vector3d &values, const Matrix3d &r) { return r * values.asDiagonal() * r.transpose(); }
 
-const Matrix3d rotation = (Eigen::AngleAxisd(0.7, Vector3d::UnitZ()) * Eigen::AngleAxisd(1.1, Vector3d::UnitX())).toRotationMatrix();
+const Matrix3d rotation =
+    (Eigen::AngleAxisd(0.7, Vector3d::UnitZ()) * Eigen::AngleAxisd(1.1, Vector3d::UnitX())).toRotationMatrix();
 
 }
 

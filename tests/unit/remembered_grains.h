@@ -24,7 +24,9 @@ struct Grains {
   std::vector<Vector3d> x;
   std::vector<Quaterniond> q;
   std::vector<std::array<double, 3>> shape;
-  struct Pair { int i, j; };
+  struct Pair {
+    int i, j;
+  };
   std::vector<Pair> pairs;
   SeparationMemory memory;
   double reach = 0.0;
@@ -77,7 +79,8 @@ struct Grains {
     Vector3d v = x[pair.j] - x[pair.i];
     for (int round = 0; round < 40; round++) {
       const Vector3d b1 = b[0] * v, b2 = b[1] * v;
-      const Vector3d nearest = x[pair.j] - x[pair.i] - b1 / std::sqrt(v.dot(b1)) - b2 / std::sqrt(v.dot(b2)), along = nearest - v;
+      const Vector3d nearest = x[pair.j] - x[pair.i] - b1 / std::sqrt(v.dot(b1)) - b2 / std::sqrt(v.dot(b2)),
+                     along = nearest - v;
       v += std::min(1.0, std::max(0.0, -v.dot(along) / along.squaredNorm())) * along;
     }
     return v.norm();

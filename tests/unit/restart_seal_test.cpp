@@ -16,7 +16,9 @@ using grainscope::restart_seal::seal;
 using grainscope::restart_seal::Verdict;
 
 template <class T>
-void put(std::string &bytes, T value) { bytes.append(reinterpret_cast<const char *>(&value), sizeof value); }
+void put(std::string &bytes, T value) {
+  bytes.append(reinterpret_cast<const char *>(&value), sizeof value);
+}
 
 void put_text(std::string &bytes, std::int32_t flag, const std::string &text) {
   put(bytes, flag);
@@ -49,7 +51,8 @@ std::string restart_of(std::int64_t step, bool guarded) {
 
 class RestartSeal : public testing::Test {
  protected:
-  const std::string file = testing::TempDir() + "restart_seal_test_" + testing::UnitTest::GetInstance()->current_test_info()->name();
+  const std::string file =
+      testing::TempDir() + "restart_seal_test_" + testing::UnitTest::GetInstance()->current_test_info()->name();
   ~RestartSeal() override { std::remove(file.c_str()); }
 
   void write(const std::string &bytes) { std::ofstream(file, std::ios::binary) << bytes; }
@@ -132,7 +135,8 @@ TEST(Finite, FindsEveryKindAnywhere) {
   values[7] = Limits::denorm_min();
   EXPECT_TRUE(grainscope::all_finite(values.data(), values.size()));
   EXPECT_TRUE(grainscope::all_finite(values.data(), 0));
-  for (const double bad : {Limits::infinity(), -Limits::infinity(), Limits::quiet_NaN(), -Limits::quiet_NaN(), Limits::signaling_NaN()})
+  for (const double bad :
+       {Limits::infinity(), -Limits::infinity(), Limits::quiet_NaN(), -Limits::quiet_NaN(), Limits::signaling_NaN()})
     for (std::size_t k = 0; k < values.size(); k++) {
       const double kept = values[k];
       values[k] = bad;

@@ -34,8 +34,8 @@ Grains rods(double gap) {
 
 }
 
-/** Shapes, motions, turns, jumps and boxes of all kinds, each alone and all together: whatever touches is looked at, and nothing is left
- *  out for longer than it would take to cross its distance. */
+/** Shapes, motions, turns, jumps and boxes of all kinds, each alone and all together: whatever touches is looked at,
+ *  and nothing is left out for longer than it would take to cross its distance. */
 TEST(separation_memory, never_overlooks_a_contact) {
   int touching = 0, left_out = 0, looked_at = 0;
   for (int trial = 0; trial < 200; trial++) {
@@ -43,7 +43,8 @@ TEST(separation_memory, never_overlooks_a_contact) {
     Grains g;
     enum { turns_only, drift_only, flow_only, everything };
     const int kind = trial % 4;
-    const double size = 4.0, speed = kind == drift_only || kind == everything ? std::pow(10.0, random.uniform(-1.5, 0.0)) : 0.0;
+    const double size = 4.0,
+                 speed = kind == drift_only || kind == everything ? std::pow(10.0, random.uniform(-1.5, 0.0)) : 0.0;
     const double spin = kind == turns_only || kind == everything ? std::pow(10.0, random.uniform(-1.5, 0.0)) : 0.0;
     const double strain = kind == flow_only || kind == everything ? std::pow(10.0, random.uniform(-2.0, -1.0)) : 0.0;
     const double jumps = kind == everything ? 0.02 : 0.0;
@@ -53,7 +54,8 @@ TEST(separation_memory, never_overlooks_a_contact) {
     for (int i = 0; i < 12; i++) {
       g.x.push_back(g.origin + random.vector(size));
       g.q.push_back(random.turn(random.uniform(0.0, 6.0)));
-      const double a = random.uniform(0.5, 1.5), b = trial % 2 ? a : random.uniform(0.3, 1.5), c = random.uniform(0.1, 4.0);
+      const double a = random.uniform(0.5, 1.5), b = trial % 2 ? a : random.uniform(0.3, 1.5),
+                   c = random.uniform(0.1, 4.0);
       g.shape.push_back(trial % 5 ? std::array<double, 3>{a, b, c} : std::array<double, 3>{a, a, a});
     }
     g.list(10.0);
@@ -75,7 +77,8 @@ TEST(separation_memory, never_overlooks_a_contact) {
         looked_at += looks;
         if (looks) g.look(k);
         if (looks || step % 4) continue;
-        ASSERT_TRUE(g.memory.may_touch(k, g.motion(k) + g.distance(k))) << "trial " << trial << ", step " << step << ", pair " << k;
+        ASSERT_TRUE(g.memory.may_touch(k, g.motion(k) + g.distance(k)))
+            << "trial " << trial << ", step " << step << ", pair " << k;
       }
       const Matrix3d f = Matrix3d::Identity() + flow;
       for (int i = 0; i < 12; i++) {
@@ -89,7 +92,8 @@ TEST(separation_memory, never_overlooks_a_contact) {
       const Vector3d shift = random.vector(0.1);
       g.origin += shift;  // the box moves, the grains do not
       g.move();
-      for (const Grains::Pair &pair : g.pairs) within_reach = within_reach && (g.x[pair.i] - g.x[pair.j]).norm() < 1.5 * g.reach;
+      for (const Grains::Pair &pair : g.pairs)
+        within_reach = within_reach && (g.x[pair.i] - g.x[pair.j]).norm() < 1.5 * g.reach;
     }
   }
   EXPECT_GT(touching, 5000);
@@ -148,7 +152,8 @@ TEST(separation_memory, large_turns_count_in_full) {
   }
 }
 
-/** Grains that go with the box's flow use up only the strain times their distance; the box's own translation costs nothing. */
+/** Grains that go with the box's flow use up only the strain times their distance; the box's own translation costs
+ *  nothing. */
 TEST(separation_memory, affine_motion_costs_little) {
   Grains g = rods(0.5);
   g.origin = Vector3d(-1e3, -1e3, -1e3);  // a large box: grains move by strain times 1000

@@ -60,7 +60,8 @@ Body spinning(double alpha, int k, double angle, double spin, Vector3d u = Vecto
 /** Angle between two orientations. */
 double between(const Quaterniond &a, const Quaterniond &b) { return 2.0 * (a.conjugate() * b).vec().norm(); }
 
-/** Euler's equations dq/dt = q (0, w)/2, w = R^T L / I, in long double by fourth-order steps: knows nothing of symmetric tops. */
+/** Euler's equations dq/dt = q (0, w)/2, w = R^T L / I, in long double by fourth-order steps: knows nothing of
+ *  symmetric tops. */
 Quaterniond integrated(const Body &body, double time, int steps) {
   using Q = Eigen::Quaternion<long double>;
   using V = Eigen::Matrix<long double, 3, 1>;
@@ -86,7 +87,9 @@ const double angles[] = {0.0, M_PI_4, M_PI_2, 2.5};
 
 TEST(spheroid_rotation, tangent_is_that_of_the_library_on_both_sides_of_the_switch) {
   for (double h : {1e-12, 1e-6, 1e-3, 0.01, 0.0316, 0.0317, 0.05, 0.06, 0.1, 1.0, 1.5, 2.0, 3.0})
-    EXPECT_NEAR(grainscope::tan_over_angle(h * h) / static_cast<double>(std::tan(static_cast<long double>(h)) / h), 1.0, 1e-15) << h;
+    EXPECT_NEAR(grainscope::tan_over_angle(h * h) / static_cast<double>(std::tan(static_cast<long double>(h)) / h), 1.0,
+                1e-15)
+        << h;
   EXPECT_EQ(grainscope::tan_over_angle(0.0), 1.0);
 }
 
@@ -141,8 +144,8 @@ TEST(spheroid_rotation, a_grain_at_rest_stays) {
   EXPECT_TRUE(body.omega.isZero(0.0));
 }
 
-/** The momentum is not touched at all. Rounding of the orientation moves L.u, and the energy with it, by a random walk of
- *  1e-16 sqrt(steps); the phase, 10^4 rad, is off by as much, relative. */
+/** The momentum is not touched at all. Rounding of the orientation moves L.u, and the energy with it, by a random walk
+ *  of 1e-16 sqrt(steps); the phase, 10^4 rad, is off by as much, relative. */
 TEST(spheroid_rotation, a_million_free_steps_keep_energy_and_phase) {
   const int steps = 1000000;
   for (double alpha : alphas)
@@ -162,11 +165,13 @@ TEST(spheroid_rotation, a_million_free_steps_keep_energy_and_phase) {
     }
 }
 
-/** A spheroid that hangs by its axis from a torque K u x (-z) and swings in a plane: theta'' = -(K/I_e) sin theta, of period
- *  4 K(sin(theta_0/2)) sqrt(I_e/K), after which it is where it began. */
+/** A spheroid that hangs by its axis from a torque K u x (-z) and swings in a plane: theta'' = -(K/I_e) sin theta, of
+ *  period 4 K(sin(theta_0/2)) sqrt(I_e/K), after which it is where it began. */
 TEST(spheroid_rotation, a_pendulum_returns_after_its_period_to_second_order) {
   const double theta = 2.0, strength = 3.0;
-  const Torque torque = [&](const Quaterniond &q) { return Vector3d(strength * (q * Vector3d::UnitZ()).cross(-Vector3d::UnitZ())); };
+  const Torque torque = [&](const Quaterniond &q) {
+    return Vector3d(strength * (q * Vector3d::UnitZ()).cross(-Vector3d::UnitZ()));
+  };
   for (double alpha : alphas) {
     Body start = spinning(alpha, 2, 0.0, 0.0, Vector3d(std::sin(theta), 0.0, -std::cos(theta)));
     start.momentum.setZero();
@@ -188,7 +193,9 @@ TEST(spheroid_rotation, a_pendulum_returns_after_its_period_to_second_order) {
  *  I_e cos(theta) p^2 - L_u p - K = 0 (K pulls toward z). */
 TEST(spheroid_rotation, a_top_precesses_steadily_to_second_order) {
   const double theta = 0.8, strength = 0.5, rate = 1.3, time = 6.0;
-  const Torque torque = [&](const Quaterniond &q) { return Vector3d(strength * (q * Vector3d::UnitX()).cross(Vector3d::UnitZ())); };
+  const Torque torque = [&](const Quaterniond &q) {
+    return Vector3d(strength * (q * Vector3d::UnitX()).cross(Vector3d::UnitZ()));
+  };
   for (double alpha : alphas) {
     Body start = spinning(alpha, 0, 0.0, 0.0, Vector3d(std::sin(theta), 0.0, std::cos(theta)));
     const Vector3d u = start.q * Vector3d::UnitX();
@@ -210,7 +217,9 @@ TEST(spheroid_rotation, a_top_precesses_steadily_to_second_order) {
 }
 
 TEST(spheroid_rotation, goes_back_the_way_it_came) {
-  const Torque torque = [](const Quaterniond &q) { return Vector3d((q * Vector3d::UnitZ()).cross(Vector3d(0.3, 0.2, 1.0))); };
+  const Torque torque = [](const Quaterniond &q) {
+    return Vector3d((q * Vector3d::UnitZ()).cross(Vector3d(0.3, 0.2, 1.0)));
+  };
   Body body = spinning(1.5, 2, 1.0, 1.0);
   const Body start = body;
   for (int s = 0; s < 1000; s++) body.step(0.02, torque);
@@ -229,12 +238,14 @@ TEST(spheroid_rotation, mends_a_quaternion_that_is_not_normalised) {
 }
 
 TEST(symmetric_top, is_found_by_its_moments) {
-  const double about_z[3] = {2.0, 2.0, 1.0}, about_x[3] = {1.0, 2.0, 2.0}, about_y[3] = {2.0, 3.0, 2.0}, ball[3] = {1.0, 1.0, 1.0};
+  const double about_z[3] = {2.0, 2.0, 1.0}, about_x[3] = {1.0, 2.0, 2.0}, about_y[3] = {2.0, 3.0, 2.0},
+               ball[3] = {1.0, 1.0, 1.0};
   const double rounded[3] = {2.0, 2.0 * (1 + 2e-9), 1.0}, unlike[3] = {2.0, 2.0 * (1 + 2e-8), 1.0};
   EXPECT_EQ(grainscope::axis_of_symmetric_top(about_z), 2);
   EXPECT_EQ(grainscope::axis_of_symmetric_top(about_x), 0);
   EXPECT_EQ(grainscope::axis_of_symmetric_top(about_y), 1);
   EXPECT_EQ(grainscope::axis_of_symmetric_top(rounded), 2);
-  for (const double *inertia : {about_z, about_x, about_y, ball, rounded}) EXPECT_TRUE(grainscope::is_symmetric_top(inertia));
+  for (const double *inertia : {about_z, about_x, about_y, ball, rounded})
+    EXPECT_TRUE(grainscope::is_symmetric_top(inertia));
   EXPECT_FALSE(grainscope::is_symmetric_top(unlike));
 }

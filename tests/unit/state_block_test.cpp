@@ -32,19 +32,22 @@ TEST(StateBlock, NeedsNoTail) {
 
 TEST(StateBlock, RefusesAnotherVersion) {
   EXPECT_EQ(state_block::what_differs(block().data(), 4, sizeof numbers),
-            "the restart file was written by another version of grainscope: it holds version 3 of its state, and this program reads version 4");
+            "the restart file was written by another version of grainscope: it holds version 3 of its state, and this "
+            "program reads version 4");
 }
 
 TEST(StateBlock, RefusesAnotherSize) {
   EXPECT_EQ(state_block::what_differs(block().data(), 3, sizeof numbers + 8),
-            "the restart file was written by another version of grainscope: it holds 16 bytes of its state, and this program reads version 3, "
+            "the restart file was written by another version of grainscope: it holds 16 bytes of its state, and this "
+            "program reads version 3, "
             "which has 24");
 }
 
 /** What earlier programs wrote: numbers, or words that may be shorter than a mark. The sanitizers see that no byte
  *  behind them is read. */
 TEST(StateBlock, RefusesAStateWithoutAVersion) {
-  const std::string words = "the restart file holds its state without a version, as earlier versions of grainscope wrote it, and this program "
+  const std::string words = "the restart file holds its state without a version, as earlier versions of grainscope "
+                            "wrote it, and this program "
                             "reads version 1";
   std::vector<char> old(sizeof numbers);
   std::memcpy(old.data(), &numbers, sizeof numbers);

@@ -9,9 +9,9 @@ TEST(stress, one_contact_by_hand) {
   StressSums sums;
   sums.add(make_contact());
   const Eigen::Matrix3d total = sums.total(4.0);
-  EXPECT_DOUBLE_EQ(total(0, 0), -5.0);   // -F_x r_x / V = -10 x 2 / 4: compression is negative
-  EXPECT_DOUBLE_EQ(total(1, 0), -1.5);   // F_y r_x
-  EXPECT_DOUBLE_EQ(total(0, 1), 0.0);    // F_x r_y
+  EXPECT_DOUBLE_EQ(total(0, 0), -5.0);  // -F_x r_x / V = -10 x 2 / 4: compression is negative
+  EXPECT_DOUBLE_EQ(total(1, 0), -1.5);  // F_y r_x
+  EXPECT_DOUBLE_EQ(total(0, 1), 0.0);   // F_x r_y
   EXPECT_DOUBLE_EQ(sums.tangential(4.0)(1, 0), -1.5);
   EXPECT_DOUBLE_EQ(sums.tangential(4.0)(0, 0), 0.0);
 }

@@ -2,9 +2,9 @@
 #include "symmetric_tensor.h"
 #include <gtest/gtest.h>
 
-using grainscope::SixComponents;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using grainscope::SixComponents;
 
 TEST(symmetric_tensor, dyad_is_xx_yy_zz_xy_xz_yz) {
   const Vector3d a(2.0, 3.0, 5.0);

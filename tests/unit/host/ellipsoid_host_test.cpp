@@ -10,9 +10,10 @@ namespace {
 
 double distance(const double *a, const double *b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
-/** Pairs of one aspect ratio, centres 1e-9 to 0.1 of their distance nearer than at tangency, one in five apart by as much. LIGGGHTS stops
- *  where the gradients of G1 and G2 are within 1e-5 of antiparallel and G1 - G2 within 1e-5 of G1, or where a step gains less than 0.1 %.
- *  An angle of 1e-5 moves the point by 1e-5 of a radius of curvature, which is up to max(alpha^2, 1/alpha^2) smallest semi-axes. */
+/** Pairs of one aspect ratio, centres 1e-9 to 0.1 of their distance nearer than at tangency, one in five apart by as
+ *  much. LIGGGHTS stops where the gradients of G1 and G2 are within 1e-5 of antiparallel and G1 - G2 within 1e-5 of G1,
+ *  or where a step gains less than 0.1 %. An angle of 1e-5 moves the point by 1e-5 of a radius of curvature, which is
+ *  up to max(alpha^2, 1/alpha^2) smallest semi-axes. */
 void compare(double alpha, bool warm) {
   RandomPairs random(static_cast<unsigned long>(1000 * alpha) + warm);
   const double angle = 1e-5, aside = angle * std::max({1.0, alpha * alpha, 1.0 / (alpha * alpha)});

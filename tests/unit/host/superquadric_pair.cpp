@@ -21,7 +21,8 @@ GrainPair PairMotion::before(const GrainPair &pair) const {
   GrainPair was = pair;
   for (int k = 0; k < 3; k++) was.d[k] -= shift[k];
   for (int i = 0; i < 2; i++) {
-    const double *p = pair.quaternion[i], x = -0.5 * turn[i][0], y = -0.5 * turn[i][1], z = -0.5 * turn[i][2];  // small: (1, x, y, z)
+    // small: (1, x, y, z)
+    const double *p = pair.quaternion[i], x = -0.5 * turn[i][0], y = -0.5 * turn[i][1], z = -0.5 * turn[i][2];
     double *q = was.quaternion[i];
     q[0] = p[0] - x * p[1] - y * p[2] - z * p[3];
     q[1] = p[1] + x * p[0] + y * p[3] - z * p[2];
@@ -61,7 +62,8 @@ bool SuperquadricPair::contact(SuperquadricHistory &history) {
   if (history.state == SuperquadricHistory::FAR)
     calc_contact_point_if_no_previous_point_avaialable(data_, &grain_[0], &grain_[1], point, f1, f2, nullptr);
   else
-    calc_contact_point_using_prev_step(data_, &grain_[0], &grain_[1], r1 / (r1 + r2), 1.0, history.point, point, f1, f2, nullptr);
+    calc_contact_point_using_prev_step(data_, &grain_[0], &grain_[1], r1 / (r1 + r2), 1.0, history.point, point, f1, f2,
+                                       nullptr);
   for (int k = 0; k < 3; k++) history.point[k] = point[k];
   if (std::max(f1, f2) >= 0.0) {
     history.state = SuperquadricHistory::CLOSE;
@@ -69,8 +71,8 @@ bool SuperquadricPair::contact(SuperquadricHistory &history) {
   }
   for (int k = 0; k < 3; k++) data_.en[k] = grain_[1].gradient[k] - grain_[0].gradient[k];
   LAMMPS_NS::vectorNormalize3D(data_.en);
-  overlap = extended_overlap_algorithm(&grain_[0], &grain_[1], data_.en, &history.alpha[0], &history.alpha[1], point, surface_[0],
-                                       surface_[1], data_.delta);
+  overlap = extended_overlap_algorithm(&grain_[0], &grain_[1], data_.en, &history.alpha[0], &history.alpha[1], point,
+                                       surface_[0], surface_[1], data_.delta);
   for (int k = 0; k < 3; k++) normal[k] = -data_.en[k];
   history.state = SuperquadricHistory::INTERSECT;
   return true;

@@ -21,7 +21,8 @@ struct SuperquadricHistory {
   double point[3] = {0.0, 0.0, 0.0}, alpha[2] = {0.0, 0.0};
 };
 
-/** Contact of two ellipsoids by LIGGGHTS's own routines, called as its surface model superquadric does; grain 1 is at the origin. */
+/** Contact of two ellipsoids by LIGGGHTS's own routines, called as its surface model superquadric does; grain 1 is at
+ *  the origin. */
 class SuperquadricPair {
  public:
   explicit SuperquadricPair(const GrainPair &pair, const PairMotion *motion = nullptr);

@@ -3,9 +3,19 @@
 import subprocess
 import sys
 
-PATIENCE = 60   # seconds for an answer
+PATIENCE = 60  # seconds for an answer
 # All other states than these and COMPLETED are of a job that waits, runs or is about to end.
-ENDED_BADLY = ("BOOT_FAIL", "CANCELLED", "DEADLINE", "FAILED", "NODE_FAIL", "OUT_OF_MEMORY", "PREEMPTED", "REVOKED", "TIMEOUT")
+ENDED_BADLY = (
+    "BOOT_FAIL",
+    "CANCELLED",
+    "DEADLINE",
+    "FAILED",
+    "NODE_FAIL",
+    "OUT_OF_MEMORY",
+    "PREEMPTED",
+    "REVOKED",
+    "TIMEOUT",
+)
 FORGOTTEN = "Invalid job id specified"
 
 
@@ -19,8 +29,9 @@ def answer(*command):
 
 
 def state_of_forgotten(job):
-    """The controller forgets a job some minutes after its end; a cluster with accounting keeps its state. Elsewhere it counts as failed:
-    Snakemake submits the run again, which goes on from its restart files or, if it had ended, ends at once."""
+    """The controller forgets a job some minutes after its end; a cluster with accounting keeps its state. Elsewhere it
+    counts as failed: Snakemake submits the run again, which goes on from its restart files or, if it had ended, ends at
+    once."""
     known, text = answer("sacct", "--allocations", "--noheader", "--parsable2", "--format=State", f"--jobs={job}")
     return text.split()[0] if known and text.split() else "FAILED"
 
@@ -32,7 +43,7 @@ def state(job):
     if FORGOTTEN in text:
         return state_of_forgotten(job)
     print(f"status.py: job {job}: {text.strip()}; asking again later", file=sys.stderr)
-    return "UNKNOWN"    # Snakemake goes on asking, until a controller that is busy or down answers
+    return "UNKNOWN"  # Snakemake goes on asking, until a controller that is busy or down answers
 
 
 def main():

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Format and faults of the source files, by the tools and options that CONTRIBUTING.md names: what they would change is
+printed, with the command that mends it."""
+from concurrent.futures import ThreadPoolExecutor
+import difflib
+import json
+import os
+from pathlib import Path
+import re
+import shutil
+import subprocess
+
+from case import main, require
+
+SOURCE, BUILD = Path(os.environ["GRAINSCOPE_SOURCE"]), Path(os.environ["GRAINSCOPE_BUILD"])
+FOLDERS = ("src", "tests", "bench", "cmake", "examples", "scripts", "tools")
+# Versions that agree on this tree: those of Debian 12 and 13, and between.
+CLANG_FORMAT, BLACK = range(14, 20), range(23, 26)
+SHOWN = 40  # lines
+# Minutes for a file that makes the host's templates anew for every contact model.
+NOT_BY_TIDY = {"gran_insitu_models.cpp"}
+
+
+def files(is_one):
+    """Paths from the top of the tree, of the files of the project that `is_one`."""
+    found = [path for folder in FOLDERS for path in (SOURCE / folder).rglob("*") if path.is_file() and is_one(path)]
+    return sorted(str(path.relative_to(SOURCE)) for path in found if "__pycache__" not in path.parts)
+
+
+def cpp_files():
+    return files(lambda path: path.suffix in (".cpp", ".h"))
+
+
+def python_files():
+    def is_python(path):
+        if path.suffix or path.parent.name != "scripts":
+            return path.suffix == ".py"
+        return "python" in path.read_text().partition("\n")[0]
+
+    return files(is_python)
+
+
+def called(tool, *words, text=None):
+    """Exit code, standard output and error of a tool, begun at the top of the tree."""
+    require(shutil.which(tool), f"{tool} is missing: scripts/install-packages {tool}")
+    environment = dict(os.environ, BLACK_CACHE_DIR=str(BUILD / "black-cache"))
+    done = subprocess.run([tool, *words], cwd=SOURCE, env=environment, input=text, capture_output=True, text=True)
+    return done.returncode, done.stdout, done.stderr
+
+
+def agrees(tool, versions):
+    """Whether the tool that is installed is one of those that agree with each other."""
+    words = called(tool, "--version")[1]
+    version = int(re.search(r"(?:version|black,) (\d+)", words)[1])
+    if version not in versions:
+        print(f"not checked: {tool} {version} may write another format than {versions[0]} to {versions[-1]} do")
+    return version in versions
+
+
+def first_lines(text):
+    lines = text.splitlines()
+    return "\n".join(lines[:SHOWN] + ["..."] * (len(lines) > SHOWN))
+
+
+def clang_format(ranks):
+    if not agrees("clang-format", CLANG_FORMAT):
+        return
+    _, words, _ = called("clang-format", "--assume-filename=src/x.cpp", text="ComputeStyle(a/b,C)\nint  *x ;\n")
+    require(words == "ComputeStyle(a/b,C)\nint *x;\n", f"does not follow .clang-format: {words}")
+    bad, shown = [], []
+    for name in cpp_files():
+        before = (SOURCE / name).read_text()
+        after = called("clang-format", name)[1]
+        if before != after:
+            bad.append(name)
+            shown += difflib.unified_diff(before.splitlines(), after.splitlines(), name, name, n=1, lineterm="")
+    require(not bad, f"to be mended by: clang-format -i {' '.join(bad)}\n" + first_lines("\n".join(shown)))
+
+
+def black(ranks):
+    if not agrees("black", BLACK):
+        return
+    code, words, complaint = called("black", "--quiet", "--diff", "-", text="x = [1,\n  2]\n")
+    require("+x = [1, 2]" in words, f"black does not work: {words}{complaint}")
+    code, shown, complaint = called("black", "--check", "--diff", "--quiet", *python_files())
+    bad = re.findall(r"^--- (?:.*/)?(\S+\.py|scripts/\S+)\t", shown, re.M)
+    require(code == 0, f"to be mended by: black {' '.join(bad)}\n{first_lines(shown + complaint)}")
+
+
+def flake8(ranks):
+    code, shown, complaint = called("flake8", "-", text="import os\n")
+    require("F401" in shown, f"flake8 does not work: {shown}{complaint}")
+    code, shown, complaint = called("flake8", *python_files())
+    require(code == 0, f"to be mended by hand:\n{first_lines(shown + complaint)}")
+
+
+def clang_tidy(ranks):
+    """Kernels and styles, as they are compiled; headers through the files that include them."""
+    commands = json.loads((BUILD / "compile_commands.json").read_text())
+    mine = sorted({c["file"] for c in commands if Path(c["file"]).is_relative_to(SOURCE / "src")})
+    mine = [name for name in mine if Path(name).name not in NOT_BY_TIDY]
+    require(len(mine) > 80, f"only {len(mine)} files are compiled")
+    with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
+        found = list(pool.map(lambda name: called("clang-tidy", "-p", BUILD, "--quiet", name), mine))
+    bad = [words + complaint for code, words, complaint in found if code or "warning:" in words or "error:" in words]
+    require(not bad, f"{len(bad)} files to be mended by hand:\n{first_lines(chr(10).join(bad))}")
+
+
+def citation(ranks):
+    """CITATION.cff has what its format, 1.2.0, requires, and the version of the program."""
+    import yaml
+
+    found = yaml.safe_load((SOURCE / "CITATION.cff").read_text())
+    missing = {"cff-version", "message", "title", "authors"} - found.keys()
+    require(not missing, f"without {missing}")
+    require(found["cff-version"] == "1.2.0" and found["type"] == "software", f"is of {found['cff-version']}")
+    require(found["title"] == "grainscope" and found["license"] == "GPL-2.0-or-later", f"{found}")
+    version = re.search(r"project\(grainscope VERSION (\S+)", (SOURCE / "CMakeLists.txt").read_text())[1]
+    require(found["version"] == version, f"version {found['version']}, CMakeLists.txt has {version}")
+    paper = found["references"][0]
+    readme = (SOURCE / "README.md").read_text()
+    require(paper["doi"] in readme and paper["title"].partition(":")[0] in readme, f"README.md cites another: {paper}")
+    for entry in (found, paper):
+        people = [a.get("name") or (a.get("family-names") and a.get("given-names")) for a in entry["authors"]]
+        require(people and all(people), f"authors without name: {entry['authors']}")
+
+
+main(
+    {
+        "clang-format": clang_format,
+        "black": black,
+        "flake8": flake8,
+        "clang-tidy": clang_tidy,
+        "citation": citation,
+    }
+)
