@@ -44,20 +44,20 @@ AtomVecSuperquadricFiles::AtomVecSuperquadricFiles(LAMMPS *lmp)
   size_data_atom = columns_with_quaternion;
 }
 
-void AtomVecSuperquadricFiles::refuse(const char *section, const std::string &id, const std::string &complaint) {
+void AtomVecSuperquadricFiles::refuse(const char *section, const std::string &id, const std::string &problem) {
   const std::string where = "read_data: " + std::string(section) + " of atom_style superquadric, grain " + id;
-  error->all(FLERR, (where + ": " + complaint).c_str());
+  error->all(FLERR, (where + ": " + problem).c_str());
 }
 
 int AtomVecSuperquadricFiles::columns_of_atoms(int n, char *lines) {
   std::size_t first = 0;
   for_each_line(n, lines, [&](const std::vector<std::string> &words) {
-    std::string complaint = line::complaint_of_grain(words, atom->ntypes, IMGMAX);
+    std::string problem = line::problem_of_grain(words, atom->ntypes, IMGMAX);
     if (!first) first = words.size();
-    if (complaint.empty() && words.size() != first)
-      complaint = "all lines must have as many columns, got " + std::to_string(words.size()) + " after " +
-                  std::to_string(first);
-    if (!complaint.empty()) refuse("Atoms", id_of(words), complaint);
+    if (problem.empty() && words.size() != first)
+      problem = "all lines must have as many columns, got " + std::to_string(words.size()) + " after " +
+                std::to_string(first);
+    if (!problem.empty()) refuse("Atoms", id_of(words), problem);
   });
   columns_ = line::columns_without_images(first);
   return columns_;
@@ -65,8 +65,8 @@ int AtomVecSuperquadricFiles::columns_of_atoms(int n, char *lines) {
 
 void AtomVecSuperquadricFiles::check_velocities(int n, char *lines) {
   for_each_line(n, lines, [&](const std::vector<std::string> &words) {
-    const std::string complaint = line::complaint_of_velocity(words);
-    if (!complaint.empty()) refuse("Velocities", id_of(words), complaint);
+    const std::string problem = line::problem_of_velocity(words);
+    if (!problem.empty()) refuse("Velocities", id_of(words), problem);
   });
 }
 
@@ -104,12 +104,12 @@ void AtomVecSuperquadricFiles::require_grains_of_shape_and_density() {
   MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, world);
   if (first == INT_MAX) return;
   const std::string grain = std::to_string(first);
-  const std::string complaint =
+  const std::string problem =
       "write_data: the radius, volume, mass or moments of inertia of grain " + grain +
       " are "
       "not those of its shape and density, and a data file of superquadrics holds no others: set its shape and "
       "density, or use write_restart";
-  error->all(FLERR, complaint.c_str());
+  error->all(FLERR, problem.c_str());
 }
 
 void AtomVecSuperquadricFiles::pack_data(double **buf, int tag_offset) {

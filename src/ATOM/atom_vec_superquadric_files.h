@@ -40,7 +40,7 @@ class AtomVecSuperquadricFiles : public AtomVecSuperquadric {
  private:
   int columns_;  // of the lines that data_atom is given
 
-  void refuse(const char *section, const std::string &id, const std::string &complaint);
+  void refuse(const char *section, const std::string &id, const std::string &problem);
   void require_grains_of_shape_and_density();
 };
 

@@ -23,7 +23,7 @@ namespace LAMMPS_NS {
 class ComputeContactDirection : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
  public:
   ComputeContactDirection(class LAMMPS *lmp, int &iarg, int narg, char **arg);
-  ~ComputeContactDirection();
+  ~ComputeContactDirection() override;
   bool needs_motion() const override { return false; }
 
  private:

@@ -20,7 +20,7 @@ namespace LAMMPS_NS {
 class ComputeContactGrain : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
  public:
   ComputeContactGrain(class LAMMPS *lmp, int &iarg, int narg, char **arg);
-  ~ComputeContactGrain();
+  ~ComputeContactGrain() override;
   void init() override;
   void compute_peratom() override;
   double memory_usage() override;

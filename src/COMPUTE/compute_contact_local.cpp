@@ -116,8 +116,10 @@ bool ComputeContactLocal::is_mine(const Contact &c) const {
   if (!c.ghost()) return true;
   if (atom->tag[c.i] != atom->tag[j]) return atom->tag[c.i] < atom->tag[j];
   const double *shift = observer_->image_shift(j);
-  const double origin[3] = {0.0, 0.0, 0.0};
-  return std::lexicographical_compare(origin, origin + 3, shift, shift + 3);
+  for (int k = 0; k < 3; k++) {
+    if (shift[k] != 0.0) return shift[k] > 0.0;
+  }
+  return false;
 }
 
 void ComputeContactLocal::begin_contacts() { impl_->values.clear(); }

@@ -20,7 +20,7 @@ namespace LAMMPS_NS {
 class ComputeContactLocal : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
  public:
   ComputeContactLocal(class LAMMPS *lmp, int &iarg, int narg, char **arg);
-  ~ComputeContactLocal();
+  ~ComputeContactLocal() override;
   void compute_local() override;
   double memory_usage() override;
 

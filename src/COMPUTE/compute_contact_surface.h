@@ -22,7 +22,7 @@ namespace LAMMPS_NS {
 class ComputeContactSurface : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
  public:
   ComputeContactSurface(class LAMMPS *lmp, int &iarg, int narg, char **arg);
-  ~ComputeContactSurface();
+  ~ComputeContactSurface() override;
   void init() override;
   void begin_contacts() override;
 

@@ -28,7 +28,7 @@ class FixGrainRecord;
 class ComputeDisplacementShear : public Compute, public grainscope::DeclaresOutputs, public grainscope::BoxWatcher {
  public:
   ComputeDisplacementShear(class LAMMPS *lmp, int &iarg, int narg, char **arg);
-  ~ComputeDisplacementShear();
+  ~ComputeDisplacementShear() override;
   void init() override;
   double compute_scalar() override;
   void compute_vector() override;

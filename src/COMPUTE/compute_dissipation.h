@@ -25,7 +25,7 @@ namespace LAMMPS_NS {
 class ComputeDissipation : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
  public:
   ComputeDissipation(class LAMMPS *lmp, int &iarg, int narg, char **arg);
-  ~ComputeDissipation();
+  ~ComputeDissipation() override;
   void init() override;
   bool needs_images() const override;
 

@@ -21,7 +21,7 @@ namespace LAMMPS_NS {
 class ComputeEnergyLedger : public Compute, public grainscope::DeclaresOutputs {
  public:
   ComputeEnergyLedger(class LAMMPS *lmp, int &iarg, int narg, char **arg);
-  ~ComputeEnergyLedger();
+  ~ComputeEnergyLedger() override;
   void init() override;
   double compute_scalar() override;
   void compute_vector() override;

@@ -22,7 +22,7 @@ namespace LAMMPS_NS {
 class ComputeFabric : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
  public:
   ComputeFabric(class LAMMPS *lmp, int &iarg, int narg, char **arg);
-  ~ComputeFabric();
+  ~ComputeFabric() override;
   double memory_usage() override;
   bool needs_motion() const override { return false; }
 

@@ -22,7 +22,7 @@ namespace LAMMPS_NS {
 class ComputeFluctuation : public Compute, public grainscope::DeclaresOutputs {
  public:
   ComputeFluctuation(class LAMMPS *lmp, int &iarg, int narg, char **arg);
-  ~ComputeFluctuation();
+  ~ComputeFluctuation() override;
   void init() override;
   double compute_scalar() override;
   void compute_vector() override;

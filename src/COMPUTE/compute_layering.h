@@ -23,7 +23,7 @@ namespace LAMMPS_NS {
 class ComputeLayering : public Compute, public grainscope::DeclaresOutputs {
  public:
   ComputeLayering(class LAMMPS *lmp, int &iarg, int narg, char **arg);
-  ~ComputeLayering();
+  ~ComputeLayering() override;
   void init() override;
   double compute_scalar() override;
   void compute_vector() override;

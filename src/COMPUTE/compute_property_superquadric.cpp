@@ -58,8 +58,8 @@ void ComputePropertySuperquadric::init() {
   for (int word : own_)
     if (word >= 0 && !atom->superquadric_flag) {
       const std::string name = words[word], style = atom->atom_style;
-      const std::string complaint = "compute property/atom: '" + name + "' needs atom_style superquadric, got '";
-      error->all(FLERR, (complaint + style + "'").c_str());
+      const std::string problem = "compute property/atom: '" + name + "' needs atom_style superquadric, got '";
+      error->all(FLERR, (problem + style + "'").c_str());
     }
 }
 

@@ -23,7 +23,7 @@ namespace LAMMPS_NS {
 class ComputeStressContact : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
  public:
   ComputeStressContact(class LAMMPS *lmp, int &iarg, int narg, char **arg);
-  ~ComputeStressContact();
+  ~ComputeStressContact() override;
   void init() override;
   bool needs_motion() const override { return false; }
 

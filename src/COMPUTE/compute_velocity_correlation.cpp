@@ -258,11 +258,11 @@ void ComputeVelocityCorrelation::measure() {
   if (!all.running) all.totals = all.measure(lmp, groupbit);
   else if (all.counted(update->ntimestep)) all.totals = all.recorded();
   else all.add_to_record(all.measure(lmp, groupbit), update->ntimestep);
-  tell();
+  report();
 }
 
 /** Rows, vector and scalar from the totals. */
-void ComputeVelocityCorrelation::tell() {
+void ComputeVelocityCorrelation::report() {
   Impl &all = *impl_;
   const Impl::Totals &t = all.totals;
   const DistanceBins distances{t.range / t.calls, all.bins};

@@ -22,7 +22,7 @@ namespace LAMMPS_NS {
 class ComputeVelocityCorrelation : public Compute, public grainscope::DeclaresOutputs {
  public:
   ComputeVelocityCorrelation(class LAMMPS *lmp, int &iarg, int narg, char **arg);
-  ~ComputeVelocityCorrelation();
+  ~ComputeVelocityCorrelation() override;
   void init() override;
   double compute_scalar() override;
   void compute_vector() override;
@@ -34,7 +34,7 @@ class ComputeVelocityCorrelation : public Compute, public grainscope::DeclaresOu
   std::unique_ptr<Impl> impl_;
 
   void measure();
-  void tell();
+  void report();
 };
 
 }

@@ -24,7 +24,7 @@ class FixGrainRecord;
 class ComputeVelocityMemory : public Compute, public grainscope::DeclaresOutputs {
  public:
   ComputeVelocityMemory(class LAMMPS *lmp, int &iarg, int narg, char **arg);
-  ~ComputeVelocityMemory();
+  ~ComputeVelocityMemory() override;
   void init() override;
   double compute_scalar() override;
   void compute_vector() override;

@@ -7,7 +7,8 @@
 
 namespace grainscope {
 
-/** How a point on an ellipsoid is told by an angle psi from one of its axes, 0 at the pole and pi/2 at the equator. */
+/** How the angle psi locates a point on an ellipsoid: measured from one of its axes, 0 at the pole and pi/2 at the
+ *  equator. */
 enum class SurfaceAngle {
   polar,      // between the axis and the point as seen from the centre
   parametric  // tan psi = sqrt((x/a)^2 + (y/b)^2) / |z/c|, c along the axis

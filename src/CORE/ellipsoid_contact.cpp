@@ -167,7 +167,7 @@ inline void set_shape(const Spheroid &body, int lane, SpheroidOf<Lanes> &lanes) 
 }
 
 constexpr double TOLERANCE = 3e-5;
-constexpr int LANE_STEPS = 6;  // those that need more are asked again, alone
+constexpr int LANE_STEPS = 6;  // those that need more are solved again, alone
 
 /** LANES pairs, from spheroids by rows of components. */
 GRAINSCOPE_CLONES void solve_lanes(const SpheroidOf<Lanes> &one, const SpheroidOf<Lanes> &two, const Lanes *d,

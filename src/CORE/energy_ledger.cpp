@@ -50,12 +50,12 @@ void EnergyLedger::set_law(const ContactLaw &law) {
   for (int k = 0; k < parts; k++) slot_[k] = used[k] ? slots_++ : -1;
 }
 
-void EnergyLedger::begin_evaluation(int n_local, bool again) {
+void EnergyLedger::begin_evaluation(int n_local, bool repeats) {
   if (!cleared_) wrenches_.clear();
   wrenches_.resize(8 * static_cast<std::size_t>(n_local) * slots_, 0.0);
   cleared_ = true;
   contacts_ = Contacts();
-  stepped_ = stepped_ && again;
+  stepped_ = stepped_ && repeats;
 }
 
 /** A force along one direction: what it does to its two grains, and what is summed of it. */
@@ -89,7 +89,7 @@ GRAINSCOPE_INLINE void EnergyLedger::add_past(const Contact &c, const ContactPas
   double path = 0.5 * (past.elastic_force + elastic_force) * (c.overlap - past.overlap);
   const double base0 = of_overlap(past.overlap, law_.exponent), base1 = of_overlap(c.overlap, law_.exponent);
   if (past.overlap > 0.0 && c.overlap > 0.0) {
-    // energy = factor d^2 base k, with k = k_n/base: what is left of the stiffness once the overlap is told
+    // energy = factor d^2 base k, with k = k_n/base: the part of the stiffness that does not depend on the overlap
     const double change = c.motion->normal_stiffness / base1 - past.elastic_force / (past.overlap * base0);
     path += 0.5 * energy_factor_ * (past.overlap * past.overlap * base0 + c.overlap * c.overlap * base1) * change;
   }
@@ -238,7 +238,7 @@ void EnergyLedger::start_of_step(const Grain &g, const double omega_after[3], co
   }
   add_to(starts_.other, other);
 
-  // The coming drift in the frame: told before it, because a grain that is wrapped afterwards takes on another
+  // The coming drift in the frame: noted before it, because a grain that is wrapped afterwards takes on another
   // velocity.
   const Vector3d after = p + flow, drift = dt * next_.gradient_times(after), middle = g.mass * (p - 0.5 * drift);
   const double all = drift.dot(middle), box = dt * next_.velocity_gradient.diagonal().cwiseProduct(after).dot(middle);
@@ -260,7 +260,7 @@ void EnergyLedger::book_start(double dt) {
     between_[W_frame] += starts_.k_new - carried;
     stored_[K_tr] = starts_.k_new;
     stored_[K_rot] = starts_.k_rot;
-  } else {  // forces were evaluated anew: a run begins
+  } else {  // forces were recomputed: a run begins
     stored_ = {contacts_.normal_energy, contacts_.spring_energy, starts_.k_new, starts_.k_rot};
     if (started_) {
       between_[W_other] += sum(stored_) - sum(ended_);

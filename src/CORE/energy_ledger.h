@@ -55,9 +55,9 @@ class EnergyLedger {
 
   void set_law(const ContactLaw &law);
 
-  /** A force evaluation begins: forget the contacts of the last. `again`: it repeats the last, where a run goes on as
+  /** A force evaluation begins: forget the contacts of the last. `repeats`: it repeats the last, where a run goes on as
    *  if it had not ended. */
-  void begin_evaluation(int n_local, bool again = false);
+  void begin_evaluation(int n_local, bool repeats = false);
   /** A contact of two grains of the group. `springs_move`: false in the first evaluation of a run. */
   void add(const Contact &contact, double dt, bool springs_move);
 
@@ -83,7 +83,7 @@ class EnergyLedger {
   const Stores &stored() const { return stored_; }
   const Stores &stored_before() const { return stored_before_; }
   double start_energy() const { return start_energy_; }
-  /** W - D - G - (stored - stored at the start), of `totals` with all W, D and G positive as told above. */
+  /** W - D - G - (stored - stored at the start), of `totals` with all W, D and G positive, as described above. */
   static double residual(const Entries &totals, double stored_change);
 
   /** State for restart files; sums over ranks may be given to one rank. */

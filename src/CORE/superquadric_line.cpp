@@ -39,7 +39,7 @@ std::string whole_number_between(const std::string &name, const std::string &wor
   return wrong(name, "a whole number from " + std::to_string(low) + " to " + std::to_string(high), word);
 }
 
-std::string complaint_of_number(int column, const std::string &word, double &value) {
+std::string problem_of_number(int column, const std::string &word, double &value) {
   if (!is_finite_number(word, value)) return wrong(names[column], "a finite number", word);
   if (column >= density && column < blockiness && value <= 0.0) return wrong(names[column], "above 0", word);
   if (column >= blockiness && column < position && value < 2.0) return wrong(names[column], "at least 2", word);
@@ -69,36 +69,36 @@ int columns_without_images(int words) {
   return 0;
 }
 
-std::string complaint_of_grain(const std::vector<std::string> &words, int types, int images_limit) {
+std::string problem_of_grain(const std::vector<std::string> &words, int types, int images_limit) {
   const int columns = columns_without_images(words.size());
   if (!columns)
     return "expected 11, 14, 15 or 18 columns (id type density shapex shapey shapez blockiness1 blockiness2 x y z, "
            "then, if wanted, quatw quatx quaty quatz, then, if wanted, ix iy iz), got " +
            std::to_string(words.size());
-  std::string complaint = whole_number_between("id", words[id], 1, INT_MAX);
-  if (complaint.empty()) complaint = whole_number_between("type", words[type], 1, types);
+  std::string problem = whole_number_between("id", words[id], 1, INT_MAX);
+  if (problem.empty()) problem = whole_number_between("type", words[type], 1, types);
   double length = 0.0;
-  for (int k = density; k < columns && complaint.empty(); k++) {
+  for (int k = density; k < columns && problem.empty(); k++) {
     double value = 0.0;
-    complaint = complaint_of_number(k, words[k], value);
+    problem = problem_of_number(k, words[k], value);
     if (k >= orientation) length = std::hypot(length, value);
   }
-  if (complaint.empty() && columns > bare && !(length > 0.0 && std::isfinite(length)))
-    complaint = wrong("quatw quatx quaty quatz", "of a length above 0",
-                      words[bare] + " " + words[bare + 1] + " " + words[bare + 2] + " " + words[bare + 3]);
-  for (int k = columns; k < static_cast<int>(words.size()) && complaint.empty(); k++)
-    complaint = whole_number_between(image_names[k - columns], words[k], -images_limit, images_limit - 1);
-  return complaint;
+  if (problem.empty() && columns > bare && !(length > 0.0 && std::isfinite(length)))
+    problem = wrong("quatw quatx quaty quatz", "of a length above 0",
+                    words[bare] + " " + words[bare + 1] + " " + words[bare + 2] + " " + words[bare + 3]);
+  for (int k = columns; k < static_cast<int>(words.size()) && problem.empty(); k++)
+    problem = whole_number_between(image_names[k - columns], words[k], -images_limit, images_limit - 1);
+  return problem;
 }
 
-std::string complaint_of_velocity(const std::vector<std::string> &words) {
+std::string problem_of_velocity(const std::vector<std::string> &words) {
   if (words.size() != velocity)
     return "expected 7 columns (id vx vy vz omegax omegay omegaz), got " + std::to_string(words.size());
-  std::string complaint = whole_number_between("id", words[id], 1, INT_MAX);
+  std::string problem = whole_number_between("id", words[id], 1, INT_MAX);
   double value = 0.0;
-  for (int k = 1; k < velocity && complaint.empty(); k++)
-    if (!is_finite_number(words[k], value)) complaint = wrong(velocity_names[k], "a finite number", words[k]);
-  return complaint;
+  for (int k = 1; k < velocity && problem.empty(); k++)
+    if (!is_finite_number(words[k], value)) problem = wrong(velocity_names[k], "a finite number", words[k]);
+  return problem;
 }
 
 void normalise(double *q) {

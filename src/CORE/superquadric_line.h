@@ -21,10 +21,10 @@ std::vector<std::string> words_of(const char *line);
 int columns_without_images(int words);
 
 /** What is wrong with a line of the section Atoms, or nothing. Image flags: from -images_limit to images_limit - 1. */
-std::string complaint_of_grain(const std::vector<std::string> &words, int types, int images_limit);
+std::string problem_of_grain(const std::vector<std::string> &words, int types, int images_limit);
 
 /** What is wrong with a line of the section Velocities, or nothing. */
-std::string complaint_of_velocity(const std::vector<std::string> &words);
+std::string problem_of_velocity(const std::vector<std::string> &words);
 
 /** The quaternion of length 1, to the last bit as it was if it has this length but for rounding. */
 void normalise(double *quaternion);

@@ -22,7 +22,7 @@ namespace LAMMPS_NS {
 class FixGrainRecord : public grainscope::InternalFix {
  public:
   FixGrainRecord(class LAMMPS *lmp, int narg, char **arg);
-  ~FixGrainRecord();
+  ~FixGrainRecord() override;
   int setmask() override;
   void reset_timestep(bigint now, bigint before) override;
   void setup_pre_force(int) override { note_box(); }

@@ -250,7 +250,7 @@ FixLedgerRecord *FixLedgerRecord::find(LAMMPS *lmp, const char *id) {
 
 void FixLedgerRecord::forget(LAMMPS *lmp, const char *id) { record.remove(lmp, id); }
 
-/** The run that goes on stays equal to one that is taken up again: it, too, has the sums on the first rank. */
+/** The run that goes on stays equal to one that is resumed: it, too, has the sums on the first rank. */
 void FixLedgerRecord::write_restart(FILE *file) {
   SavedLedger saved;
   saved.started = impl_->ledger.started();

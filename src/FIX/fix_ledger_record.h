@@ -26,7 +26,7 @@ namespace LAMMPS_NS {
 class FixLedgerRecord : public grainscope::InternalFix, public grainscope::ContactSink {
  public:
   FixLedgerRecord(class LAMMPS *lmp, int narg, char **arg);
-  ~FixLedgerRecord();
+  ~FixLedgerRecord() override;
   int setmask() override;
   void init() override;
   void pre_initial_integrate() override;

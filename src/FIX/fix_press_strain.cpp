@@ -92,7 +92,7 @@ grainscope::Outputs FixPressStrain::Impl::declared() {
   return outputs;
 }
 
-/** What the base class is told: a deformation at rate zero of the box parameters that this fix moves, with velocities
+/** What the base class is given: a deformation at rate zero of the box parameters that this fix moves, with velocities
  *  remapped. */
 struct FixPressStrain::HostArguments {
   std::vector<std::string> words;
@@ -217,7 +217,7 @@ void FixPressStrain::end_of_step() {
   evaluate_variables();
   if (my.settings.shear) my.strain += std::fabs(my.settings.rate.value) * update->dt;
   if (my.intervals.advance(progress_of_a_step())) take_input();
-  // The box moves as its images will be told to move in the coming step: the springs of contacts across faces follow
+  // The box moves by the rates that its images take in the coming step: the springs of contacts across faces follow
   // velocities, overlaps the box.
   my.box.set_rates(my.velocity, my.settings.rate.value);
   my.box.advance();
@@ -303,7 +303,7 @@ void FixPressStrain::restart(char *buffer) {
   my.clipped = saved.clipped;
   my.window_steps = saved.window_steps;
   if (comm->me == 0) my.window = {saved.window_pressure, saved.window_stiffness, saved.window_damping};
-  // Counted otherwise than before, inputs begin anew, with one at the first step.
+  // Counted otherwise than before, inputs begin again, with one at the first step.
   if (static_cast<double>(my.settings.every) == saved.every && my.settings.interval == saved.interval)
     my.intervals.restore(saved.passed, saved.next);
 }

@@ -22,7 +22,7 @@ namespace LAMMPS_NS {
 class FixPressStrain : public FixDeform, public grainscope::DeclaresOutputs, public grainscope::ContactSink {
  public:
   FixPressStrain(class LAMMPS *lmp, int narg, char **arg);
-  ~FixPressStrain();
+  ~FixPressStrain() override;
 
   void init() override;
   void setup(int vflag) override;

@@ -27,7 +27,7 @@ struct PressStrainSettings {
   bool max_rate_given = false;
   bool remove_momentum = true, kinetic = false;
 
-  /** Reads all words from arg[3] on; every complaint is an error. */
+  /** Reads all words from arg[3] on; every mistake is an error. */
   PressStrainSettings(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
   /** Values of variables now; errors where they are of no use. */

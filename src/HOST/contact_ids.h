@@ -8,8 +8,8 @@ class LAMMPS;
 
 namespace grainscope {
 
-/** Whether grains bear the IDs that the host noted their contacts' springs under. `delete_atoms` numbers the rest anew
- *  unless told `compress no`, and the springs go to whom the old numbers now mean. Told by grains of which one knows
+/** Whether grains bear the IDs that the host noted their contacts' springs under. `delete_atoms` renumbers the rest
+ *  unless it has `compress no`, and the springs go to whom the old IDs now name. Detected by grains of which one knows
  *  the contact and the other does not. After grains were deleted, before the next run: later what the host noted may be
  *  old. Collective. */
 bool contacts_know_their_grains(LAMMPS_NS::LAMMPS *lmp);

@@ -118,11 +118,11 @@ std::string about_outputs(LAMMPS *lmp) {
   for (const Reference &r : references_in(text))
     all.push_back(r.compute ? describe(r, modify.compute, modify.ncompute) : describe(r, modify.fix, modify.nfix));
   const bool all_fit = std::all_of(all.begin(), all.end(), [](const Description &one) { return one.fits; });
-  std::string told;
+  std::string listed;
   int number = 0;
   for (const Description &one : all)
-    if ((all_fit || !one.fits) && number++ < 5) told += "; " + one.text;
-  return told;
+    if ((all_fit || !one.fits) && number++ < 5) listed += "; " + one.text;
+  return listed;
 }
 
 /** Of a style that does not exist, the nearest that does. */

@@ -22,7 +22,7 @@ class InternalFix : public LAMMPS_NS::Fix {
   /** Makes it, behind all other fixes. `why`: "compute c needs the fix ID 'c_record' for its memory", for an error
    *  when the ID is taken. */
   static InternalFix *make(LAMMPS_NS::LAMMPS *lmp, const Words &words, const std::string &why);
-  /** Makes it, or moves it behind all other fixes, with its state; made anew when its words have changed. */
+  /** Makes it, or moves it behind all other fixes, with its state; made again when its words have changed. */
   static InternalFix *make_last(LAMMPS_NS::LAMMPS *lmp, const Words &words, const std::string &why);
   /** The one of this ID and style, or null. */
   static InternalFix *find(LAMMPS_NS::LAMMPS *lmp, const std::string &id, const char *style);

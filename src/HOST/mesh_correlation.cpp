@@ -23,7 +23,7 @@ void MeshCorrelation::clear() {
 
 /** Plans by estimate: measured ones would differ from run to run in the last digits. */
 void MeshCorrelation::plan(const std::array<int, 3> &size) {
-  if (size == mesh_.size) return;  // told alike on all ranks: planning is collective
+  if (size == mesh_.size) return;  // the same on all ranks: planning is collective
   clear();
   const std::ptrdiff_t half = size[2] / 2 + 1;
   std::ptrdiff_t transposed_planes, transposed_first;

@@ -9,8 +9,8 @@
 
 namespace grainscope {
 
-/** Says once that a quantity has left the range in which results can be trusted, with its value and the limit: when it
- *  was outside ten times in succession, as a start passes through much that does not last. */
+/** Warns once that a quantity has left the range in which results can be trusted, with its value and the limit. Only
+ *  after ten values outside in succession, because the start of a flow passes through much that does not last. */
 class RangeWarning {
  public:
   /** `format` takes the two numbers. All ranks may call; rank 0 speaks. */

@@ -12,7 +12,7 @@ class Irregular;
 namespace grainscope {
 
 /** One tilt of the host's box: its index in h and h_rate, the edges along its flow and its gradient, its name. Which
- *  tilt is meant is told by address: `inline`, so that all files share one table. */
+ *  tilt is meant is known by its address: `inline`, so that all files share one table. */
 struct Tilt {
   int index, flow, gradient;
   const char *name;

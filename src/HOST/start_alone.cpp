@@ -11,9 +11,11 @@ namespace {
 
 /** Whatever started the program told it which rank it is: mpirun, srun or another. */
 bool has_launcher() {
-  const char *const told[] = {"OMPI_COMM_WORLD_SIZE", "PMIX_NAMESPACE", "PMIX_RANK", "PMI_RANK", "PMI_FD", "PMI_ID",
-                              "ALPS_APP_PE",          "FLUX_JOB_ID"};
-  return std::any_of(std::begin(told), std::end(told), [](const char *name) { return std::getenv(name) != nullptr; });
+  const char *const launchers[] = {
+      "OMPI_COMM_WORLD_SIZE", "PMIX_NAMESPACE", "PMIX_RANK", "PMI_RANK", "PMI_FD", "PMI_ID",
+      "ALPS_APP_PE",          "FLUX_JOB_ID"};
+  return std::any_of(std::begin(launchers), std::end(launchers),
+                     [](const char *name) { return std::getenv(name) != nullptr; });
 }
 
 struct StartAlone {

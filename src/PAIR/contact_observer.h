@@ -17,7 +17,7 @@ namespace grainscope {
 class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers {
  public:
   explicit ContactObserver(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
-  ~ContactObserver();
+  ~ContactObserver() override;
 
   void add(ContactSink *sink);
   void remove(ContactSink *sink) override;
@@ -80,7 +80,7 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   bool springs_move_ = true;
   bool repeats_ = false;
   long runs_ = 0;
-  // of this evaluation and the one before: step, and a fraction that tells runs apart
+  // of this evaluation and the one before: step, and a fraction that differs from run to run
   double stamp_ = -1.0, stamp_before_ = -1.0;
   BoxState box_;
   double **x_ = nullptr;  // of the evaluation under way, as the two below

@@ -83,7 +83,7 @@ class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model>, public Reset
   SeparationMemory apart_;
   std::vector<int> first_pair_;  // of each grain in the neighbour list
   NeighbourListWatch lists_;
-  std::vector<int> look_;  // neighbours of one grain that may touch it, by place in its list
+  std::vector<int> candidates_;  // neighbours of one grain that may touch it, by place in its list
   std::vector<NeighbourPair> to_solve_;
   std::vector<EllipsoidBodies::Query> queries_;
   std::vector<EllipsoidContact> contacts_;
@@ -158,15 +158,15 @@ void EllipsoidLoop<Model>::ellipsoids() {
     const Lists lists = lists_of(i);
     const double moved = apart_.moved(i);
     bodies_.counts.listed += neighbours;
-    if (static_cast<int>(look_.size()) < neighbours) look_.resize(neighbours);
-    int looks = 0;  // gathered without a branch: no processor could guess it
+    if (static_cast<int>(candidates_.size()) < neighbours) candidates_.resize(neighbours);
+    int n_candidates = 0;  // gathered without a branch: no processor could guess it
     for (int jj = 0; jj < neighbours; jj++) {
-      look_[looks] = jj;
-      looks += apart_.may_touch(first_pair_[ii] + jj, moved + apart_.moved(lists.neighbours[jj] & NEIGHMASK));
+      candidates_[n_candidates] = jj;
+      n_candidates += apart_.may_touch(first_pair_[ii] + jj, moved + apart_.moved(lists.neighbours[jj] & NEIGHMASK));
     }
-    for (int k = 0; k < looks; k++) {
-      NeighbourPair pair = neighbour(lists, i, look_[k]);
-      pair.number = first_pair_[ii] + look_[k];
+    for (int k = 0; k < n_candidates; k++) {
+      NeighbourPair pair = neighbour(lists, i, candidates_[k]);
+      pair.number = first_pair_[ii] + candidates_[k];
       pair.motion = moved + apart_.moved(pair.j);
       if (pair.may_touch) {
         __builtin_prefetch(pair.history + surface_.lambda);

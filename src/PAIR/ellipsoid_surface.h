@@ -22,14 +22,14 @@ struct EllipsoidSurface {
   double curvature_limit = 0.0;
   bool mean = false, gaussian = false;
 
-  using Sides = LIGGGHTS::ContactModels::SurfacesIntersectData;
+  using SurfaceData = LIGGGHTS::ContactModels::SurfacesIntersectData;
 
   double start(const double *history) const { return history[lambda] == 0.0 ? 0.0 : history[lambda] + 0.5; }
 
   /** Enters a contact into the history, and into `s` if it touches; else s.deltan is minus a lower bound of the
    *  distance. */
-  inline __attribute__((always_inline)) bool enter(const EllipsoidContact &c, Sides &s, const EllipsoidBodies &bodies,
-                                                   const LAMMPS_NS::Atom *atom) const {
+  inline __attribute__((always_inline)) bool enter(const EllipsoidContact &c, SurfaceData &s,
+                                                   const EllipsoidBodies &bodies, const LAMMPS_NS::Atom *atom) const {
     if (!c.touching) {
       if (s.contact_history[lambda] != 0.0) s.contact_history[lambda] = 0.0;
       s.deltan = -c.gap;
@@ -68,14 +68,14 @@ struct EllipsoidSurface {
 
   /** What compute pair/gran/local reads from the history, in the order of `surface superquadric`: 0 (which axis of the
    *  bounding boxes separated them), 2 (they touch), contact point, depth of i, depth of j. `lambda` is lost. */
-  void show(const EllipsoidContact &c, const Sides &s) const {
+  void show(const EllipsoidContact &c, const SurfaceData &s) const {
     const double *p = s.contact_point, values[columns] = {0.0, 2.0, p[0], p[1], p[2], c.depth[0], c.depth[1]};
     std::copy(values, values + columns, s.contact_history + first);
   }
 
   /** Velocities of i against j at the contact point, and its distances from the centres (of spheres entered
    *  already). */
-  void move(Sides &s, const LAMMPS_NS::Atom *atom) const {
+  void move(SurfaceData &s, const LAMMPS_NS::Atom *atom) const {
     using Vector = Eigen::Map<const Eigen::Vector3d>;
     const Vector normal(s.en), point(s.contact_point), spin_i(s.omega_i), spin_j(s.omega_j);
     const Eigen::Vector3d arm_i = point - Vector(atom->x[s.i]), arm_j = point - Vector(atom->x[s.j]);

@@ -7,7 +7,7 @@
 
 namespace grainscope {
 
-/** What pair_style gran/insitu looks at before a run or at a new neighbour list, and what the host would not say. All
+/** What pair_style gran/insitu checks before a run or at a new neighbour list, and what the host would not say. All
  *  are collective. */
 class PairChecks : private LAMMPS_NS::Pointers {
  public:

@@ -137,8 +137,8 @@ bool PairGranInsitu::take_setting(std::vector<char *> &words, const char *keywor
   const std::string got = ends ? "" : at[1];
   const std::string about = std::string("pair_style gran/insitu: '") + keyword + "' ";
   if (got != no && got != yes) {
-    const std::string told = ends ? "the end of the command" : "'" + got + "'";
-    error->all(FLERR, (about + "must be " + yes + " or " + no + ", got " + told).c_str());
+    const std::string received = ends ? "the end of the command" : "'" + got + "'";
+    error->all(FLERR, (about + "must be " + yes + " or " + no + ", got " + received).c_str());
   }
   const auto next = words.erase(at, at + 2);
   if (std::any_of(next, words.end(), is_keyword)) error->all(FLERR, (about + "is given twice").c_str());
@@ -232,7 +232,7 @@ void PairGranInsitu::compute(int eflag, int vflag) {
   if (repeats) memory->swap();
   impl_->grains = atom->natoms;
   if (memory) memory->set_stamp(impl_->observer.stamp());
-  impl_->watch.judge();
+  impl_->watch.evaluate();
 }
 
 /** In first evaluations, and for the walls that follow. */

@@ -27,7 +27,7 @@ namespace LAMMPS_NS {
 class PairGranInsitu : public PairGranProxy, public grainscope::EllipsoidOwner {
  public:
   explicit PairGranInsitu(LAMMPS *lmp);
-  ~PairGranInsitu();
+  ~PairGranInsitu() override;
 
   /** The one in use, or an error that names `who` and what is in use instead. */
   static PairGranInsitu *required_by(LAMMPS *lmp, const char *who);

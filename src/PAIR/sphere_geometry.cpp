@@ -54,7 +54,7 @@ std::string SphereGeometry::of(LAMMPS_NS::PairGran &pair) {
   return found.empty() ? other_cohesion(matches) : found;
 }
 
-void SphereGeometry::enter(Sides &s) {
+void SphereGeometry::enter(SurfaceData &s) {
   const bool sphere = is_sphere(atom_->shape[s.i]);
   // Two spheres are what the host takes them for. Not so one at a wall: a plane puts it as far away as if it had the
   // bounding radius, which is longer, and a mesh leaves the distance of another contact behind.

@@ -20,7 +20,7 @@ namespace grainscope {
  *  finite overlap. A wall meets one sphere of radius R*. Capillary bridges act at a distance, and are refused. */
 class SphereGeometry {
  public:
-  using Sides = LIGGGHTS::ContactModels::SurfacesIntersectData;
+  using SurfaceData = LIGGGHTS::ContactModels::SurfacesIntersectData;
 
   /** Once the models of the pair style or wall are known. */
   void connect(LAMMPS_NS::LAMMPS *lmp, LIGGGHTS::IContactHistorySetup *setup);
@@ -28,9 +28,9 @@ class SphereGeometry {
   /** The words of a model that cannot be helped so, or "". */
   const std::string &refused() const { return refused_; }
 
-  void enter(Sides &s);
+  void enter(SurfaceData &s);
   /** What comes after, and the next contact of the same grain, find what was there. */
-  void leave(Sides &s) {
+  void leave(SurfaceData &s) {
     if (!lent_) return;
     lent_ = false;
     s.radi = kept_[0];

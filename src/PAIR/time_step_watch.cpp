@@ -11,7 +11,7 @@ namespace grainscope {
 
 namespace {
 
-const int steps_between_looks = 1000;
+const int steps_between_checks = 1000;
 
 }
 
@@ -21,9 +21,9 @@ void TimeStepWatch::begin_run(const ContactLaw &law) {
 }
 
 bool TimeStepWatch::wants_contacts() {
-  look_ = Look::none;
-  if (++steps_ < steps_between_looks && !grains_next_) return false;
-  look_ = grains_next_ ? Look::grains : Look::contacts;
+  level_ = Level::none;
+  if (++steps_ < steps_between_checks && !grains_next_) return false;
+  level_ = grains_next_ ? Level::grains : Level::contacts;
   grains_next_ = false;
   steps_ = 0;
   return true;
@@ -32,12 +32,12 @@ bool TimeStepWatch::wants_contacts() {
 void TimeStepWatch::begin_contacts() {
   largest_ = 0.0;
   damped_ = 0;
-  grains_.assign(look_ == Look::grains ? atom->nlocal : 0, time_step::GrainModes());
+  grains_.assign(level_ == Level::grains ? atom->nlocal : 0, time_step::GrainModes());
 }
 
 void TimeStepWatch::add_contacts(ContactSpan contacts) {
   for (const Contact &c : contacts) {
-    if (look_ == Look::contacts) {
+    if (level_ == Level::contacts) {
       const double mi = atom->rmass[c.i], mj = atom->rmass[c.j()];
       largest_ = std::max(largest_, time_step::of_contact(*c.motion, law_, mi * mj / (mi + mj), update->dt));
       continue;
@@ -49,18 +49,18 @@ void TimeStepWatch::add_contacts(ContactSpan contacts) {
   }
 }
 
-void TimeStepWatch::judge() {
-  if (look_ == Look::contacts) judge_contacts();
-  if (look_ == Look::grains) judge_grains();
-  look_ = Look::none;
+void TimeStepWatch::evaluate() {
+  if (level_ == Level::contacts) evaluate_contacts();
+  if (level_ == Level::grains) evaluate_grains();
+  level_ = Level::none;
 }
 
-void TimeStepWatch::judge_contacts() {
+void TimeStepWatch::evaluate_contacts() {
   MPI_Allreduce(MPI_IN_PLACE, &largest_, 1, MPI_DOUBLE, MPI_MAX, world);
   grains_next_ = largest_ >= time_step::harmless;
 }
 
-void TimeStepWatch::judge_grains() {
+void TimeStepWatch::evaluate_grains() {
   time_step::GrainModes::Mode worst;
   for (int i = 0; i < atom->nlocal; i++) {
     const time_step::GrainModes::Mode mode = grains_[i].fastest(atom->rmass[i], inertia_tensor(*atom, i), update->dt);

@@ -11,9 +11,9 @@
 
 namespace grainscope {
 
-/** Looks once in a thousand steps, whatever runs they are of, whether the time step is short enough for the contacts
- *  that there are, and warns when it is not; again only when it is twice as bad. First at single contacts; where those
- *  come near, in the next step, at grains. */
+/** Checks every 1000 steps, counted across runs, that the time step is short enough for the contacts that there are. A
+ *  warning gives the value and a safe time step; the next comes only when it is twice as bad. Single contacts are
+ *  checked first; where those come near the limit, whole grains in the next step. */
 class TimeStepWatch : public ContactSink, private LAMMPS_NS::Pointers {
  public:
   explicit TimeStepWatch(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
@@ -23,20 +23,20 @@ class TimeStepWatch : public ContactSink, private LAMMPS_NS::Pointers {
   void begin_contacts() override;
   void add_contacts(ContactSpan contacts) override;
   /** After the evaluation; collective on the steps that it wanted. */
-  void judge();
+  void evaluate();
 
  private:
-  enum class Look { none, contacts, grains } look_ = Look::none;
+  enum class Level { none, contacts, grains } level_ = Level::none;
   ContactLaw law_;
   double warned_of_ = 0.0;    // the value of b
-  int steps_ = 0;             // since the last look
+  int steps_ = 0;             // since the last check
   bool grains_next_ = false;  // the next look is at grains
   double largest_ = 0.0;      // of this rank's contacts
   int damped_ = 0;            // one of them has tangential damping
   std::vector<time_step::GrainModes> grains_;
 
-  void judge_contacts();
-  void judge_grains();
+  void evaluate_contacts();
+  void evaluate_grains();
 };
 
 }

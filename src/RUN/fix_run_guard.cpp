@@ -68,12 +68,12 @@ void FixRunGuard::init() {
   running_ = false;
   grainscope::stop_signal::watch();
   grainscope::stop_signal::write_last_line_to(grainscope::last_descriptors(lmp));
-  fail_together(not_finite(false));
+  fail_on_all_ranks(not_finite(false));
 }
 
 void FixRunGuard::setup(int) {
   running_ = true;
-  fail_together(not_finite(true));
+  fail_on_all_ranks(not_finite(true));
   warn_of_damping();
 }
 
@@ -101,7 +101,7 @@ void FixRunGuard::end_of_step() {
   if (trouble.empty() && update->ntimestep % seldom == 0) trouble = not_written();
   int all = grainscope::stop_signal::noted() | (trouble.empty() ? 0 : grainscope::stop_signal::trouble);
   if (comm->nprocs > 1) MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_BOR, world);
-  if (all & grainscope::stop_signal::trouble) fail_together(trouble);
+  if (all & grainscope::stop_signal::trouble) fail_on_all_ranks(trouble);
   grainscope::stop_signal::forward_to_host(lmp, all);
 }
 
@@ -109,10 +109,10 @@ void FixRunGuard::post_run() {
   running_ = false;
   grainscope::stop_signal::write_last_line_to({STDERR_FILENO});  // the log file may be another before the next run
   PairGranInsitu::required_by(lmp, "fix run/guard")->observer().end_run();
-  fail_together(not_written());
+  fail_on_all_ranks(not_written());
 }
 
-void FixRunGuard::fail_together(const std::string &trouble) const {
+void FixRunGuard::fail_on_all_ranks(const std::string &trouble) const {
   int first = trouble.empty() ? comm->nprocs : comm->me;
   MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, world);
   if (first == comm->nprocs) return;
@@ -219,5 +219,5 @@ void FixRunGuard::restart(char *buffer) {
 
 void FixRunGuard::write_restart_file(char *file) {
   if (strchr(file, '%')) return;
-  fail_together(comm->me == 0 ? grainscope::restart_seal::seal(file) : "");
+  fail_on_all_ranks(comm->me == 0 ? grainscope::restart_seal::seal(file) : "");
 }

@@ -51,7 +51,7 @@ class FixRunGuard : public grainscope::InternalFix {
   std::string not_written() const;
   void warn_of_damping();
   /** Ends the run when anything is wrong on any rank; collective. */
-  void fail_together(const std::string &trouble) const;
+  void fail_on_all_ranks(const std::string &trouble) const;
 };
 
 }

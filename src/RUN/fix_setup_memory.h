@@ -21,7 +21,7 @@ namespace LAMMPS_NS {
 class FixSetupMemory : public grainscope::InternalFix, public grainscope::KeepsEvaluation {
  public:
   FixSetupMemory(class LAMMPS *lmp, int narg, char **arg);
-  ~FixSetupMemory();
+  ~FixSetupMemory() override;
   int setmask() override;
   void init() override;
   void setup_pre_exchange() override;

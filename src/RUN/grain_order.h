@@ -17,7 +17,7 @@ class GrainOrder : private LAMMPS_NS::Pointers {
 
   void prevent_sorting();
   void allow_sorting();
-  /** In the order of their IDs: the only one that a run and one that is taken up again have in common. */
+  /** In the order of their IDs: the only one that a run and its resumption have in common. */
   void sort_by_id();
 
  private:

@@ -20,7 +20,7 @@ namespace {
 
 /** Old forces do not hold when a fix that adds to them comes or goes. In any order: that of an input script after
  *  read_restart may be another. */
-double movers_of(const LAMMPS *lmp) {
+double checksum_of_moving_fixes(const LAMMPS *lmp) {
   double sum = 0.0;
   for (int k = 0; k < lmp->modify->nfix; k++) {
     const Fix *fix = lmp->modify->fix[k];
@@ -38,7 +38,7 @@ LastRun LastRun::ending_now(LAMMPS *lmp) {
   run.grains = lmp->atom->natoms;
   run.time_step = lmp->update->dt;
   run.steps_to_sorting = lmp->atom->nextsort - lmp->update->ntimestep;
-  run.movers = movers_of(lmp);
+  run.moving_fixes = checksum_of_moving_fixes(lmp);
   return run;
 }
 
@@ -55,7 +55,7 @@ bool LastRun::same_box(const LAMMPS *lmp) const {
 
 bool LastRun::goes_on(LAMMPS *lmp, const GrainMemory &memory) const {
   int changed = grains != static_cast<double>(lmp->atom->natoms) || time_step != lmp->update->dt ||
-                movers != movers_of(lmp) || !same_box(lmp);
+                moving_fixes != checksum_of_moving_fixes(lmp) || !same_box(lmp);
   for (int i = 0; i < lmp->atom->nlocal && !changed; i++) changed = !memory.unchanged(i);
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, lmp->world);
   if (changed && !there_was_none() && lmp->comm->me == 0)

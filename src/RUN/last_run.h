@@ -19,7 +19,7 @@ struct LastRun {
   double grains = -1.0;  // -1 before the first run
   double time_step = 0.0;
   double steps_to_sorting = 0.0;  // until the host sorts grains by position
-  double movers = 0.0;            // checksum of the fixes that push or move grains
+  double moving_fixes = 0.0;      // checksum of the fixes that push or move grains
 
   static LastRun ending_now(LAMMPS_NS::LAMMPS *lmp);
   bool there_was_none() const { return grains < 0.0; }

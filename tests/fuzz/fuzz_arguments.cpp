@@ -94,12 +94,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     fuzz::require(false, "the end of a command is refused");
   } catch (const Refused &refused) {
     const std::string &said = refused.message;
-    fuzz::require(said.compare(0, style.size() + 2, style + ": ") == 0, "a complaint names the style");
+    fuzz::require(said.compare(0, style.size() + 2, style + ": ") == 0, "a problem names the style");
     const std::string got = arguments.done() && said.find("got the end of the command") != std::string::npos
                                 ? "the end of the command"
                                 : "'" + words[std::min(first + asked, all - 1)] + "'";
     fuzz::require(said.size() >= got.size() && said.compare(said.size() - got.size(), got.size(), got) == 0,
-                  "a complaint ends with what it got");
+                  "a problem ends with what it got");
   }
   return 0;
 }

@@ -11,7 +11,7 @@ namespace line = grainscope::superquadric_line;
 
 namespace {
 
-std::string complaint(const char *text) { return line::complaint_of_grain(line::words_of(text), 2, 512); }
+std::string problem(const char *text) { return line::problem_of_grain(line::words_of(text), 2, 512); }
 
 const std::string bare = "7 2 1000 1 1 1.5 2 2 -1.99 0 1e-3";
 
@@ -34,18 +34,18 @@ TEST(superquadric_line, columns_are_known_by_their_number) {
 
 TEST(superquadric_line, right_lines_are_taken) {
   for (const char *rest : {"", " 0 -512 511", " 1 0 0 0", " 0 -3 0 1e-200", " 0.5 0.5 0.5 -0.5 0 1 2"})
-    EXPECT_EQ(complaint((bare + rest).c_str()), "");
+    EXPECT_EQ(problem((bare + rest).c_str()), "");
 }
 
 TEST(superquadric_line, complaint_names_column_requirement_and_value) {
-  EXPECT_EQ(complaint("7 2 -1 1 1 1 2 2 0 0 0"), "'density' must be above 0, got '-1'");
-  EXPECT_EQ(complaint("7 2 1 1 1 1 2 1.999 0 0 0"), "'blockiness2' must be at least 2, got '1.999'");
-  EXPECT_EQ(complaint("7 2 1 1 1x 1 2 2 0 0 0"), "'shapey' must be a finite number, got '1x'");
-  EXPECT_EQ(complaint("7 2 1 1 1 1e999 2 2 0 0 0"), "'shapez' must be a finite number, got '1e999'");
-  EXPECT_EQ(complaint("99999999999 2 1 1 1 1 2 2 0 0 0"),
+  EXPECT_EQ(problem("7 2 -1 1 1 1 2 2 0 0 0"), "'density' must be above 0, got '-1'");
+  EXPECT_EQ(problem("7 2 1 1 1 1 2 1.999 0 0 0"), "'blockiness2' must be at least 2, got '1.999'");
+  EXPECT_EQ(problem("7 2 1 1 1x 1 2 2 0 0 0"), "'shapey' must be a finite number, got '1x'");
+  EXPECT_EQ(problem("7 2 1 1 1 1e999 2 2 0 0 0"), "'shapez' must be a finite number, got '1e999'");
+  EXPECT_EQ(problem("99999999999 2 1 1 1 1 2 2 0 0 0"),
             "'id' must be a whole number from 1 to 2147483647, got '99999999999'");
-  EXPECT_EQ(complaint((bare + " 0 -513 0").c_str()), "'iy' must be a whole number from -512 to 511, got '-513'");
-  EXPECT_EQ(complaint((bare + " 0 0 -0 0").c_str()),
+  EXPECT_EQ(problem((bare + " 0 -513 0").c_str()), "'iy' must be a whole number from -512 to 511, got '-513'");
+  EXPECT_EQ(problem((bare + " 0 0 -0 0").c_str()),
             "'quatw quatx quaty quatz' must be of a length above 0, got '0 0 -0 0'");
 }
 
