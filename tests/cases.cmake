@@ -454,7 +454,7 @@ add_cases(outputs-variables cases/outputs.py LABEL case STYLES outputs stress/co
 add_cases(outputs-variables cases/outputs.py LABEL case STYLES outputs stress/contact dissipation press/strain CASES
   prefixes)
 add_cases(outputs-variables cases/outputs.py LABEL case
-  STYLES outputs fabric contact/local property/atom contact/direction stress/contact CASES chosen listed-only users-own)
+  STYLES outputs fabric contact/local property/atom contact/direction stress/contact CASES chosen listed-only users-own given-again)
 
 # Format of the files, and what the tools that look for faults say of them
 add_cases(suite-style cases/style.py LABEL case STYLES suite style CASES clang-format black flake8 citation)

@@ -161,5 +161,5 @@ add_cases(read_restart errors/restart_versions.py LABEL error STYLES read_restar
 add_cases(outputs-refused errors/outputs.py LABEL error STYLES outputs CASES
   no-words other-keyword surplus-word two-prefixes no-prefix prefix-with-a-slash prefix-with-a-dash
   empty-prefix misspelt nothing-like-it host-compute host-fix compute-and-fix before-the-box clash-equal
-  clash-string clash-index clash-atom another-compute-of-the-id compute-that-is-gone)
+  clash-string clash-index clash-atom compute-that-is-gone)
 add_cases(outputs-refused errors/outputs.py LABEL error STYLES outputs RANKS 2 CASES misspelt clash-equal)

@@ -11,6 +11,7 @@
 #include "variable.h"
 #include <algorithm>
 #include <cctype>
+#include <map>
 
 using namespace LAMMPS_NS;
 using grainscope::Arguments;
@@ -145,12 +146,20 @@ std::string table_of(const Source &source, const std::vector<Line> &lines) {
   return text;
 }
 
-/** What a variable is, for messages; "" when there is none or it is `formula` already. */
+/** The variables that this command defined, with their formulas: of a compute that has changed since, they are replaced. */
+std::map<std::string, std::string> &defined_here() {
+  static std::map<std::string, std::string> formulas;
+  return formulas;
+}
+
+/** What a variable is, for messages; "" when there is none, it is `formula` already, or this command made it. */
 std::string other_meaning(Variable &variable, const std::string &name, const std::string &formula) {
   const int found = variable.find(const_cast<char *>(name.c_str()));
   if (found < 0) return "";
   if (!variable.equalstyle(found)) return "of another style than equal";
   const std::string text = (variable.*member_of(TextsOfVariables()))[found][0];
+  const auto ours = defined_here().find(name);
+  if (ours != defined_here().end() && ours->second == text) return "";
   return text == formula ? "" : "equal to " + text;
 }
 
@@ -164,7 +173,10 @@ void define(LAMMPS *lmp, const std::vector<Line> &lines, const Arguments &errors
                   ": delete that variable first, or give another 'prefix'");
   }
   for (const Line &one : lines) {
-    if (one.variable.empty() || variable.find(const_cast<char *>(one.variable.c_str())) >= 0) continue;
+    if (one.variable.empty()) continue;
+    const int found = variable.find(const_cast<char *>(one.variable.c_str()));
+    if (found >= 0 && (variable.*member_of(TextsOfVariables()))[found][0] == one.formula) continue;
+    defined_here()[one.variable] = one.formula;
     std::string name = one.variable, style = "equal", formula = one.formula;
     char *words[] = {&name[0], &style[0], &formula[0]};
     variable.set(3, words);

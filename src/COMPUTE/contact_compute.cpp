@@ -80,6 +80,8 @@ bool ContactCompute::kept_since_run(LAMMPS_NS::bigint answered) const {
   return run_over_ && answered == update->ntimestep;
 }
 
+void ContactCompute::answer() { error->all(FLERR, (name_ + ": declares numbers that nothing computes").c_str()); }
+
 bool ContactCompute::in_group(int i) const { return atom->mask[i] & groupbit; }
 
 ContactCompute::Group ContactCompute::of_group() const { return {atom->mask, groupbit}; }

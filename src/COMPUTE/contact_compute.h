@@ -56,7 +56,7 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
 
   void sums_over(Accumulator &sums) { sums_.push_back(&sums); }
   /** Fills scalar, vector and array, as far as there are, for the evaluation that was tallied. Collective. */
-  virtual void answer() {}
+  virtual void answer();
 
   bool in_group(int i) const;
   const ContactLaw &law() const;

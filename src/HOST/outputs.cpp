@@ -96,7 +96,8 @@ void DeclaresOutputs::require_good_names() const {
     for (const NamedOutput &one : *list) {
       const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
       const bool good = !one.name.empty() && std::all_of(one.name.begin(), one.name.end(), plain);
-      if (!good || !found.insert(one.name).second)
+      const bool repeats = !found.insert(one.name).second && list != &outputs_.per_grain;  // a column asked for twice
+      if (!good || repeats)
         throw std::logic_error(style_ + ": '" + one.name +
                                "' cannot name an output: it must be letters, digits and underscores, once");
     }

@@ -3,6 +3,8 @@
 c_ID[k] to the last bit."""
 import re
 
+import numpy as np
+
 from case import main, require, require_close, require_equal
 from columns import outputs
 from deck import Deck, shear, thermo
@@ -238,6 +240,36 @@ def users_own(ranks):
     require_same(result.thermo()[-1], [("v_stress_P", p)], "own")
 
 
+def given_again(ranks):
+    """Names follow a compute whose keywords, and with them its indices, have changed, and another compute of the ID."""
+    tensor = outputs("fabric").index("branch_xx")
+    moved = [("v_it_branch_xx", f"c_it[{tensor + 6}]"), ("v_it_force_normal_xx", f"c_it[{tensor}]")]
+    stress = outputs("stress/contact").of("it")
+    after = [("v_it_N_c", stress["N_c"]), ("v_it_P", stress["P"])]
+    result = run(
+        deck(
+            "compute it all fabric branch force/normal",
+            "outputs it",
+            "uncompute it",
+            "compute it all fabric force/normal branch",
+            "outputs it",
+            *thermo(1, *(word for pair in moved for word in pair)),
+            "run 1",
+            "thermo_style custom step",
+            "uncompute it",
+            "compute it all stress/contact",
+            "outputs it",
+            *thermo(1, *(word for pair in after for word in pair)),
+            "run 1",
+        ),
+        ranks,
+    )
+    tables = result.thermo()
+    require_same(tables[0], moved, "other keywords")
+    require_same(tables[1], after, "another compute")
+    require(np.all(tables[0]["v_it_branch_xx"] != tables[0]["v_it_force_normal_xx"]), "the two tensors are equal")
+
+
 main(
     {
         "read-everywhere": read_everywhere,
@@ -248,5 +280,6 @@ main(
         "chosen": chosen,
         "listed-only": listed_only,
         "users-own": users_own,
+        "given-again": given_again,
     }
 )

@@ -70,17 +70,6 @@ main(
         "clash-string": clash("variable stress_Z string four", "of another style than equal"),
         "clash-index": clash("variable stress_Z index 1 2", "of another style than equal"),
         "clash-atom": clash("variable stress_Z atom x", "of another style than equal"),
-        "another-compute-of-the-id": lines(
-            STRESS,
-            "outputs stress",
-            "uncompute stress",
-            "compute stress all fabric",
-            "outputs stress",
-            words=[
-                "outputs: 'c_stress[22]' would be variable 'stress_N_c', which exists and is equal to c_stress[30]: "
-                "delete that variable"
-            ],
-        ),
         "compute-that-is-gone": lines(
             STRESS,
             "outputs stress",
