@@ -37,7 +37,7 @@ TEST(superquadric_line, right_lines_are_taken) {
     EXPECT_EQ(problem((bare + rest).c_str()), "");
 }
 
-TEST(superquadric_line, complaint_names_column_requirement_and_value) {
+TEST(superquadric_line, problem_names_column_requirement_and_value) {
   EXPECT_EQ(problem("7 2 -1 1 1 1 2 2 0 0 0"), "'density' must be above 0, got '-1'");
   EXPECT_EQ(problem("7 2 1 1 1 1 2 1.999 0 0 0"), "'blockiness2' must be at least 2, got '1.999'");
   EXPECT_EQ(problem("7 2 1 1 1x 1 2 2 0 0 0"), "'shapey' must be a finite number, got '1x'");
