@@ -18,23 +18,24 @@ STEPS = 2
 
 # What each compute spends, as functions that do not call each other.
 PARTS = {
-    "stress/contact": ("ComputeStressContact::add_contact", "ComputeStressContact::compute_vector"),
+    "stress/contact": ("ContactSums<StressSums>::add", "ComputeStressContact::answer"),
     "dissipation": (
-        "ComputeDissipation::begin_contacts",
-        "ComputeDissipation::add_contact",
-        "ComputeDissipation::compute_vector",
+        "ContactSums<LossSums>::add",
+        "DampingForces::reset",
+        "DampingForces::add",
+        "ComputeDissipation::answer",
     ),
     "nematic": ("ComputeNematic::compute_vector",),
-    "fabric": ("ComputeFabric::add_contact", "ComputeFabric::compute_vector"),
+    "fabric": ("ContactSums<FabricSums>::add", "ComputeFabric::answer"),
     "contact/surface": (
         "ComputeContactSurface::begin_contacts",
-        "ComputeContactSurface::add_contact",
-        "ComputeContactSurface::reduce",
+        "ContactSums<SurfaceSums>::add",
+        "ComputeContactSurface::answer",
     ),
-    "contact/direction": ("ComputeContactDirection::add_contact", "ComputeContactDirection::compute_array"),
+    "contact/direction": ("ContactSums<DirectionSums>::add", "ComputeContactDirection::answer"),
     "contact/grain": (
         "ComputeContactGrain::begin_contacts",
-        "ComputeContactGrain::add_contact",
+        "ComputeContactGrain::add_contacts",
         "ComputeContactGrain::compute_peratom",
     ),
     "fluctuation": ("ComputeFluctuation::compute_vector",),
@@ -104,9 +105,8 @@ def costs(binary, cells):
             text=True,
         ).stdout
     found = {}
-    for count, function in re.findall(
-        r"^ *([\d,]+) \([ \d.]+%\)\s+\S*?:(?:non-virtual thunk to )?(?:LAMMPS_NS::)?(\w+::\w+)\(", listing, re.M
-    ):
+    plain = re.sub(r"LAMMPS_NS::|grainscope::|\(anonymous namespace\)::|non-virtual thunk to ", "", listing)
+    for count, function in re.findall(r"^ *([\d,]+) \([ \d.]+%\)\s+\S*?:(\w+(?:<\w+>)?::\w+)\(", plain, re.M):
         found[function] = max(found.get(function, 0), int(count.replace(",", "")))
     return {name: sum(found.get(part, 0) for part in parts) / STEPS for name, parts in PARTS.items()}
 
