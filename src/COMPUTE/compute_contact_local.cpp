@@ -29,6 +29,7 @@ constexpr auto intensive = grainscope::Extent::intensive;
 struct Column {
   const char *name, *parts, *unit, *meaning;
   void (*write)(const Row &, double *);
+  bool reads_motion = false;  // Contact::motion
 
   grainscope::OutputList outputs() const {
     const std::string whole = name;
@@ -47,7 +48,8 @@ const Column columns[] = {
      }},
     {"image", xyz, "-", "periodic image of j that i touches, in box edges,",
      [](const Row &r, double *to) { std::copy(r.image, r.image + 3, to); }},
-    {"point", xyz, "distance", "contact point,", [](const Row &r, double *to) { put(to, r.contact.motion->point); }},
+    {"point", xyz, "distance", "contact point,", [](const Row &r, double *to) { put(to, r.contact.motion->point); },
+     true},
     {"normal", xyz, "-", "unit normal from j to i,", [](const Row &r, double *to) { put(to, r.contact.normal); }},
     {"branch", xyz, "distance", "x_i - x_j with that image,",
      [](const Row &r, double *to) { put(to, r.contact.branch); }},
@@ -56,19 +58,19 @@ const Column columns[] = {
     {"fn", one, "force", "normal component of the force, > 0 pushes apart",
      [](const Row &r, double *to) { *to = r.contact.normal_force; }},
     {"fn_damping", one, "force", "damping part of fn",
-     [](const Row &r, double *to) { *to = r.contact.motion->normal_damping; }},
+     [](const Row &r, double *to) { *to = r.contact.motion->normal_damping; }, true},
     {"ft", xyz, "force", "tangential force on i,",
      [](const Row &r, double *to) { put(to, r.contact.tangential_force); }},
     {"un", one, "velocity", "normal velocity of i relative to j, < 0 approaching",
-     [](const Row &r, double *to) { *to = r.contact.motion->normal_velocity; }},
+     [](const Row &r, double *to) { *to = r.contact.motion->normal_velocity; }, true},
     {"ut", xyz, "velocity", "tangential velocity of i relative to j at the contact point,",
-     [](const Row &r, double *to) { put(to, r.contact.motion->tangential_velocity); }},
+     [](const Row &r, double *to) { put(to, r.contact.motion->tangential_velocity); }, true},
     {"sliding", one, "-", "1 if the spring was cut at the friction limit, else 0",
      [](const Row &r, double *to) { *to = r.contact.sliding; }},
     {"slip", one, "distance", "length cut from the tangential spring",
      [](const Row &r, double *to) { *to = r.contact.slip; }},
     {"mobilisation", one, "-", "|F_t| over its friction limit",
-     [](const Row &r, double *to) { *to = grainscope::mobilisation(r.contact); }}};
+     [](const Row &r, double *to) { *to = grainscope::mobilisation(r.contact); }, true}};
 
 }
 
@@ -120,6 +122,11 @@ bool ComputeContactLocal::is_mine(const Contact &c) const {
     if (shift[k] != 0.0) return shift[k] > 0.0;
   }
   return false;
+}
+
+bool ComputeContactLocal::needs_motion() const {
+  return std::any_of(impl_->chosen.begin(), impl_->chosen.end(),
+                     [](const Impl::Chosen &one) { return one.column->reads_motion; });
 }
 
 void ComputeContactLocal::begin_contacts() { impl_->values.clear(); }

@@ -27,6 +27,7 @@ class ComputeContactLocal : public grainscope::ContactCompute, public grainscope
   void begin_contacts() override;
   void add_contacts(grainscope::ContactSpan contacts) override;
   bool needs_images() const override { return true; }
+  bool needs_motion() const override;
 
  private:
   struct Impl;
