@@ -46,7 +46,7 @@ struct FixPressStrain::Impl {
   int momentum_groupbit = 1;
   std::string momentum_group;
   grainscope::ContactObserver *observer = nullptr;
-  const grainscope::ContactLaw *law = nullptr;
+
   bool flip_pending = false;
 
   NetworkResponse now;     // this rank's sums of the last evaluation, over volume
@@ -144,10 +144,9 @@ void FixPressStrain::init() {
   PairGranInsitu *pair = PairGranInsitu::required_by(lmp, "fix press/strain");
   my.observer = &pair->observer();
   my.observer->add(this);
-  my.law = &pair->law();
-  if (my.settings.control.automatic && !my.law->knows_stiffness())
+  if (my.settings.control.automatic && !pair->law().knows_stiffness())
     press_strain_error(lmp, std::string("'gain auto' knows the stiffness of the normal models ") +
-                                my.law->elastic_models() + " only: give a number");
+                                grainscope::ContactLaw::elastic_models() + " only: give a number");
   my.settings.evaluate_rate(lmp);
   my.box.set_rates(my.velocity, my.settings.rate.value);
   plan_flip();
@@ -171,7 +170,7 @@ void FixPressStrain::begin_contacts() {
 }
 
 void FixPressStrain::add_contacts(grainscope::ContactSpan contacts) {
-  for (const grainscope::Contact &contact : contacts) impl_->now.add(contact, impl_->settings.axis, *impl_->law);
+  for (const grainscope::Contact &contact : contacts) impl_->now.add(contact, impl_->settings.axis);
 }
 
 void FixPressStrain::plan_flip() {

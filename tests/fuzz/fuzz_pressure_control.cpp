@@ -72,7 +72,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
   for (int n = input.whole(0, 8); n > 0; n--) {
     law.exponent = input.flag() ? 1.5 : 1.0;
     law.tangential = input.flag() ? TangentialLaw::spring : TangentialLaw::none;
-    evaluation.add(contact_of(input), axis, law);
+    Contact c = contact_of(input);
+    c.law = &law;
+    evaluation.add(c, axis);
     require(evaluation.stiffness >= 0.0 && evaluation.damping >= 0.0, "a network resists", evaluation.stiffness);
   }
   window.add(evaluation, input.logarithmic(1e-3, 1.0));

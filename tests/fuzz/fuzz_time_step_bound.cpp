@@ -40,7 +40,8 @@ GrainModes modes_of(const std::vector<Touch> &touches, std::size_t n, const Matr
   for (std::size_t k = 0; k < n; k++) {
     Contact c = touches[k].contact;
     c.normal = turn * c.normal;
-    modes.add(c, turn * touches[k].arm, touches[k].law);
+    c.law = &touches[k].law;
+    modes.add(c, turn * touches[k].arm);
   }
   return modes;
 }
