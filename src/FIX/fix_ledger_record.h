@@ -15,6 +15,7 @@ FixStyle(ledger/record,FixLedgerRecord)
 
 namespace grainscope {
 class EnergyLedger;
+class LedgerGrains;
 struct LedgerAccount;
 }
 
@@ -30,6 +31,7 @@ class FixLedgerRecord : public grainscope::InternalFix, public grainscope::Conta
   int setmask() override;
   void init() override;
   void pre_initial_integrate() override;
+  void pre_exchange() override;
   void pre_final_integrate() override;
   void write_restart(FILE *file) override;
   void restart(char *buffer) override;
@@ -37,6 +39,7 @@ class FixLedgerRecord : public grainscope::InternalFix, public grainscope::Conta
   bool wants_contacts() override { return true; }
   void begin_contacts() override;
   void add_contacts(grainscope::ContactSpan contacts) override;
+  void end_run() override;
 
   /** Makes the record of compute `id`, in its constructor; `style` is for messages. Collective. */
   static FixLedgerRecord *make(class LAMMPS *lmp, const char *id, int igroup, const std::string &style);
@@ -53,9 +56,16 @@ class FixLedgerRecord : public grainscope::InternalFix, public grainscope::Conta
   std::unique_ptr<Impl> impl_;
 
   [[noreturn]] void fail(const std::string &message) const;
+  bool grains_may_pass() const;
   double start_step(grainscope::EnergyLedger &ledger) const;
   double moment_of_inertia(int i) const;
+  void momentum(int i, double momentum[3]) const;
   void coming_spin(int i, double momentum[3], double omega_after[3]) const;
+  std::unique_ptr<grainscope::LedgerGrains> grains_in_step() const;
+  std::unique_ptr<grainscope::LedgerGrains> grains_between_steps(const grainscope::EnergyLedger &ledger) const;
+  void book_passage_in_step();
+  void book_passage_between_steps(grainscope::EnergyLedger &ledger, bool evaluated) const;
+  void book_leaving_before_run();
 };
 
 }

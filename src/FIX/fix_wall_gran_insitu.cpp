@@ -173,9 +173,9 @@ void FixWallGranInsitu::post_force(int vflag) {
 
 void FixWallGranInsitu::add_to(std::vector<grainscope::Wall> &walls) {
   const ContactLaw *const law = impl_->contacts ? &impl_->contacts->law() : nullptr;
-  if (!is_mesh_wall()) walls.push_back({id, this, nullptr, law});
+  if (!is_mesh_wall()) walls.push_back({id, this, nullptr, law, fix_history_primitive_});
   for (int k = 0; is_mesh_wall() && k < n_meshes(); k++)
-    walls.push_back({mesh_list()[k]->id, this, mesh_list()[k], law});
+    walls.push_back({mesh_list()[k]->id, this, mesh_list()[k], law, nullptr});
 }
 
 std::vector<grainscope::Wall> grainscope::walls_of(LAMMPS *lmp) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ledger_requirements.h"
 #include "contact_law.h"
+#include "fix_wall_gran_insitu.h"
 #include "pair_gran_insitu.h"
 #include "atom.h"
 #include "domain.h"
@@ -40,6 +41,16 @@ void LedgerRequirements::require_known_contacts(PairGranInsitu &pair) const {
   if (!law.why_no_energy().empty()) fail(law.why_no_energy());
   if (pair.renumbered())
     fail("grains were given other IDs, and what is known of contacts goes by ID: say 'compress no' to delete_atoms");
+}
+
+std::vector<const ContactLaw *> LedgerRequirements::require_known_walls() const {
+  std::vector<const ContactLaw *> laws;
+  for (const Wall &wall : walls_of(lmp)) {
+    const std::string why = wall.law->why_no_energy();
+    if (!why.empty()) fail("wall " + wall.name + ": " + why);
+    laws.push_back(wall.law);
+  }
+  return laws;
 }
 
 /** Whether some grain belongs to the ledger's group and to another. Collective. */

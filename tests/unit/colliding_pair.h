@@ -44,7 +44,7 @@ class Pair {
   double rolling = 0.0;  // torque per difference of spins
   bool touching = false, touched = false;
 
-  explicit Pair(double step = 1e-3) : dt(step) { ledger.set_law(make_law(1.5, grainscope::TangentialLaw::spring)); }
+  explicit Pair(double step = 1e-3) : dt(step) { ledger.set_laws(make_law(1.5, grainscope::TangentialLaw::spring)); }
 
   void evaluate(bool springs_move) {
     Sphere &i = spheres[0], &j = spheres[1];
