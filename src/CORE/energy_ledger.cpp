@@ -152,7 +152,9 @@ GRAINSCOPE_INLINE void EnergyLedger::add_contact(const Law &law, const Contact &
   const ContactMotion &m = *c.motion;
   const double elastic_force = m.normal_stiffness * c.overlap;
   const Vector3d arm_j = m.arm + c.branch;
-  double *const of_i = wrenches_of(c.i), *const of_j = partner == walls || c.ghost() ? nullptr : wrenches_of(c.j());
+  double *const of_i = wrenches_of(c.i), *of_j = nullptr;
+  const PartnerGrain *const other = partner == grains ? std::get_if<PartnerGrain>(&c.partner) : nullptr;
+  if (other && !other->ghost) of_j = wrenches_of(other->index);
   const Unit normal(c, c.normal, arm_j, m.normal_velocity);
   add_part<partner>(elastic, elastic_force, normal, c, of_i, of_j);
   add_part<partner>(damping, m.normal_damping, normal, c, of_i, of_j);
@@ -182,12 +184,6 @@ GRAINSCOPE_INLINE void EnergyLedger::add_contact(const Law &law, const Contact &
   if (law.spring) add_spring(sums, c);
 }
 
-GRAINSCOPE_CLONES
-void EnergyLedger::add(const Contact &c, double dt, bool springs_move) {
-  add_contact<grains>(law_, c, dt, springs_move);
-}
-
-GRAINSCOPE_CLONES
 void EnergyLedger::add_with_wall(const Contact &c, int grain_id, double dt, bool springs_move) {
   const PartnerWall &wall = c.wall();
   Touch touch{grain_id, wall.wall, wall.triangle, wall.velocity, {}};
@@ -195,6 +191,18 @@ void EnergyLedger::add_with_wall(const Contact &c, int grain_id, double dt, bool
   now_.walls.touches.push_back(touch);
   now_.walls.moving = now_.walls.moving || !wall.velocity.isZero(0.0);
   add_contact<walls>(Law(*c.law), c, dt, springs_move);
+}
+
+GRAINSCOPE_CLONES
+void EnergyLedger::add(ContactSpan contacts, const Members &members, double dt, bool springs_move) {
+  for (const Contact &c : contacts) {
+    const int of_i = members.mask[c.i] & members.bit;
+    if (const PartnerGrain *other = std::get_if<PartnerGrain>(&c.partner)) {
+      if (of_i & members.mask[other->index]) add_contact<grains>(law_, c, dt, springs_move);
+    } else if (of_i) {
+      add_with_wall(c, members.ids[c.i], dt, springs_move);
+    }
+  }
 }
 
 GRAINSCOPE_CLONES

@@ -95,10 +95,14 @@ class EnergyLedger {
   /** A force evaluation begins: forget the contacts of the last. `repeats`: it repeats the last, where a run goes on as
    *  if it had not ended. */
   void begin_evaluation(int n_local, bool repeats = false);
-  /** A contact of two grains of the group. `springs_move`: false in the first evaluation of a run. */
-  void add(const Contact &contact, double dt, bool springs_move);
-  /** A contact of a grain of the group with a wall; `grain_id` tells the grain in any evaluation. */
-  void add_with_wall(const Contact &contact, int grain_id, double dt, bool springs_move);
+  /** The grains that the ledger is about: by local index, those with the bit; IDs tell them in any evaluation. */
+  struct Members {
+    const int *mask;
+    int bit;
+    const int *ids;
+  };
+  /** Contacts of members with each other and with walls. `springs_move`: false in the first evaluation of a run. */
+  void add(ContactSpan contacts, const Members &members, double dt, bool springs_move);
 
   /** After the forces of step n are complete, before the second kick: v = v^{n-1/2}, x = x^n; angular velocity and
    *  momentum likewise. */
@@ -228,6 +232,7 @@ class EnergyLedger {
   struct Unit;
   template <Partner partner>
   void add_contact(const Law &law, const Contact &c, double dt, bool springs_move);
+  void add_with_wall(const Contact &c, int grain_id, double dt, bool springs_move);
   template <Partner partner>
   void add_part(int part, double size, const Unit &unit, const Contact &c, double *of_i, double *of_j);
   static void add_past(Contacts &sums, const Law &law, const Contact &c, double elastic_force);

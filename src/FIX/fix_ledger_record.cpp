@@ -65,10 +65,6 @@ struct FirstBeforeExchange : Modify {
   }
 };
 
-EnergyLedger::Grain grain(const Atom *atom, int i) {
-  return {i, atom->rmass[i], atom->x[i], atom->v[i], atom->f[i], atom->torque[i]};
-}
-
 grainscope::LedgerFrame frame_of(LAMMPS *lmp) {
   const BoxState box(lmp);
   return {box.velocity_gradient, box.centre, box.edges.diagonal(), box.edge_velocities.diagonal()};
@@ -80,6 +76,7 @@ struct FixLedgerRecord::Impl {
   EnergyLedger ledger;
   PairGranInsitu *pair = nullptr;
   grainscope::LedgerGravity gravity;
+  grainscope::LedgerRequirements::Movers movers;
   // The grains as they were before some may leave and come: in a step that builds neighbour lists, after a run.
   std::unique_ptr<LedgerGrains> before_exchange, after_run;
   bool may_pass = false;    // grains, in a step
@@ -121,7 +118,7 @@ void FixLedgerRecord::init() {
   ContactObserver &observer = impl_->pair->observer();
   const grainscope::LedgerRequirements requirements(lmp, groupbit, impl_->name);
   requirements.require_known_contacts(*impl_->pair);
-  requirements.require_moved_by_verlet();
+  impl_->movers = requirements.require_moved_by_verlet();
   requirements.require_flowing_box();
   impl_->laws_known = false;
   impl_->gravity = grainscope::LedgerGravity(lmp);
@@ -157,14 +154,19 @@ void FixLedgerRecord::begin_contacts() {
 }
 
 void FixLedgerRecord::add_contacts(grainscope::ContactSpan contacts) {
-  const bool springs_move = impl_->pair->observer().springs_move();
-  for (const Contact &c : contacts) {
-    if (c.with_wall()) {
-      if (atom->mask[c.i] & groupbit) impl_->ledger.add_with_wall(c, atom->tag[c.i], update->dt, springs_move);
-    } else if (atom->mask[c.i] & atom->mask[c.j()] & groupbit) {
-      impl_->ledger.add(c, update->dt, springs_move);
-    }
-  }
+  impl_->ledger.add(contacts, {atom->mask, groupbit, atom->tag}, update->dt, impl_->pair->observer().springs_move());
+}
+
+EnergyLedger::Grain FixLedgerRecord::shown(int i) const {
+  static const double none[3] = {0.0, 0.0, 0.0};
+  const bool held = impl_->movers.hold(atom->mask[i]);
+  return {i, atom->rmass[i], atom->x[i], atom->v[i], held ? none : atom->f[i], held ? none : atom->torque[i]};
+}
+
+Vector3d FixLedgerRecord::weight(int i) const {
+  const int mask = atom->mask[i];
+  if (impl_->movers.hold(mask)) return Vector3d::Zero();
+  return atom->rmass[i] * impl_->gravity.acceleration(mask);
 }
 
 /** Of a sphere, whose angular momentum the host does not keep. */
@@ -172,15 +174,18 @@ double FixLedgerRecord::moment_of_inertia(int i) const {
   return (domain->dimension == 2 ? 0.5 : 0.4) * atom->rmass[i] * atom->radius[i] * atom->radius[i];
 }
 
-void FixLedgerRecord::momentum(int i, double momentum[3]) const {
-  const double *const kept = atom->superquadric_flag ? atom->angmom[i] : nullptr;
-  for (int k = 0; k < 3; k++) momentum[k] = kept ? kept[k] : moment_of_inertia(i) * atom->omega[i][k];
+/** Where it is kept, or made for a sphere in `place`. */
+inline const double *FixLedgerRecord::momentum(int i, double place[3]) const {
+  if (atom->superquadric_flag) return atom->angmom[i];
+  for (int k = 0; k < 3; k++) place[k] = moment_of_inertia(i) * atom->omega[i][k];
+  return place;
 }
 
 /** Angular momentum now, and angular velocity after the kick of the coming half step. Spheroids: from the angular
  *  momentum, which the integrators keep; the host's `velocity setAngular` leaves omega at odds with it. */
-void FixLedgerRecord::coming_spin(int i, double momentum[3], double omega_after[3]) const {
-  const double half = 0.5 * update->dt, *torque = atom->torque[i];
+void FixLedgerRecord::coming_spin(const EnergyLedger::Grain &grain, double momentum[3], double omega_after[3]) const {
+  const int i = grain.index;
+  const double half = 0.5 * update->dt, *torque = grain.torque;
   double kicked[3];
   if (!atom->superquadric_flag) {
     const double inertia = moment_of_inertia(i);
@@ -205,17 +210,17 @@ void FixLedgerRecord::coming_spin(int i, double momentum[3], double omega_after[
 /** The number of grains. */
 double FixLedgerRecord::start_step(EnergyLedger &ledger) const {
   double grains = 0.0;
-  const grainscope::LedgerGravity *const gravity = impl_->gravity.none() ? nullptr : &impl_->gravity;
+  const bool pulled = !impl_->gravity.none();
   const bool evaluated = ledger.pending();
   impl_->gravity.update();
   ledger.begin_start_of_step(frame_of(lmp));
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
+    const EnergyLedger::Grain grain = shown(i);
     double momentum[3], omega_after[3];
-    coming_spin(i, momentum, omega_after);
-    ledger.start_of_step(grain(atom, i), omega_after, momentum, update->dt);
-    if (gravity)
-      ledger.start_with_weight(grain(atom, i), atom->rmass[i] * gravity->acceleration(atom->mask[i]), update->dt);
+    coming_spin(grain, momentum, omega_after);
+    ledger.start_of_step(grain, omega_after, momentum, update->dt);
+    if (pulled) ledger.start_with_weight(grain, weight(i), update->dt);
     grains += 1.0;
   }
   ledger.book_start(update->dt);
@@ -228,9 +233,8 @@ std::unique_ptr<LedgerGrains> FixLedgerRecord::grains_in_step() const {
   std::unique_ptr<LedgerGrains> grains(new LedgerGrains);
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
-    double spin_momentum[3];
-    momentum(i, spin_momentum);
-    grains->add(atom->tag[i], impl_->ledger.kinetic_in_step(grain(atom, i), atom->omega[i], spin_momentum));
+    double place[3];
+    grains->add(atom->tag[i], impl_->ledger.kinetic_in_step(shown(i), atom->omega[i], momentum(i, place)));
   }
   return grains;
 }
@@ -239,9 +243,10 @@ std::unique_ptr<LedgerGrains> FixLedgerRecord::grains_between_steps(const Energy
   std::unique_ptr<LedgerGrains> grains(new LedgerGrains);
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
+    const EnergyLedger::Grain grain = shown(i);
     double momentum[3], omega_after[3];
-    coming_spin(i, momentum, omega_after);
-    grains->add(atom->tag[i], ledger.kinetic_between_steps(grain(atom, i), omega_after, momentum, update->dt));
+    coming_spin(grain, momentum, omega_after);
+    grains->add(atom->tag[i], ledger.kinetic_between_steps(grain, omega_after, momentum, update->dt));
   }
   return grains;
 }
@@ -307,16 +312,16 @@ void FixLedgerRecord::pre_initial_integrate() {
 }
 
 void FixLedgerRecord::pre_final_integrate() {
-  const grainscope::LedgerGravity *const gravity = impl_->gravity.none() ? nullptr : &impl_->gravity;
+  const bool pulled = !impl_->gravity.none();
   impl_->gravity.update();
   if (impl_->before_exchange) book_passage_in_step();
   impl_->ledger.begin_end_of_step();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
-    double spin_momentum[3];
-    momentum(i, spin_momentum);
-    impl_->ledger.end_of_step(grain(atom, i), atom->omega[i], spin_momentum, update->dt);
-    if (gravity) impl_->ledger.end_with_weight(grain(atom, i), atom->rmass[i] * gravity->acceleration(atom->mask[i]));
+    const EnergyLedger::Grain grain = shown(i);
+    double place[3];
+    impl_->ledger.end_of_step(grain, atom->omega[i], momentum(i, place), update->dt);
+    if (pulled) impl_->ledger.end_with_weight(grain, weight(i));
     impl_->arrived += 1.0;
   }
   impl_->ledger.book_step(update->dt);

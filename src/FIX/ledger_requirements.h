@@ -25,7 +25,13 @@ class LedgerRequirements : private LAMMPS_NS::Pointers {
   void require_known_contacts(LAMMPS_NS::PairGranInsitu &pair) const;
   /** Their laws, which they know when all fixes have been initialised. */
   std::vector<const ContactLaw *> require_known_walls() const;
-  void require_moved_by_verlet() const;
+  /** Group bits: of fixes that move grains, and of fixes freeze. */
+  struct Movers {
+    int moved = 0, frozen = 0;
+    /** Whatever force there is on such a grain, it stays. */
+    bool hold(int mask) const { return (mask & frozen) && !(mask & moved); }
+  };
+  Movers require_moved_by_verlet() const;
   void require_flowing_box() const;
 
  private:

@@ -12,12 +12,14 @@ import numpy as np
 
 from case import main, require, require_close, require_equal, require_same_snapshots
 from collisions import kinetic_energy
-from deck import Deck, Material, dump_grains, rayleigh_time, thermo
-from ledger import LEDGER, LOSSES, SHARES, TOTALS, UNDAMPED, account, require_balance, turnover, with_ledger
+from columns import outputs
+from deck import POISSON, Deck, Material, dump_grains, rayleigh_time, thermo
+from ledger import LEDGER, LOSSES, NAMES, TOTALS, UNDAMPED, account, require_balance, turnover, with_ledger
 from oracle.ledger import STORES
 from packing import Grain, Packing
 from run import run
 
+OF_SOME = [outputs("energy/ledger").of("later")[name] for name in NAMES]
 GAINS = [name for name in LOSSES if name.startswith("G_")]
 G = 9.81
 FALL = f"fix pull all gravity {G} vector 0 0 -1"
@@ -244,6 +246,47 @@ def dragged(kind):
     return case
 
 
+def seen_from_outside(ranks):
+    """Spheres that bounce, slide and roll on a plate that swings: work of the plate, normal damping and gravity, from
+    dumped positions, velocities and forces and the plate's motion, with Hertz's damping written out."""
+    amplitude, period, restitution = 0.05, 0.6, 0.4
+    grains = [
+        Grain((2.5 * k - 4.0, 0.5 * k, 1.01 + 0.05 * k), velocity=(0.2 * k, 0.3, 0.0), omega=(0.0, 0.5 * k, 0.1))
+        for k in range(4)
+    ]
+    deck = scene(grains, atom_style="sphere", timestep=1e-3, material=Material(restitution=(restitution,)))
+    motion = f"wiggle amplitude 0. 0. {amplitude} period {period}"
+    deck = body(deck, [FALL, *mesh(deck, motion=motion)], 2000, every=1)
+    result = run_with(deck, ranks, [("floor", floor(parts=4))])
+    a, dt = account(result.thermo()[0]), deck.dt()
+    require_closes(a, "seen from outside")
+    dumps = [columns for _, columns in result.dump("grains.dump")]
+    steps = len(dumps)
+    omega = 2.0 * math.pi / period
+    speed = amplitude * omega * np.cos(omega * dt * np.arange(steps))
+    speed[0] = 0.0  # in the first evaluation the host's walls stand
+    plate_at = np.concatenate([[0.0], np.cumsum(speed[1:] * dt)])
+    z, v, f = (np.array([columns[name] for columns in dumps]) for name in ("z", "vz", "fz"))
+    mass, radius = grains[0].mass(), 1.0
+    push = f + mass * G
+    half = v[:-1] + 0.5 * dt * f[:-1] / mass  # of each step
+    overlap = np.maximum(0.0, radius - (z - plate_at[:, None]))
+    stiffness = 2.0 * deck.material.young[0] / (2.0 * (1.0 - POISSON**2)) * np.sqrt(radius * overlap)
+    log_e = math.log(restitution)
+    coefficient = -2.0 * math.sqrt(5.0 / 6.0) * log_e / math.hypot(log_e, math.pi) * np.sqrt(stiffness * mass)
+    evaluated = np.vstack([v[:1], half]) - speed[:, None]
+    damping = -coefficient * evaluated
+    after = speed[1:, None]
+    opens = (push[:-1] != 0.0) & (push[1:] == 0.0)
+    before = np.where(opens, speed[:-1, None], after)  # a contact that has opened ends with the velocity it had
+    lost = -0.5 * dt * (damping[:-1] * (half - before) + damping[1:] * (half - after)).sum()
+    work = 0.5 * dt * (push[:-1] * before + push[1:] * after).sum()
+    require_close(a["D_n_w"], lost, 1e-9, "normal damping of the plate", lost)
+    require_close(a["W_wall"], work, 1e-9, "work of the plate", lost)
+    require_close(a["W_gravity"], -mass * G * (z[-1] - z[0]).sum(), 1e-9, "m g h", lost)
+    require(a["D_n"] == a["D_n_w"] and work > 0.1 * lost, "nothing was done")
+
+
 # Many grains
 
 
@@ -344,6 +387,189 @@ def drops_out(ranks):
     require(start["K_tr"] > 0.0, "it moved")
 
 
+def rained(ranks):
+    """Grains are put in while the run goes on: each brings the energy of its velocity. They fall on a floor."""
+    deck = scene([ball(1.0, (0.0, 0.0, 0.0))], atom_style="sphere", timestep=1e-3)
+    radius, speed = 0.3, 1.5
+    scenery = [
+        FALL,
+        wall(deck, PLANE),
+        "region above block -5 5 -5 5 4 8 units box",
+        f"fix small all particletemplate/sphere 15485863 atom_type 1 density constant 1000 radius constant {radius}",
+        "fix kinds all particledistribution/discrete 15485867 1 small 1.0",
+        "fix insert all insert/rate/region seed 32452843 distributiontemplate kinds nparticles 30 particlerate 50 "
+        f"insert_every 200 vel constant 0 0 {-speed} overlapcheck yes all_in yes region above",
+    ]
+    table = run_with(body(deck, scenery, 1500, every=10, columns=["atoms"]), ranks).thermo()[0]
+    a, came = account(table), table["atoms"][-1] - 1
+    require_closes(a, "rain")
+    require(came >= 20, f"only {came} grains came")
+    mass = 1000.0 * 4.0 / 3.0 * math.pi * radius**3
+    require_close(a["W_in"], 0.5 * mass * speed**2 * came, 1e-12, "what they brought", a["W_in"])
+    require_close(a["W_other"], 0.0, ROUNDING, "W_other", turnover(a))
+    require_equal(a["W_out"], 0.0, "nobody left")
+
+
+def between_runs(ranks):
+    """Between two runs grains are deleted, and join the group: what they have leaves and comes with them, and the ledger
+    goes on."""
+    deck = scene(spheroids(20, 2.9, 0.5), half=6.0, timestep=0.1 * rayleigh_time(0.5))
+    scenery = [FALL, wall(deck, PLANE), wall(deck, "primitive type 1 zcylinder 3.0 0. 0.", "side")]
+    one_run = "run 1000"
+    runs = [
+        one_run,
+        "group few id 3 7 11",
+        "delete_atoms group few compress no",
+        one_run,
+        "group some id 1:9",
+        "compute later some energy/ledger",
+        *thermo(1000, *TOTALS, *OF_SOME),
+        one_run,
+        "group some id 10:14",
+        one_run,
+        "group some id 15 16",
+        "run 500 pre no",
+    ]
+    first, second, third, fourth, fifth = run_with(body(deck, scenery, 0, 1000, runs=runs), ranks).thermo()
+    a, b = account(first), account(second, 0)
+    require_closes(b, "after three were deleted")
+    stored = [sum(one[name] for name in STORES) for one in (a, b)]
+    require(b["W_out"] > 0.0 and b["W_in"] == 0.0, "nobody left")
+    # LIGGGHTS begins a run with forces that differ a little: damping by velocities of full steps.
+    require_close(b["W_out"], stored[0] - stored[1], 1e-2, "what they took", b["W_out"])
+    require_close(b["W_out"] - b["W_other"], stored[0] - stored[1], ROUNDING, "and the rest", turnover(b))
+    require_closes(account(second), "without them")
+    brought = [0.0]
+    for table in (third, fourth, fifth):
+        some = {name: float(table[q][-1]) for name, q in zip(NAMES, OF_SOME)}
+        require_closes(some, "some of the grains")
+        brought.append(some["W_in"])
+    require(brought[1] == 0.0 and 0.0 < brought[2] < brought[3], f"they brought {brought}")
+
+
+def frozen(ranks):
+    """Frozen grains beneath others: gravity works on those that move, whatever the order of the fixes."""
+    found = []
+    for order in ((0, 1), (1, 0)):
+        grains = spheroids(16, 2.9, 1.0, speed=0.3)
+        deck = scene(grains, half=6.0, timestep=0.1 * rayleigh_time(0.5))
+        fixes = ["fix still bed freeze", FALL]
+        scenery = [
+            "group bed id 1:6",
+            "velocity bed set 0 0 0 units box",
+            "unfix integrate",
+            "group free subtract all bed",
+            "fix integrate free nve/spheroid",
+            *(fixes[k] for k in order),
+            wall(deck, "primitive type 1 zcylinder 3.0 0. 0.", "side"),
+        ]
+        deck = body(deck, scenery, 1500)
+        deck.body = deck.body[2:]
+        found.append(account(run_with(deck, ranks).thermo()[0]))
+        require_closes(found[-1], "above a frozen bed")
+        require(found[-1]["W_gravity"] > 0.0 and found[-1]["D_n"] > found[-1]["D_n_w"], "nothing fell")
+        require_close(found[-1]["W_other"], 0.0, 1e-10, "W_other", turnover(found[-1]))
+
+
+def pulls(ranks):
+    """Several fixes gravity, one of them of some grains only, one that changes with time: their work is what the grains
+    gain."""
+    grains = [Grain((2.5 * k - 4.0, 0.0, 5.0), velocity=(0.0, 0.1 * k, 0.2)) for k in range(4)]
+    deck = scene(grains, half=30.0, atom_style="sphere", timestep=1e-3)
+    scenery = [
+        "group few id 1 3",
+        "variable strength equal 5.0*sin(0.01*step)",
+        "fix swing all gravity v_strength vector 1 2 3",
+        FALL,
+        "fix more few gravity 3.0 vector 0 1 1",
+        "fix push all addforce 10.0 0. 0.",
+    ]
+    result = run_with(body(deck, scenery, 800), ranks)
+    a, start = account(result.thermo()[0]), account(result.thermo()[0], 0)
+    require_closes(a, "pulls")
+    (_, before), (_, after) = result.dump("grains.dump")
+    push = 10.0 * (after["x"] - before["x"]).sum()
+    require_close(a["W_other"], push, 1e-10, "work of the push", turnover(a))
+    require_close(a["W_gravity"], a["K_tr"] - start["K_tr"] - push, 1e-10, "work of gravity", turnover(a))
+    require(abs(a["W_gravity"]) > 0.0, "no gravity")
+
+
+def in_a_box_that_shears(ranks):
+    """Between two plates along a box that shears and shortens sideways: velocities are measured against the flow, those
+    of plates too."""
+    deck = scene(spheroids(24, 3.5, 0.8, shape=(0.5, 0.5, 0.75)), half=4.0, boundary="p p f")
+    deck.packing = replace(deck.packing, triclinic=True, edges=(8.0, 8.0, 8.0), origin=(-4.0, -4.0, -1.0))
+    deck.timestep = 0.1 * rayleigh_time(0.5)
+    scenery = [
+        "fix press all press/strain axis y target 2e4 shear xy rate 0.4 every 1e-3 maxrate 0.02 momentum no",
+        FALL,
+        wall(deck, f"{PLANE} shear x 0.3 allow_special_domain_periodic yes"),
+        wall(deck, "primitive type 1 zplane 4.0 allow_special_domain_periodic yes", "lid"),
+    ]
+    table = run_with(body(deck, scenery, 3000, 500), ranks).thermo()[0]
+    for row in range(len(table["step"])):
+        require_closes(account(table, row), f"row {row}")
+    a = account(table)
+    for name in ("W_wall", "W_shear", "W_box", "D_n_w", "D_t_w"):
+        require(a[name] != 0.0, f"{name} is nothing")
+    require_close(a["W_other"], 0.0, 1e-10, "W_other", turnover(a))
+
+
+def other_laws(ranks):
+    """Walls that push by other laws than grains do, each by its own."""
+    deck = scene(
+        spheroids(16, 2.6, 0.8), half=6.0, timestep=0.1 * rayleigh_time(0.5), material=Material(restitution=(0.6,))
+    )
+    scenery = [
+        FALL,
+        wall(deck, PLANE, model="model hooke tangential no_history surface ellipsoid"),
+        wall(
+            deck,
+            "primitive type 1 zcylinder 2.7 0. 0.",
+            "side",
+            "model hertz tangential history rolling_friction cdt surface ellipsoid",
+        ),
+        wall(deck, "primitive type 1 zplane 6.0", "lid", "model hertz tangential off surface ellipsoid"),
+    ]
+    scenery[1] = scenery[1].replace(UNDAMPED, "")
+    scenery[3] = scenery[3].replace(UNDAMPED, "")
+    table = run_with(body(deck, scenery, 3000, 500), ranks).thermo()[0]
+    for row in range(len(table["step"])):
+        require_closes(account(table, row), f"row {row}")
+    a = account(table)
+    for name in ("D_n_w", "D_t_w", "D_damp_w", "D_rolling_w"):
+        require(a[name] > 0.0, f"{name} is nothing")
+    require_equal(a["D_rolling"], a["D_rolling_w"], "only a wall has rolling friction")
+    require_equal(a["D_damp"], a["D_damp_w"], "only a wall has tangential damping")
+
+
+def restarted(hole, *words):
+    """A run that is split and restarted goes on to the last bit, also where grains leave, with springs on walls; with
+    `setup neutral` it is the run that was never split."""
+
+    def case(ranks):
+        deck = pour(ranks, count=16)
+        deck.extra = " ".join([deck.extra, *words])
+        head, runs = deck.body[:-1], ["run 3000", "write_restart half.restart", "run 2000"]
+        surfaces = [("funnel", funnel(3.2, hole))]
+        through = run_with(replace(deck, body=[*head, *runs]), ranks, surfaces)
+        again = run_with(deck.restarted(through.folder / "half.restart", [*head, runs[-1]]), ranks, surfaces)
+        a, b = account(through.thermo()[-1]), account(again.thermo()[-1])
+        require_closes(b, "restarted")
+        require_same_snapshots(
+            again.dump("grains.dump")[-1:], through.dump("grains.dump")[-1:], "restarted against write-and-continue"
+        )
+        require_equal([b[n] for n in NAMES], [a[n] for n in NAMES], "the ledger, restarted")
+        require(a["U_t_w"] > 0.0, "no spring on the walls")
+        if words:
+            whole = account(run_with(replace(deck, body=[*head, "run 5000"]), ranks, surfaces).thermo()[0])
+            require_close([b[n] for n in NAMES], [whole[n] for n in NAMES], 1e-10, "not split", turnover(whole))
+        else:
+            require(through.thermo()[-1]["atoms"][-1] < 16, "nobody left")
+
+    return case
+
+
 def torn_apart(ranks):
     """Two spheres leave one after the other, pressed together: what is stored in their contact leaves with the first."""
     grains = [Grain((0.0, 0.0, -9.0)), Grain((0.0, 0.0, -7.05))]
@@ -385,6 +611,15 @@ CASES = {
     "hopper-spheres": hopper("sphere"),
     "drops-out": drops_out,
     "torn-apart": torn_apart,
+    "seen-from-outside": seen_from_outside,
+    "rained": rained,
+    "between-runs": between_runs,
+    "frozen": frozen,
+    "pulls": pulls,
+    "in-a-box-that-shears": in_a_box_that_shears,
+    "other-laws": other_laws,
+    "restarted": restarted(1.4),
+    "restarted-neutral": restarted(0.3, "setup neutral"),
 }
 
 if __name__ == "__main__":

@@ -133,7 +133,7 @@ TEST(energy_ledger, one_step_of_a_spring_by_hand) {
   const Vector3d before(0.0, 0.01, 0.0), after(0.0, 0.03, 0.0), cut(0.0, 0.02, 0.0);
   c.motion->tangential_stiffness = 100.0;
   c.spring = ContactSpring{before, before, Vector3d::Zero()};
-  ledger.add(c, 0.1, false);
+  ledger.add({&c, 1}, everyone(), 0.1, false);
   ledger.begin_start_of_step(frame);
   for (int g = 0; g < 2; g++) ledger.start_of_step({g, 1.0, rest, rest, rest, rest}, rest, rest, 0.1);
   ledger.book_start(0.1);
@@ -142,7 +142,7 @@ TEST(energy_ledger, one_step_of_a_spring_by_hand) {
   c.motion->tangential_stiffness = 400.0;
   c.spring = ContactSpring{before, after, cut};
   c.sliding = true;
-  ledger.add(c, 0.1, true);
+  ledger.add({&c, 1}, everyone(), 0.1, true);
   ledger.begin_end_of_step();
   for (int g = 0; g < 2; g++) ledger.end_of_step({g, 1.0, rest, rest, rest, rest}, rest, rest, 0.1);
   ledger.book_step(0.1);
