@@ -59,7 +59,7 @@ class FixLedgerRecord : public grainscope::InternalFix, public grainscope::Conta
   bool grains_may_pass() const;
   grainscope::EnergyLedger::Grain shown(int i) const;
   Eigen::Vector3d weight(int i) const;
-  double start_step(grainscope::EnergyLedger &ledger) const;
+  void start_step(grainscope::EnergyLedger &ledger) const;
   double moment_of_inertia(int i) const;
   const double *momentum(int i, double place[3]) const;
   void coming_spin(const grainscope::EnergyLedger::Grain &grain, double momentum[3], double omega_after[3]) const;

@@ -105,10 +105,6 @@ EnergyLedger::Passage LedgerGrains::taken_by(const std::vector<int> &tags, bool 
   return taken;
 }
 
-int LedgerGrains::count(const std::vector<int> &tags) const {
-  return std::count_if(grains_.begin(), grains_.end(), [&](const Grain &grain) { return has(tags, grain.tag); });
-}
-
 void LedgerGrains::forget(const std::vector<int> &tags) {
   const auto gone = [&](const Grain &grain) { return has(tags, grain.tag); };
   const auto opened = [&](const StoredEnergy &c) { return has(tags, c.tags[0]) || has(tags, c.tags[1]); };

@@ -37,8 +37,6 @@ class LedgerGrains {
   std::vector<int> not_in(LedgerGrains &other);
   /** What those of these IDs take with them. `work`: with that of half a step of their contacts. */
   EnergyLedger::Passage taken_by(const std::vector<int> &tags, bool work) const;
-  /** How many of these IDs are on this rank. */
-  int count(const std::vector<int> &tags) const;
   void forget(const std::vector<int> &tags);
 
  private:
