@@ -170,7 +170,7 @@ void ContactReader::after(const Surfaces &s, const Forces &force_on_i) {
   const double *const *x = observer_.positions();
   const bool ghost = s.j >= observer_.local_grains();
   Contact &c = observer_.next();
-  c.partner = PartnerGrain{s.j, ghost};
+  c.partner.emplace<PartnerGrain>(PartnerGrain{s.j, ghost});
   c.weight = ghost ? 0.5 : 1.0;
   c.branch = Map<const Vector3d>(x[s.i]) - Map<const Vector3d>(x[s.j]);
   read(s, force_on_i, c);
@@ -178,7 +178,7 @@ void ContactReader::after(const Surfaces &s, const Forces &force_on_i) {
 
 void ContactReader::after_wall(const Surfaces &s, const Forces &force_on_i, const PartnerWall &wall) {
   Contact &c = observer_.next();
-  c.partner = PartnerWall{wall.wall, wall.triangle, Map<const Vector3d>(s.v_j)};
+  c.partner.emplace<PartnerWall>(PartnerWall{wall.wall, wall.triangle, Map<const Vector3d>(s.v_j)});
   c.weight = 1.0;
   c.branch = Map<const Vector3d>(observer_.positions()[s.i]) - contact_point(s);
   read(s, force_on_i, c);
