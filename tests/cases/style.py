@@ -18,7 +18,7 @@ FOLDERS = ("src", "tests", "bench", "cmake", "examples", "scripts", "tools")
 # Versions that agree on this tree: those of Debian 12 and 13, and between.
 CLANG_FORMAT, BLACK = range(14, 20), range(23, 26)
 SHOWN = 40  # lines
-# Minutes for a file that makes the host's templates anew for every contact model.
+# Minutes for a file that instantiates the host's templates for every contact model.
 NOT_BY_TIDY = {"gran_insitu_models.cpp"}
 
 

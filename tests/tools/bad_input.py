@@ -15,8 +15,8 @@ def listed(words):
 
 @dataclass
 class Kind:
-    """What may follow a keyword: how it is told, values that are taken (the limits, where there are any), and values
-    that are not."""
+    """What may follow a keyword: the requirement that messages give, values that are taken (the limits, where there are
+    any), and values that are not."""
 
     requirement: str
     good: tuple
