@@ -34,7 +34,7 @@ def number(requirement, good, bad):
 def whole(low, high):
     return number(
         f"a whole number from {low} to {high}",
-        (str(low), str(high), "1e1"),
+        (str(low), str(high), *(("1e1",) if low <= 10 <= high else ())),
         (str(low - 1), str(high + 1), "-3", "2.5", "1e99"),
     )
 
