@@ -141,7 +141,8 @@ inline void ContactReader::read_rolling(const Surfaces &s, const Forces &force_o
   rolling.torque = Map<const Vector3d>(force_on_i.delta_torque) - c.motion->arm.cross(c.force);
 }
 
-inline void ContactReader::read(const Surfaces &s, const Forces &force_on_i, Contact &c) const {
+inline __attribute__((always_inline)) void ContactReader::read(const Surfaces &s, const Forces &force_on_i,
+                                                               Contact &c) const {
   const Vector3d normal(s.en[0], s.en[1], s.en[2]),
       force(force_on_i.delta_F[0], force_on_i.delta_F[1], force_on_i.delta_F[2]);
   const double normal_force = force.dot(normal), coefficient = law_.friction_coefficient(s.itype, s.jtype);
