@@ -194,6 +194,14 @@ add_cases(surface/ellipsoid-wall cases/ellipsoid_walls.py LABEL case STYLES surf
   limit-alone-on-a-mesh)
 add_cases(surface/ellipsoid-wall cases/ellipsoid_walls.py LABEL case STYLES surface/ellipsoid RANKS 1 LONG_RANKS 2 CASES
   pile)
+add_cases(wall/gran-mended cases/walls_mended.py LABEL case STYLES wall/gran RANKS 1 CASES
+  cylinder-turns-x-inside cylinder-turns-x-inside-narrow cylinder-turns-x-outside
+  cylinder-turns-y-inside cylinder-turns-y-inside-narrow cylinder-turns-y-outside
+  cylinder-turns-z-inside cylinder-turns-z-inside-narrow cylinder-turns-z-outside
+  floor-diagonal-superquadric floor-beside-the-diagonal-superquadric floor-far-superquadric floor-diagonal-ellipsoid
+  floor-beside-the-diagonal-ellipsoid floor-far-ellipsoid edge-superquadric edge-ellipsoid)
+add_cases(wall/gran-mended cases/walls_mended.py LABEL case STYLES wall/gran CASES
+  torque-large torque-small torque-ellipsoid)
 add_cases(surface/ellipsoid-contact cases/ellipsoid_contacts.py LABEL case STYLES surface/ellipsoid CASES
   poles-meet poles-meet-gaussian poles-meet-mean equators-meet-gaussian equators-meet-mean flat-faces-meet-gaussian
   flat-faces-meet-mean unlike-grains-meet unlike-grains-meet-gaussian unlike-grains-meet-mean sphere-meets-pole-mean
