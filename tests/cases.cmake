@@ -297,7 +297,7 @@ add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL RANKS 1 LON
   box-turned-orthogonal grains-deleted clear-starts-afresh-with-ellipsoids pair-style-twice
   time-step-changed-in-mid-run box-scaled)
 add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 4 CASES
-  grains-inserted clear-starts-afresh steps-numbered-anew)
+  grains-inserted clear-starts-afresh steps-renumbered)
 add_cases(every-style-rank-sweep cases/rank_sweep.py LABEL case STYLES ALL RANKS 8 CASES spheroids-through-a-flip)
 add_cases(every-style-rank-sweep cases/rank_sweep.py LABEL case STYLES ALL LONG_RANKS 8 CASES
   spheres superquadrics-through-a-flip)
@@ -354,7 +354,7 @@ add_cases(study-runs cases/study_runs.py LABEL case STYLES study RANKS 1 LONG_RA
   killed-run-continues longer-strain-continues)
 add_cases(study-runs cases/study_runs.py LABEL case STYLES study CASES
   one-at-a-time stopped-run-has-not-ended first-restart-cut no-restart-whole other-variables-refused
-  part-must-be-named reason-is-told means-of-files table-holds-everything)
+  part-must-be-named reason-is-given means-of-files table-holds-everything)
 add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study CASES basic-measures bad-configuration)
 add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study LONG_RANKS 1 CASES
   failing-runs-do-not-stop-others study-goes-on)

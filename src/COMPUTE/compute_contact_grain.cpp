@@ -61,12 +61,12 @@ void ComputeContactGrain::begin_contacts() {
 }
 
 void ComputeContactGrain::add_contacts(grainscope::ContactSpan contacts) {
-  grainscope::for_each_contact(contacts, of_group(), [this](const Contact &c) {
+  grainscope::for_each_contact(contacts, selection(), [this](const Contact &c) {
     const double contribution[ANGLE] = {1.0, c.sliding ? 1.0 : 0.0, 0.5 * grainscope::damping_loss(c),
                                         0.5 * grainscope::friction_loss(c), grainscope::mobilisation(c)};
     for (int k = 0; k < ANGLE; k++) {
       array_atom[c.i][k] += contribution[k];
-      if (!c.ghost()) array_atom[c.j()][k] += contribution[k];  // a ghost's owner counts it
+      if (c.with_own_grain()) array_atom[c.j()][k] += contribution[k];  // a ghost's owner counts it
     }
   });
 }

@@ -114,8 +114,8 @@ ComputeContactLocal::~ComputeContactLocal() {}
 /** Of a contact that two owners see (or one owner twice, through an image of itself), the lower ID writes the row;
  *  between two images of one grain, the one whose partner lies toward the positive side. */
 bool ComputeContactLocal::is_mine(const Contact &c) const {
-  const int j = c.j();
   if (!c.ghost()) return true;
+  const int j = c.j();
   if (atom->tag[c.i] != atom->tag[j]) return atom->tag[c.i] < atom->tag[j];
   const double *shift = observer_->image_shift(j);
   for (int k = 0; k < 3; k++) {
@@ -132,7 +132,7 @@ bool ComputeContactLocal::needs_motion() const {
 void ComputeContactLocal::begin_contacts() { impl_->values.clear(); }
 
 void ComputeContactLocal::add_contacts(grainscope::ContactSpan contacts) {
-  grainscope::for_each_contact(contacts, of_group(), [this](const Contact &c) {
+  grainscope::for_each_contact(contacts, selection(), [this](const Contact &c) {
     if (is_mine(c)) add_row(c);
   });
 }

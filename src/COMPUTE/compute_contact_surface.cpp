@@ -89,7 +89,7 @@ struct SurfaceSums {
     sums[bins * SUMS] += c.weight * c.force[1] * c.branch[1];
     const Vector3d arm = c.motion->point - Map<const Vector3d>(atom->x[c.i]);
     add_to(c.i, arm, c);
-    if (!c.ghost()) add_to(c.j(), arm + c.branch, c);  // a ghost's owner counts it
+    if (c.with_own_grain()) add_to(c.j(), arm + c.branch, c);  // a ghost's owner counts it
   }
   void add_to(int grain, const Vector3d &arm, const Contact &c) {
     const double *shape = atom->shape[grain];

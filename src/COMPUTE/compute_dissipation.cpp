@@ -48,12 +48,13 @@ struct DampingForces : grainscope::ContactCompute::Accumulator {
     tangential.reset(atom->nlocal);
   }
   void add(grainscope::ContactSpan contacts, const grainscope::ContactCompute &of) override {
-    grainscope::for_each_contact(contacts, of.of_group(), [this](const Contact &c) { add(c); });
+    grainscope::for_each_contact(contacts, of.selection(), [this](const Contact &c) { add(c); });
   }
   void add(const Contact &c) {
     const grainscope::ContactMotion &m = *c.motion;
     const Vector3d lever_i = m.point - Map<const Vector3d>(atom->x[c.i]), lever_j = lever_i + c.branch;
     Vector3d image_velocity = Vector3d::Zero();
+    if (c.with_wall()) image_velocity = c.wall().velocity;
     if (c.ghost() && domain->deform_vremap && (atom->mask[c.j()] & domain->deform_groupbit))
       image_velocity = observer->image_velocity(c.j());
     normal.add(c, m.normal_damping * c.normal, lever_i, lever_j, image_velocity);

@@ -55,7 +55,7 @@ struct Moments : grainscope::ContactCompute::Accumulator {
 
   void reset() override { of_contacts.clear(); }
   void add(grainscope::ContactSpan contacts, const grainscope::ContactCompute &of) override {
-    grainscope::for_each_contact(contacts, of.of_group(), [this](const Contact &c) {
+    grainscope::for_each_contact(contacts, of.selection(), [this](const Contact &c) {
       of_contacts.push_back({c.normal, c.weight, c.branch.norm(), c.normal_force, c.tangential_force.norm()});
     });
   }

@@ -3,6 +3,7 @@
 #include "arguments.h"
 #include "contact_law.h"
 #include "contact_observer.h"
+#include "fix_wall_gran_insitu.h"
 #include "pair_gran_insitu.h"
 #include "require_finite.h"
 #include "atom.h"
@@ -84,13 +85,23 @@ void ContactCompute::answer() { error->all(FLERR, (name_ + ": declares numbers t
 
 bool ContactCompute::in_group(int i) const { return atom->mask[i] & groupbit; }
 
-ContactCompute::Group ContactCompute::of_group() const { return {atom->mask, groupbit}; }
+ContactCompute::Selection ContactCompute::selection() const { return {atom->mask, groupbit, walls_}; }
+
+void ContactCompute::read_walls(Arguments &arguments) {
+  const std::string choice = arguments.choice("walls", {"no", "yes", "only"});
+  walls_ = choice == "no" ? Walls::no : choice == "yes" ? Walls::yes : Walls::only;
+}
 
 const ContactLaw &ContactCompute::law() const { return PairGranInsitu::required_by(lmp, name_.c_str())->law(); }
 
 void ContactCompute::require_known_losses() const {
   const std::string why = law().why_no_losses();
   if (!why.empty()) Arguments(lmp, name_).fail(why);
+  if (walls_ == Walls::no) return;
+  for (const Wall &wall : walls_of(lmp)) {
+    const std::string of_wall = wall.law ? wall.law->why_no_losses() : "";
+    if (!of_wall.empty()) Arguments(lmp, name_).fail("wall '" + wall.name + "': " + of_wall + ". Or say 'walls no'");
+  }
 }
 
 void ContactCompute::require_tally() const {

@@ -9,6 +9,7 @@
 
 namespace grainscope {
 
+class Arguments;
 class ContactObserver;
 struct Contact;
 struct ContactLaw;
@@ -41,27 +42,35 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
   void add_contacts(ContactSpan contacts) override;
   void end_run() override;
 
-  /** The contacts that belong to a group: both of their grains do. */
-  struct Group {
+  /** Contacts with walls, as the keyword `walls` chooses them. */
+  enum class Walls { no, yes, only };
+
+  /** The contacts that belong to the measure: all of their grains are in the group. */
+  struct Selection {
     const int *mask;
     int bit;
+    Walls walls;
+    bool has(const Contact &c) const;
   };
-  Group of_group() const;
+  Selection selection() const;
   /** Sums `values` over all ranks, in place. */
   void sum_over_ranks(double *values, int n) const;
 
  protected:
   ContactObserver *observer_;
   std::string name_;  // "compute <style>", for messages
+  Walls walls_ = Walls::yes;
 
+  /** The value of the keyword `walls`. */
+  void read_walls(Arguments &arguments);
   void sums_over(Accumulator &sums) { sums_.push_back(&sums); }
   /** Fills scalar, vector and array, as far as there are, for the evaluation that was tallied. Collective. */
   virtual void answer();
 
   bool in_group(int i) const;
   const ContactLaw &law() const;
-  /** Errors unless the damping and friction of the contact model are known, because their powers are reported. In
-   *  init(). */
+  /** Errors unless the damping and friction of the contact model, and of those of walls where they are chosen, are
+   *  known, because their powers are reported. In init(). */
   void require_known_losses() const;
   /** Errors unless the current step was tallied. */
   void require_tally() const;

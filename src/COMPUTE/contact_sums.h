@@ -8,11 +8,17 @@
 
 namespace grainscope {
 
-/** Calls `use` with each of the contacts that belongs to the group. */
+inline bool ContactCompute::Selection::has(const Contact &c) const {
+  const PartnerGrain *other = std::get_if<PartnerGrain>(&c.partner);
+  if (!other) return walls != Walls::no && (mask[c.i] & bit);
+  return (mask[c.i] & mask[other->index] & bit) && walls != Walls::only;
+}
+
+/** Calls `use` with each of the contacts that belongs to the measure. */
 template <class Use>
-void for_each_contact(ContactSpan contacts, ContactCompute::Group group, const Use &use) {
+void for_each_contact(ContactSpan contacts, ContactCompute::Selection selection, const Use &use) {
   for (const Contact &c : contacts)
-    if (group.mask[c.i] & group.mask[c.j()] & group.bit) use(c);
+    if (selection.has(c)) use(c);
 }
 
 /** Sums over the contacts of a compute's group. The kernel has
@@ -29,7 +35,7 @@ class ContactSums : public ContactCompute::Accumulator {
     reduced_ = false;
   }
   void add(ContactSpan contacts, const ContactCompute &of) override {
-    for_each_contact(contacts, of.of_group(), [this](const Contact &c) { mine_.add(c); });
+    for_each_contact(contacts, of.selection(), [this](const Contact &c) { mine_.add(c); });
   }
   /** Of this rank. */
   Kernel &mine() { return mine_; }

@@ -9,6 +9,8 @@
 
 namespace grainscope {
 
+struct ContactLaw;
+
 /** The same contact in the previous force evaluation, kept in columns of the contact history (`pair_style gran/insitu
  *  ... ledger on`). None of it changes sign when i and j are swapped. Works are those of the half step after x_{n-1},
  *  with the velocities before it. */
@@ -26,25 +28,27 @@ struct PartnerGrain {
   bool ghost = false;  // its owner sees this contact too
 };
 
-/** A wall that a grain touches. */
+/** A wall that a grain touches: a surface of infinite mass that moves as it likes. */
 struct PartnerWall {
-  int wall = -1;      // number of the wall's fix, from 0
+  int wall = -1;      // number of the wall, from 0: a primitive wall, or one mesh of a mesh wall
   int triangle = -1;  // ID of the mesh's triangle; -1 for a primitive wall
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // at the contact point
 };
 
 /** How the two surfaces move against each other at the contact point, and what the contact law makes of it. */
 struct ContactMotion {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  // contact point
-  // from the centre of i to the contact point; from that of j it is arm + branch
+  // from the centre of i to the contact point; from that of j, a grain, it is arm + branch
   Eigen::Vector3d arm = Eigen::Vector3d::Zero();
-  double normal_velocity = 0.0;  // (v_i - v_j at the contact point) . normal, < 0 approaching
-  Eigen::Vector3d tangential_velocity = Eigen::Vector3d::Zero();  // of i relative to j at the contact point
-  double normal_damping = 0.0;                                    // the damping part of normal_force
-  double normal_stiffness = 0.0;                                  // secant k_n: elastic force / overlap
-  double tangential_stiffness = 0.0;                              // k_t
-  double damping_coefficient = 0.0;                               // gamma_n: damping force / normal velocity
-  double tangential_damping = 0.0;                                // gamma_t, acting while `damped`
-  bool damped = false;                                            // tangential damping acts: the spring was not cut
+  // of i relative to its partner, at the contact point
+  double normal_velocity = 0.0;  // along the normal, < 0 approaching
+  Eigen::Vector3d tangential_velocity = Eigen::Vector3d::Zero();
+  double normal_damping = 0.0;        // the damping part of normal_force
+  double normal_stiffness = 0.0;      // secant k_n: elastic force / overlap
+  double tangential_stiffness = 0.0;  // k_t
+  double damping_coefficient = 0.0;   // gamma_n: damping force / normal velocity
+  double tangential_damping = 0.0;    // gamma_t, acting while `damped`
+  bool damped = false;                // tangential damping acts: the spring was not cut
 };
 
 /** The tangential spring s; its force on i is -k_t s. */
@@ -55,7 +59,7 @@ struct ContactSpring {
 };
 
 struct ContactRolling {
-  Eigen::Vector3d spin = Eigen::Vector3d::Zero();    // angular velocity of i less that of j
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();    // angular velocity of i, less that of j where it is a grain
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  // on i, its opposite on j: the torque beyond that of the force
 };
 
@@ -65,10 +69,12 @@ struct ContactRolling {
 struct Contact {
   int i = -1;  // local index
   std::variant<PartnerGrain, PartnerWall> partner;
+  const ContactLaw *law = nullptr;  // by which the two push each other; a wall may have another than grains
   // 1, or 1/2 when j is a ghost: weighted sums over ranks count each contact once
   double weight = 1.0;
-  Eigen::Vector3d branch = Eigen::Vector3d::Zero();  // r = x_i - x_j
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // unit, from j to i
+  // r = x_i - x_j; at a wall x_i less the contact point
+  Eigen::Vector3d branch = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // unit, from the partner to i
   double overlap = 0.0;                              // normal overlap, > 0
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   // total force on i
   // force . normal, > 0 pushes apart; damping (and cohesion) included
@@ -91,10 +97,14 @@ struct Contact {
   std::optional<ContactRolling> rolling;  // of a law with a rolling model
 
   bool with_wall() const { return std::holds_alternative<PartnerWall>(partner); }
-  /** Local index of the other grain; a contact with a wall has none. */
+  /** Of a contact with a wall. */
+  const PartnerWall &wall() const { return std::get<PartnerWall>(partner); }
+  /** Local index of the other grain, of a contact between grains. */
   int j() const { return std::get<PartnerGrain>(partner).index; }
   /** The other grain is a ghost: its owner sees this contact too. */
-  bool ghost() const { return std::get<PartnerGrain>(partner).ghost; }
+  bool ghost() const { return !with_wall() && std::get<PartnerGrain>(partner).ghost; }
+  /** The partner is a grain of this rank, to which this contact belongs too. */
+  bool with_own_grain() const { return !with_wall() && !std::get<PartnerGrain>(partner).ghost; }
 };
 
 /** Contacts one after the other in memory. */

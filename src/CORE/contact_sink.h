@@ -34,6 +34,8 @@ class ContactSink {
   virtual bool needs_motion() const { return true; }
   /** True if image shifts of ghosts must be known during the evaluation. */
   virtual bool needs_images() const { return false; }
+  /** The evaluation is complete. */
+  virtual void end_contacts() {}
   /** A run has ended: results of the last evaluation are to be computed now, while grains are as they were then. Called
    *  on every rank alike. */
   virtual void end_run() {}

@@ -20,13 +20,14 @@ class GrainPower {
     used_ = false;
   }
 
-  /** Force on i at the contact point and its opposite on j; `image_velocity` is that of a ghost j, else ignored. */
+  /** Force on i at the contact point and its opposite on the partner; `image_velocity` is that of a ghost j or a wall,
+   *  else ignored. */
   void add(const Contact &c, const Eigen::Vector3d &force, const Eigen::Vector3d &lever_i,
            const Eigen::Vector3d &lever_j, const Eigen::Vector3d &image_velocity) {
     used_ = true;
     add_wrench(c.i, force, lever_i);
-    if (c.ghost()) image_power_ += c.weight * force.dot(image_velocity);
-    else add_wrench(c.j(), -force, lever_j);
+    if (c.with_own_grain()) add_wrench(c.j(), -force, lever_j);
+    else image_power_ += c.weight * force.dot(image_velocity);
   }
 
   /** Power of the collected forces with these velocities, over this rank's grains; the sum over ranks is sum F . (v_i -

@@ -18,7 +18,8 @@ struct NetworkResponse {
   double stiffness = 0.0;
   double damping = 0.0;
 
-  void add(const Contact &c, int axis, const ContactLaw &law) {
+  void add(const Contact &c, int axis) {
+    const ContactLaw &law = *c.law;
     const double n2 = c.normal[axis] * c.normal[axis], r = c.branch[axis], wr2 = c.weight * r * r;
     const ContactMotion &m = *c.motion;
     pressure += c.weight * c.force[axis] * r;

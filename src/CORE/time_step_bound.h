@@ -20,8 +20,9 @@ constexpr double limit = 4.0;
 constexpr double harmless = 0.4;
 
 /** (dt^2 k + 2 dt gamma_n)/m_eff of one contact [-], k the tangent stiffness. */
-inline double of_contact(const ContactMotion &m, const ContactLaw &law, double effective_mass, double dt) {
-  return dt * (dt * law.tangent_stiffness(m) + 2.0 * m.damping_coefficient) / effective_mass;
+inline double of_contact(const Contact &c, double effective_mass, double dt) {
+  const ContactMotion &m = *c.motion;
+  return dt * (dt * c.law->tangent_stiffness(m) + 2.0 * m.damping_coefficient) / effective_mass;
 }
 
 /** One grain against its contacts, held still beyond them: twice its largest eigenvalue, over all grains, is never
@@ -31,7 +32,8 @@ class GrainModes {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
   /** `arm`: from the grain's centre to the contact point. */
-  void add(const Contact &c, const Eigen::Vector3d &arm, const ContactLaw &law) {
+  void add(const Contact &c, const Eigen::Vector3d &arm) {
+    const ContactLaw &law = *c.law;
     const Eigen::Matrix3d n = c.normal * c.normal.transpose(), t = Eigen::Matrix3d::Identity() - n;
     const ContactMotion &m = *c.motion;
     const double k_t = law.sticks() ? m.tangential_stiffness : 0.0, damping_t = m.damped ? m.tangential_damping : 0.0;

@@ -23,6 +23,7 @@ void ContactObserver::remove_all() {
   for (ContactSink *sink : sinks_) sink->set_source(nullptr);
   sinks_.clear();
   listening_.clear();
+  walls_ = 0;
 }
 
 bool ContactObserver::begin(bool springs_move, bool repeats) {
@@ -33,7 +34,8 @@ bool ContactObserver::begin(bool springs_move, bool repeats) {
   bool images = false;
   for (ContactSink *sink : sinks_)
     if (sink->wants_contacts()) listening_.push_back(sink);
-  active_ = !listening_.empty() || keeps_past_;
+  active_ = wanted_ = !listening_.empty() || keeps_past_;
+  to_come_ = walls_;
   stamp_before_ = repeats ? -1.0 : stamp_;
   if (!repeats) {
     stamp_ = lmp->update->ntimestep + (runs_ % 1023 + 1) / 1024.0;  // never 0, which is what a new neighbour has
@@ -61,9 +63,17 @@ void ContactObserver::hand_over() {
   next_ = batch_.data();
 }
 
+void ContactObserver::begin_wall() {
+  to_come_--;
+  active_ = wanted_;
+  if (active_) batch_.fill(Contact());  // a wall's law may leave out what the grains' fills in
+}
+
 void ContactObserver::end() {
   if (next_ != batch_.data()) hand_over();
   active_ = false;
+  if (to_come_ > 0) return;
+  for (ContactSink *sink : listening_) sink->end_contacts();
 }
 
 void ContactObserver::end_run() const {

@@ -23,6 +23,9 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   void remove(ContactSink *sink) override;
   void remove_all();
 
+  /** A fix for walls takes part, from now until remove_all(). */
+  void add_wall() { walls_++; }
+
   /** Contacts are to be read in every evaluation, because they remember it (`ledger on`). */
   void set_keeps_past(bool keeps) { keeps_past_ = keeps; }
   bool keeps_past() const { return keeps_past_; }
@@ -34,6 +37,9 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   /** Asks the sinks, before a force evaluation. `springs_move`: false in the first of a run. `repeats`: it repeats the
    *  last evaluation of the previous run. Returns true if one of the sinks needs image shifts. */
   bool begin(bool springs_move, bool repeats);
+  /** A fix for walls begins: all of them come after the grains of the same evaluation. */
+  void begin_wall();
+  /** The grains, or those of one fix for walls, are through. */
   void end();
   bool active() const { return active_; }
   bool repeats() const { return repeats_; }
@@ -75,6 +81,8 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   std::array<Contact, 32> batch_;  // 16 kB: they stay in the first cache
   Contact *next_ = batch_.data();  // the first that is not filled in
   bool active_ = false;
+  int walls_ = 0, to_come_ = 0;  // fixes for walls; of this evaluation
+  bool wanted_ = false;  // the evaluation, by a sink or for what contacts remember
   bool motion_ = false;
   bool keeps_past_ = false;
   bool springs_move_ = true;

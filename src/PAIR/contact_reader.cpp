@@ -14,7 +14,7 @@ using Eigen::Vector3d;
  *  the host's own operations and order, so that a spring that was not cut compares equal to the last bit. In the first
  *  evaluation of a run the host moves no spring: a cut then means that the force was limited, and slip is what would
  *  have been cut; where it repeats an evaluation, springs have been cut. */
-inline void ContactReader::judge_spring(const Surfaces &s, Friction &friction) const {
+inline void ContactReader::repeat_spring(const Surfaces &s, Friction &friction) const {
   double x = spring_[0], y = spring_[1], z = spring_[2];
   if (observer_.springs_move()) {
     const double dt = observer_.time_step();
@@ -35,7 +35,7 @@ inline void ContactReader::judge_spring(const Surfaces &s, Friction &friction) c
 }
 
 /** Where no spring has moved, whether the limit is reached is known from the force alone. */
-inline void ContactReader::judge_damping(const Surfaces &s, Friction &friction) const {
+inline void ContactReader::compare_damping(const Surfaces &s, Friction &friction) const {
   const double spring[3] = {-(s.kt * spring_[0]), -(s.kt * spring_[1]), -(s.kt * spring_[2])};
   const double u[3] = {s.vtr1, s.vtr2, s.vtr3};
   friction.beyond = TangentialBound::length(s.gammat, spring, u) > friction.limit;
@@ -43,13 +43,13 @@ inline void ContactReader::judge_damping(const Surfaces &s, Friction &friction) 
     friction.damping = TangentialBound::largest(s.gammat, spring, u, friction.limit);
 }
 
-inline ContactReader::Friction ContactReader::judge_friction(const Surfaces &s, double limit) const {
+inline ContactReader::Friction ContactReader::friction_of(const Surfaces &s, double limit) const {
   Friction friction;
   friction.limit = limit;
   friction.damping = law_.tangential == TangentialLaw::none ? 0.0 : s.gammat;
   if (law_.tangential == TangentialLaw::spring) {
-    judge_spring(s, friction);
-    if (!friction.cut && s.gammat > 0.0 && observer_.first_evaluation()) judge_damping(s, friction);
+    repeat_spring(s, friction);
+    if (!friction.cut && s.gammat > 0.0 && observer_.first_evaluation()) compare_damping(s, friction);
   } else if (law_.tangential == TangentialLaw::viscous) {
     const double speed = std::sqrt(s.vtr1 * s.vtr1 + s.vtr2 * s.vtr2 + s.vtr3 * s.vtr3);
     friction.cut = limit < s.gammat * speed;
@@ -77,10 +77,16 @@ const char *ContactReader::past_column(int k) {
   return names[k];
 }
 
+/** Where the value is kept from the batch's last use: all of it is written again. */
+template <class Value>
+Value &kept(std::optional<Value> &value) {
+  return value ? *value : value.emplace();
+}
+
 void ContactReader::read_past(const Surfaces &s, Contact &c) const {
   const double *at = s.contact_history + law_.past_column;
-  c.past.reset();
-  if (at[0] == observer_.stamp_before()) c.past.emplace(ContactPast{at[1], at[2], at[3], at[4], at[5]});
+  if (at[0] == observer_.stamp_before()) kept(c.past) = ContactPast{at[1], at[2], at[3], at[4], at[5]};
+  else c.past.reset();
 }
 
 void ContactReader::write_past(const Surfaces &s, const Contact &c) const {
@@ -101,12 +107,15 @@ inline double ContactReader::normal_damping(const Surfaces &s) const {
   return law_.elastic && law_.limits_force && damping + elastic < 0.0 ? -elastic : damping;
 }
 
-inline void ContactReader::add_motion(const Surfaces &s, const Friction &friction, Contact &c) const {
-  const Map<const Vector3d> xi(observer_.positions()[s.i]);
-  ContactMotion &m = c.motion.emplace();
-  if (s.is_non_spherical) m.point = Map<const Vector3d>(s.contact_point);
-  else m.point = xi - s.cri * c.normal;
-  m.arm = m.point - xi;
+inline Vector3d ContactReader::contact_point(const Surfaces &s) const {
+  const Map<const Vector3d> x(observer_.positions()[s.i]), normal(s.en);
+  return s.is_non_spherical ? Vector3d(Map<const Vector3d>(s.contact_point)) : Vector3d(x - s.cri * normal);
+}
+
+inline void ContactReader::read_motion(const Surfaces &s, const Friction &friction, Contact &c) const {
+  ContactMotion &m = kept(c.motion);
+  m.point = contact_point(s);
+  m.arm = m.point - Map<const Vector3d>(observer_.positions()[s.i]);
   m.normal_velocity = s.vn;
   m.tangential_velocity = Vector3d(s.vtr1, s.vtr2, s.vtr3);
   m.normal_damping = normal_damping(s);
@@ -117,33 +126,29 @@ inline void ContactReader::add_motion(const Surfaces &s, const Friction &frictio
   m.damped = !friction.cut && friction.damping > 0.0;
 }
 
-inline void ContactReader::add_spring(const Surfaces &s, const Friction &friction, Contact &c) const {
-  ContactSpring &spring = c.spring.emplace();
+inline void ContactReader::read_spring(const Surfaces &s, const Friction &friction, Contact &c) const {
+  ContactSpring &spring = kept(c.spring);
   spring.after = Map<const Vector3d>(s.contact_history + law_.spring_column);
   spring.before = Map<const Vector3d>(spring_);
   if (friction.cut && observer_.springs_move()) spring.cut = Map<const Vector3d>(friction.spring) - spring.after;
+  else spring.cut.setZero();
 }
 
-inline void ContactReader::add_rolling(const Surfaces &s, const Forces &force_on_i, Contact &c) const {
-  ContactRolling &rolling = c.rolling.emplace();
-  rolling.spin = Map<const Vector3d>(s.omega_i) - Map<const Vector3d>(s.omega_j);
+inline void ContactReader::read_rolling(const Surfaces &s, const Forces &force_on_i, Contact &c) const {
+  ContactRolling &rolling = kept(c.rolling);
+  rolling.spin = Map<const Vector3d>(s.omega_i);
+  if (!s.is_wall) rolling.spin -= Map<const Vector3d>(s.omega_j);
   rolling.torque = Map<const Vector3d>(force_on_i.delta_torque) - c.motion->arm.cross(c.force);
 }
 
-void ContactReader::after(const Surfaces &s, const Forces &force_on_i) {
-  const double *const *x = observer_.positions();
-  const Map<const Vector3d> xi(x[s.i]), xj(x[s.j]);
+inline __attribute__((always_inline)) void ContactReader::read(const Surfaces &s, const Forces &force_on_i,
+                                                               Contact &c) const {
   const Vector3d normal(s.en[0], s.en[1], s.en[2]),
       force(force_on_i.delta_F[0], force_on_i.delta_F[1], force_on_i.delta_F[2]);
   const double normal_force = force.dot(normal), coefficient = law_.friction_coefficient(s.itype, s.jtype);
-  const Friction friction = judge_friction(s, ContactLaw::friction_limit(coefficient, s.Fn));
-
-  Contact &c = observer_.next();
-  const bool ghost = s.j >= observer_.local_grains();
+  const Friction friction = friction_of(s, ContactLaw::friction_limit(coefficient, s.Fn));
   c.i = s.i;
-  c.partner.emplace<PartnerGrain>(PartnerGrain{s.j, ghost});
-  c.weight = ghost ? 0.5 : 1.0;
-  c.branch = xi - xj;
+  c.law = &law_;
   c.normal = normal;
   c.overlap = s.deltan;
   c.force = force;
@@ -154,12 +159,30 @@ void ContactReader::after(const Surfaces &s, const Forces &force_on_i) {
   c.friction_force = law_.liquid_bridges ? friction_force(s, friction, c) : c.tangential_force;
   c.sliding = friction.cut || friction.beyond;
   c.slip = friction.slip;
-  if (observer_.needs_motion()) add_motion(s, friction, c);
+  if (observer_.needs_motion()) read_motion(s, friction, c);
   if (!law_.keeps_past()) return;
   read_past(s, c);
-  if (law_.tangential == TangentialLaw::spring) add_spring(s, friction, c);
-  if (law_.rolls) add_rolling(s, force_on_i, c);
+  if (law_.tangential == TangentialLaw::spring) read_spring(s, friction, c);
+  if (law_.rolls) read_rolling(s, force_on_i, c);
   write_past(s, c);
+}
+
+void ContactReader::after(const Surfaces &s, const Forces &force_on_i) {
+  const double *const *x = observer_.positions();
+  const bool ghost = s.j >= observer_.local_grains();
+  Contact &c = observer_.next();
+  c.partner.emplace<PartnerGrain>(PartnerGrain{s.j, ghost});
+  c.weight = ghost ? 0.5 : 1.0;
+  c.branch = Map<const Vector3d>(x[s.i]) - Map<const Vector3d>(x[s.j]);
+  read(s, force_on_i, c);
+}
+
+void ContactReader::after_wall(const Surfaces &s, const Forces &force_on_i, const PartnerWall &wall) {
+  Contact &c = observer_.next();
+  c.partner.emplace<PartnerWall>(PartnerWall{wall.wall, wall.triangle, Map<const Vector3d>(s.v_j)});
+  c.weight = 1.0;
+  c.branch = Map<const Vector3d>(observer_.positions()[s.i]) - contact_point(s);
+  read(s, force_on_i, c);
 }
 
 }

@@ -15,8 +15,8 @@ class ObservedModel {
   ~ObservedModel() = default;
 };
 
-/** Turns the working data of one contact model of the host into Contacts, and gives them to the observer. Called before
- *  and after the model. */
+/** Turns the working data of one contact model of the host, of the pair style or of a wall, into Contacts, and gives
+ *  them to the observer. Called before and after the model. */
 class ContactReader {
  public:
   using Surfaces = LIGGGHTS::ContactModels::SurfacesIntersectData;
@@ -45,7 +45,10 @@ class ContactReader {
       spring_[k] = spring[k];
     }
   }
+  /** Two grains touch. */
   void after(const Surfaces &s, const Forces &force_on_i);
+  /** A grain touches a wall; its velocity is read here. */
+  void after_wall(const Surfaces &s, const Forces &force_on_i, const PartnerWall &wall);
 
  private:
   ContactObserver &observer_;
@@ -62,14 +65,16 @@ class ContactReader {
     double damping = 0.0;                // the coefficient that acts where it is not cut
     double spring[3] = {0.0, 0.0, 0.0};  // before the cut
   };
-  Friction judge_friction(const Surfaces &s, double limit) const;
-  void judge_spring(const Surfaces &s, Friction &friction) const;
-  void judge_damping(const Surfaces &s, Friction &friction) const;
+  Friction friction_of(const Surfaces &s, double limit) const;
+  void repeat_spring(const Surfaces &s, Friction &friction) const;
+  void compare_damping(const Surfaces &s, Friction &friction) const;
+  void read(const Surfaces &s, const Forces &force_on_i, Contact &c) const;
   Eigen::Vector3d friction_force(const Surfaces &s, const Friction &friction, const Contact &c) const;
   double normal_damping(const Surfaces &s) const;
-  void add_motion(const Surfaces &s, const Friction &friction, Contact &c) const;
-  void add_spring(const Surfaces &s, const Friction &friction, Contact &c) const;
-  void add_rolling(const Surfaces &s, const Forces &force_on_i, Contact &c) const;
+  Eigen::Vector3d contact_point(const Surfaces &s) const;
+  void read_motion(const Surfaces &s, const Friction &friction, Contact &c) const;
+  void read_spring(const Surfaces &s, const Friction &friction, Contact &c) const;
+  void read_rolling(const Surfaces &s, const Forces &force_on_i, Contact &c) const;
   void read_past(const Surfaces &s, Contact &c) const;
   void write_past(const Surfaces &s, const Contact &c) const;
 };

@@ -73,6 +73,10 @@ ContactReader &PairGranInsitu::reader() { return impl_->reader; }
 
 const ContactLaw &PairGranInsitu::law() const { return impl_->reader.law(); }
 
+bool PairGranInsitu::keeps_past() const { return impl_->ledger; }
+
+std::shared_ptr<grainscope::EvaluationMemory> PairGranInsitu::evaluation_memory() const { return impl_->memory.lock(); }
+
 bool PairGranInsitu::renumbered() const { return impl_->renumbered; }
 
 grainscope::EllipsoidBodies &PairGranInsitu::ellipsoid_bodies() { return impl_->bodies; }
@@ -209,14 +213,14 @@ int PairGranInsitu::column_of(const std::string &name) const {
 
 void PairGranInsitu::watch_time_step() {
   if (!law().elastic || !atom->rmass) return;
-  impl_->watch.begin_run(law());
+  impl_->watch.begin_run();
   impl_->observer.add(&impl_->watch);
 }
 
 void PairGranInsitu::compute(int eflag, int vflag) {
   if (neighbor->ago == 0 && history) impl_->checks.require_box_large_enough();
   if (neighbor->ago == 0) impl_->checks.warn_of_sphere_model(impl_->sphere_model);
-  const std::shared_ptr<grainscope::EvaluationMemory> memory = impl_->memory.lock();
+  const std::shared_ptr<grainscope::EvaluationMemory> memory = evaluation_memory();
   const bool repeats = memory && update->setupflag && memory->repeats();
   if (repeats) {
     memory->swap();
@@ -232,7 +236,6 @@ void PairGranInsitu::compute(int eflag, int vflag) {
   if (repeats) memory->swap();
   impl_->grains = atom->natoms;
   if (memory) memory->set_stamp(impl_->observer.stamp());
-  impl_->watch.evaluate();
 }
 
 /** In first evaluations, and for the walls that follow. */

@@ -17,6 +17,7 @@ PairStyle(gran/insitu,PairGranInsitu)
 namespace grainscope {
 class ContactObserver;
 class ContactReader;
+class EvaluationMemory;
 struct ContactLaw;
 }
 
@@ -51,6 +52,10 @@ class PairGranInsitu : public PairGranProxy, public grainscope::EllipsoidOwner {
   grainscope::ContactReader &reader();
   /** Of the run that was set up last. */
   const grainscope::ContactLaw &law() const;
+  /** `ledger on`. */
+  bool keeps_past() const;
+  /** With `setup neutral`, from the first set-up on; else null. */
+  std::shared_ptr<grainscope::EvaluationMemory> evaluation_memory() const;
   /** The words of the command that name models and settings. */
   const std::string &models() const;
   /** Before a run: grains were given other IDs since the last, and with them each other's springs. */

@@ -15,8 +15,8 @@ const int steps_between_checks = 1000;
 
 }
 
-void TimeStepWatch::begin_run(const ContactLaw &law) {
-  law_ = law;
+void TimeStepWatch::begin_run() {
+  level_ = Level::none;
   grains_next_ = false;
 }
 
@@ -38,18 +38,18 @@ void TimeStepWatch::begin_contacts() {
 void TimeStepWatch::add_contacts(ContactSpan contacts) {
   for (const Contact &c : contacts) {
     if (level_ == Level::contacts) {
-      const double mi = atom->rmass[c.i], mj = atom->rmass[c.j()];
-      largest_ = std::max(largest_, time_step::of_contact(*c.motion, law_, mi * mj / (mi + mj), update->dt));
+      const double mi = atom->rmass[c.i], mj = c.with_wall() ? 0.0 : atom->rmass[c.j()];
+      largest_ = std::max(largest_, time_step::of_contact(c, c.with_wall() ? mi : mi * mj / (mi + mj), update->dt));
       continue;
     }
     const Eigen::Vector3d &arm = c.motion->arm;
     if (c.motion->tangential_damping > 0.0) damped_ = 1;
-    grains_[c.i].add(c, arm, law_);
-    if (!c.ghost()) grains_[c.j()].add(c, arm + c.branch, law_);
+    grains_[c.i].add(c, arm);
+    if (c.with_own_grain()) grains_[c.j()].add(c, arm + c.branch);
   }
 }
 
-void TimeStepWatch::evaluate() {
+void TimeStepWatch::end_contacts() {
   if (level_ == Level::contacts) evaluate_contacts();
   if (level_ == Level::grains) evaluate_grains();
   level_ = Level::none;

@@ -2,7 +2,6 @@
 #ifndef GRAINSCOPE_TIME_STEP_WATCH_H
 #define GRAINSCOPE_TIME_STEP_WATCH_H
 
-#include "contact_law.h"
 #include "contact_sink.h"
 #include "time_step_bound.h"
 #include "lmptype.h"
@@ -18,16 +17,14 @@ class TimeStepWatch : public ContactSink, private LAMMPS_NS::Pointers {
  public:
   explicit TimeStepWatch(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
 
-  void begin_run(const ContactLaw &law);
+  void begin_run();
   bool wants_contacts() override;
   void begin_contacts() override;
   void add_contacts(ContactSpan contacts) override;
-  /** After the evaluation; collective on the steps that it wanted. */
-  void evaluate();
+  void end_contacts() override;
 
  private:
   enum class Level { none, contacts, grains } level_ = Level::none;
-  ContactLaw law_;
   double warned_of_ = 0.0;    // the value of b
   int steps_ = 0;             // since the last check
   bool grains_next_ = false;  // the next look is at grains

@@ -34,6 +34,12 @@ inline grainscope::Contact make_contact(double weight = 1.0) {
   return c;
 }
 
+/** The contact by another law, which must outlive it. */
+inline grainscope::Contact by(grainscope::Contact contact, const grainscope::ContactLaw &law) {
+  contact.law = &law;
+  return contact;
+}
+
 inline grainscope::ContactLaw make_law(double exponent, grainscope::TangentialLaw tangential, bool rolls = false) {
   grainscope::ContactLaw law;
   law.exponent = exponent;

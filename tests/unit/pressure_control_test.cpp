@@ -17,21 +17,21 @@ const ContactLaw hertz = make_law(1.5, TangentialLaw::spring), frictionless_hert
 
 TEST(network_response, one_contact_by_hand) {
   NetworkResponse along, across, frictionless;
-  along.add(make_contact(), 0, hertz);
+  along.add(by(make_contact(), hertz), 0);
   EXPECT_DOUBLE_EQ(along.pressure, 20.0);                // F_x r_x
   EXPECT_DOUBLE_EQ(along.stiffness, 1.5 * 600.0 * 4.0);  // the tangent of Hertz, n_x = 1
   EXPECT_DOUBLE_EQ(along.damping, 8.0 * 4.0);
   grainscope::Contact c = make_contact();
   c.branch = Eigen::Vector3d(0.0, 2.0, 0.0);  // a normal at right angles to the branch: only k_t answers
-  across.add(c, 1, hertz);
+  across.add(by(c, hertz), 1);
   EXPECT_DOUBLE_EQ(across.stiffness, 500.0 * 4.0);
   EXPECT_DOUBLE_EQ(across.damping, 0.0);  // it slides
   c.sliding = false;
   c.motion->damped = true;
   NetworkResponse sticking;
-  sticking.add(c, 1, hertz);
+  sticking.add(by(c, hertz), 1);
   EXPECT_DOUBLE_EQ(sticking.damping, 5.0 * 4.0);
-  frictionless.add(c, 1, frictionless_hertz);
+  frictionless.add(by(c, frictionless_hertz), 1);
   EXPECT_DOUBLE_EQ(frictionless.stiffness, 0.0);
 }
 

@@ -21,17 +21,17 @@ const Matrix3d inertia = 0.4 * mass * radius * radius * Matrix3d::Identity();
 TEST(time_step_bound, one_contact_of_equal_spheres_is_exact) {
   GrainModes modes;
   const Contact c = make_contact();
-  modes.add(c, Vector3d(-1.0, 0.0, 0.0), hertz);
+  modes.add(by(c, hertz), Vector3d(-1.0, 0.0, 0.0));
   const double expected = (dt * dt * 900.0 + 2.0 * dt * 8.0) / (0.5 * mass);
   EXPECT_NEAR(modes.fastest(mass, inertia, dt).value, expected, 1e-14);
-  EXPECT_NEAR(of_contact(*c.motion, hertz, 0.5 * mass, dt), expected, 1e-15);
+  EXPECT_NEAR(of_contact(by(c, hertz), 0.5 * mass, dt), expected, 1e-15);
 }
 
 TEST(time_step_bound, a_sphere_under_its_tangential_spring_has_two_sevenths_of_its_mass) {
   GrainModes modes;
   Contact c = make_contact();
   c.motion->damping_coefficient = 0.0;
-  modes.add(c, Vector3d(-1.0, 0.0, 0.0), sticking_hooke);
+  modes.add(by(c, sticking_hooke), Vector3d(-1.0, 0.0, 0.0));
   // 1/m + r^2/I = 3.5/m; k_t 3.5 = 1750 is more than k_n = 600
   EXPECT_NEAR(modes.fastest(mass, inertia, dt).value, 2.0 * dt * dt * 500.0 * 3.5 / mass, 1e-14);
 }
@@ -40,10 +40,10 @@ TEST(time_step_bound, tangential_damping_counts_where_the_contact_sticks) {
   Contact c = make_contact();
   c.motion->damping_coefficient = 0.0;
   GrainModes sliding, sticking;
-  sliding.add(c, Vector3d(-1.0, 0.0, 0.0), sticking_hooke);
+  sliding.add(by(c, sticking_hooke), Vector3d(-1.0, 0.0, 0.0));
   c.sliding = false;
   c.motion->damped = true;
-  sticking.add(c, Vector3d(-1.0, 0.0, 0.0), sticking_hooke);
+  sticking.add(by(c, sticking_hooke), Vector3d(-1.0, 0.0, 0.0));
   const double difference = sticking.fastest(mass, inertia, dt).value - sliding.fastest(mass, inertia, dt).value;
   EXPECT_NEAR(difference, 2.0 * 2.0 * dt * 5.0 * 3.5 / mass, 1e-14);
 }
@@ -51,16 +51,16 @@ TEST(time_step_bound, tangential_damping_counts_where_the_contact_sticks) {
 TEST(time_step_bound, contacts_on_both_sides_add_up) {
   GrainModes one, two;
   Contact c = make_contact();
-  one.add(c, Vector3d(-1.0, 0.0, 0.0), hooke);
-  two.add(c, Vector3d(-1.0, 0.0, 0.0), hooke);
+  one.add(by(c, hooke), Vector3d(-1.0, 0.0, 0.0));
+  two.add(by(c, hooke), Vector3d(-1.0, 0.0, 0.0));
   c.normal = -c.normal;
-  two.add(c, Vector3d(1.0, 0.0, 0.0), hooke);
+  two.add(by(c, hooke), Vector3d(1.0, 0.0, 0.0));
   EXPECT_NEAR(two.fastest(mass, inertia, dt).value, 2.0 * one.fastest(mass, inertia, dt).value, 1e-14);
 }
 
 TEST(time_step_bound, the_largest_step_is_where_the_limit_is_reached) {
   GrainModes modes;
-  modes.add(make_contact(), Vector3d(-1.0, 0.0, 0.0), hertz);
+  modes.add(by(make_contact(), hertz), Vector3d(-1.0, 0.0, 0.0));
   const double largest = modes.fastest(mass, inertia, dt).largest_step();
   EXPECT_NEAR(modes.fastest(mass, inertia, largest).value, 4.0, 1e-12);
 }

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fix_wall_gran_insitu.h"
+#include "contact_observer.h"
+#include "evaluation_memory.h"
+#include "kept_wall_history.h"
+#include "mesh_velocities.h"
+#include "model_names.h"
+#include "observed_wall.h"
+#include "pair_gran_insitu.h"
+#include "restart_state.h"
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "fix_mesh_surface.h"
+#include "force.h"
+#include "global_properties.h"
+#include "modify.h"
+#include "tri_mesh.h"
+#include <algorithm>
+#include <cstring>
+#include <iostream>
+
+using namespace LAMMPS_NS;
+using grainscope::ContactLaw;
+using grainscope::ContactReader;
+using grainscope::TangentialLaw;
+using LIGGGHTS::IContactHistorySetup;
+using LIGGGHTS::Walls::Factory;
+using LIGGGHTS::Walls::IGranularWall;
+
+namespace {
+
+/** Stands for the wall's contact models while the host's constructor runs: our members are not there yet, which the
+ *  models call when they are made. */
+class Deferred : public IGranularWall {
+ public:
+  explicit Deferred(int64_t hash) : hash(hash) {}
+  void settings(int n, char **words, IContactHistorySetup *) override { this->words.assign(words, words + n); }
+  void init_granular() override {}
+  bool checkSurfaceIntersect(LIGGGHTS::ContactModels::SurfacesIntersectData &) override { return false; }
+  void compute_force(FixWallGran *, LIGGGHTS::ContactModels::SurfacesIntersectData &, bool, double *, FixMeshSurface *,
+                     int, TriMesh *, int) override {}
+  int get_history_offset(std::string) override { return -1; }
+  bool contact_match(const std::string, const std::string) override { return false; }
+
+  const int64_t hash;
+  std::vector<char *> words;  // settings of the models
+};
+
+IGranularWall *create(LAMMPS *lmp, FixWallGran *wall, int64_t hash) {
+  if (!strcmp(wall->style, "wall/gran")) return new Deferred(hash);
+  return grainscope::create_observed_wall(hash, lmp, wall);
+}
+
+/** The host's list of walls warns of every entry that is given twice: here all of them are replaced. */
+LAMMPS *take_over(LAMMPS *lmp) {
+  static bool done = false;
+  if (done) return lmp;
+  done = true;
+  std::streambuf *const errors = std::cerr.rdbuf(nullptr);
+  for (int64_t hash : grainscope::observed_walls()) Factory::instance().addStyle("gran", hash, &create);
+  std::cerr.rdbuf(errors);
+  return lmp;
+}
+
+/** The words of the command behind the style, for messages and for what they say of the models. */
+std::string words_of(int narg, char **arg) {
+  std::string words;
+  for (int k = 3; k < narg; k++) words += std::string(k > 3 ? " " : "") + arg[k];
+  return words;
+}
+
+/** In restart files, before the velocities of the meshes. */
+struct SavedWall {
+  static constexpr std::uint32_t version = 1;
+  double numbers;  // of MeshVelocities
+};
+
+}
+
+struct FixWallGranInsitu::Impl : grainscope::WallContacts {
+  Impl(LAMMPS *lmp, FixWallGranInsitu *fix) : fix(fix), velocities(lmp) {}
+  FixWallGranInsitu *fix;
+  std::string words;
+  std::vector<std::string> columns;  // of the contact history
+  int past_column = -1;              // first of the ledger's, or -1
+  double exponent = 0.0;
+  double **friction = nullptr;
+  int first = 0;  // number of its first wall
+  PairGranInsitu *pair = nullptr;
+  std::unique_ptr<ContactReader> contacts;
+  grainscope::MeshVelocities velocities;  // with `setup neutral`
+  bool restarted = false;                 // they are of a restart file
+
+  ContactReader *reader() override { return contacts.get(); }
+  void set_exponent(double value) override { exponent = value; }
+  grainscope::PartnerWall partner(const ContactReader::Surfaces &s) const override {
+    grainscope::PartnerWall wall;
+    wall.wall = first;
+    if (!fix->is_mesh_wall()) return wall;
+    FixMeshSurface **const meshes = fix->mesh_list();
+    wall.wall += std::find(meshes, meshes + fix->n_meshes(), s.fix_mesh) - meshes;
+    wall.triangle = s.mesh->id(s.j);
+    return wall;
+  }
+  std::vector<TriMesh *> meshes() const {
+    std::vector<TriMesh *> meshes;
+    for (int k = 0; k < fix->n_meshes(); k++) meshes.push_back(fix->mesh_list()[k]->triMesh());
+    return meshes;
+  }
+  int column_of(const std::string &name) const {
+    const auto at = std::find(columns.begin(), columns.end(), name);
+    return at == columns.end() ? -1 : at - columns.begin();
+  }
+};
+
+FixWallGranInsitu::FixWallGranInsitu(LAMMPS *lmp, int narg, char **arg)
+    : FixWallGran(take_over(lmp), narg, arg), impl_(new Impl(lmp, this)) {
+  impl_->words = words_of(narg, arg);
+  const std::unique_ptr<Deferred> deferred(dynamic_cast<Deferred *>(impl));
+  impl = nullptr;  // until there is another: making it may end the run
+  if (!deferred) error->fix_error(FLERR, this, "its contact models were not made by this program");
+  impl = grainscope::create_observed_wall(deferred->hash, lmp, this);
+  impl->settings(deferred->words.size(), deferred->words.data(), this);
+  const PairGranInsitu *const pair = dynamic_cast<PairGranInsitu *>(force->pair);
+  if (!pair || !pair->keeps_past()) return;
+  impl_->past_column = impl_->columns.size();
+  for (int k = 0; k < ContactReader::past_columns; k++) add_history_value(ContactReader::past_column(k), "0");
+}
+
+FixWallGranInsitu::~FixWallGranInsitu() {}
+
+grainscope::WallContacts &FixWallGranInsitu::wall_contacts() { return *impl_; }
+
+int FixWallGranInsitu::add_history_value(std::string name, std::string newtonflag) {
+  impl_->columns.push_back(name);
+  return FixWallGran::add_history_value(name, newtonflag);
+}
+
+void FixWallGranInsitu::init() {
+  FixWallGran::init();
+  impl_->contacts.reset();
+  impl_->pair = dynamic_cast<PairGranInsitu *>(force->pair);
+  if (!impl_->pair) return;
+  ContactLaw law = grainscope::law_of_models(
+      impl_->words, [this](const char *kind, const char *name) { return contact_match(kind, name); });
+  law.exponent = impl_->exponent;
+  if (impl_->pair->keeps_past() && impl_->past_column < 0)
+    error->all(FLERR, ("fix " + std::string(id) +
+                       " (wall/gran): must be defined after 'pair_style gran/insitu ... ledger on', "
+                       "which keeps more numbers for each of its contacts, got it before")
+                          .c_str());
+  if (impl_->pair->keeps_past()) law.past_column = impl_->past_column;
+  if (law.tangential == TangentialLaw::spring) law.spring_column = impl_->column_of("shearx");
+  if (law.tangential == TangentialLaw::viscous || law.tangential == TangentialLaw::spring) {
+    force->registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
+    force->registry.connect("coeffFrict", impl_->friction, "fix wall/gran");
+    law.friction = impl_->friction;
+  }
+  impl_->contacts.reset(new ContactReader(impl_->pair->observer()));
+  impl_->contacts->set_law(law);
+  impl_->pair->observer().add_wall();
+  restart_global = impl_->pair->evaluation_memory() && is_moving();
+  if (restart_global && !impl_->restarted) impl_->velocities.keep(impl_->meshes());
+  impl_->restarted = false;
+  std::vector<grainscope::Wall> before;
+  for (int k = 0; k < modify->nfix && modify->fix[k] != this; k++)
+    if (FixWallGranInsitu *wall = dynamic_cast<FixWallGranInsitu *>(modify->fix[k])) wall->add_to(before);
+  impl_->first = before.size();
+}
+
+/** The forces of the first evaluation; where it repeats the last of the run before, with its places and velocities,
+ *  and without leaving a trace in the contact history. */
+void FixWallGranInsitu::setup(int vflag) {
+  const std::shared_ptr<grainscope::EvaluationMemory> memory = impl_->pair ? impl_->pair->evaluation_memory() : nullptr;
+  if (!memory || !memory->repeats()) return FixWallGran::setup(vflag);
+  memory->swap();
+  impl_->velocities.restore(impl_->meshes());
+  {
+    const grainscope::KeptWallHistory kept(*this, fix_history_primitive_, atom->nlocal);
+    FixWallGran::setup(vflag);
+  }
+  memory->swap();
+}
+
+void FixWallGranInsitu::post_force(int vflag) {
+  if (!impl_->contacts) return FixWallGran::post_force(vflag);
+  grainscope::ContactObserver &observer = impl_->pair->observer();
+  observer.begin_wall();
+  FixWallGran::post_force(vflag);
+  observer.end();
+}
+
+void FixWallGranInsitu::write_restart(FILE *file) {
+  impl_->velocities.keep(impl_->meshes());
+  const std::vector<double> &numbers = impl_->velocities.numbers();
+  const SavedWall saved{static_cast<double>(numbers.size())};
+  if (comm->me == 0) grainscope::write_state(file, saved, numbers.data(), numbers.size() * sizeof(double));
+}
+
+void FixWallGranInsitu::restart(char *buffer) {
+  const SavedWall saved = grainscope::read_state<SavedWall>(lmp, *this, style, buffer);
+  std::vector<double> numbers(static_cast<std::size_t>(saved.numbers));
+  memcpy(numbers.data(), grainscope::state_block::tail(buffer), numbers.size() * sizeof(double));
+  impl_->velocities.set_numbers(numbers.data(), numbers.size());
+  impl_->restarted = true;
+}
+
+void FixWallGranInsitu::add_to(std::vector<grainscope::Wall> &walls) {
+  const ContactLaw *const law = impl_->contacts ? &impl_->contacts->law() : nullptr;
+  if (!is_mesh_wall()) walls.push_back({id, this, nullptr, law});
+  for (int k = 0; is_mesh_wall() && k < n_meshes(); k++)
+    walls.push_back({mesh_list()[k]->id, this, mesh_list()[k], law});
+}
+
+std::vector<grainscope::Wall> grainscope::walls_of(LAMMPS *lmp) {
+  std::vector<Wall> walls;
+  for (int k = 0; k < lmp->modify->nfix; k++)
+    if (FixWallGranInsitu *fix = dynamic_cast<FixWallGranInsitu *>(lmp->modify->fix[k])) fix->add_to(walls);
+  return walls;
+}

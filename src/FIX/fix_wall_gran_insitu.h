@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifdef FIX_CLASS
+
+FixStyle(wall/gran,FixWallGranInsitu)
+
+#else
+
+#ifndef LMP_FIX_WALL_GRAN_INSITU_H
+#define LMP_FIX_WALL_GRAN_INSITU_H
+
+#include "fix_wall_gran.h"
+#include "wall_contacts_owner.h"
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace grainscope {
+struct ContactLaw;
+
+/** One wall: a primitive fix wall/gran, or one mesh of a fix wall/gran for meshes. */
+struct Wall {
+  std::string name;  // ID of the fix wall/gran, or of the mesh
+  LAMMPS_NS::FixWallGran *fix;
+  LAMMPS_NS::FixMeshSurface *mesh;  // null for a primitive wall
+  const ContactLaw *law;            // of the run that was set up last; null without pair_style gran/insitu
+};
+
+/** All walls, in the order of their fixes: PartnerWall::wall counts them so. */
+std::vector<Wall> walls_of(LAMMPS_NS::LAMMPS *lmp);
+
+}
+
+namespace LAMMPS_NS {
+
+/** The host's fix wall/gran, with every contact offered to those who see the contacts of pair_style gran/insitu. Same
+ *  arguments, same trajectory to the last bit, with any pair style; see doc/fix_wall_gran.md. */
+class FixWallGranInsitu : public FixWallGran, public grainscope::WallContactsOwner {
+ public:
+  FixWallGranInsitu(class LAMMPS *lmp, int narg, char **arg);
+  ~FixWallGranInsitu() override;
+  void init() override;
+  void setup(int vflag) override;
+  void post_force(int vflag) override;
+  void write_restart(FILE *file) override;
+  void restart(char *buffer) override;
+  int add_history_value(std::string name, std::string newtonflag) override;
+
+  grainscope::WallContacts &wall_contacts() override;
+  /** Adds its walls, in order. */
+  void add_to(std::vector<grainscope::Wall> &walls);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}
+
+#endif
+#endif
