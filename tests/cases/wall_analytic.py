@@ -11,7 +11,8 @@ from deck import POISSON, YOUNG, Deck, Material, dump_grains, rayleigh_time, the
 from packing import DENSITY, Grain, Packing, number
 from run import run
 
-# The computes see walls. Until they do, only what LIGGGHTS itself gives is checked.
+# What computes say of walls beyond the stress: `walls`, entries in dissipation and energy/ledger, wall/contact.
+# Until they do, only what LIGGGHTS itself gives, and the stress, is checked.
 WALLS = False
 
 G = 9.81
@@ -209,9 +210,11 @@ def rolling(velocity, spin):
 SIDES = {"x": 0, "y": 1, "z": 2}
 
 
-def contact_points(snapshot, axis, place):
-    points = np.stack([snapshot[k] for k in "xyz"], axis=1)
-    points[:, SIDES[axis]] = place
+def contact_points(centres, axis, place):
+    """Where spheres of radius 1 touch a plane: the law's lever is the radius less half the overlap."""
+    points = centres.copy()
+    way = place - centres[:, SIDES[axis]]
+    points[:, SIDES[axis]] += np.sign(way) * 0.5 * (1.0 + np.abs(way))
     return points
 
 
@@ -220,11 +223,11 @@ def vectors(snapshot, *names):
 
 
 def balance(packing, planes, bulk, boundary, steps, ranks, **choices):
-    """Runs grains between planes ((axis, place, velocity) by name) and holds the stress against the walls' forces,
-    at every instant of motion: with branches x_i - x_j between grains and x_i - x_c at walls, tension positive,
+    """Runs grains between planes ((axis, place, velocity) by name) and holds the stress against the walls' forces, at
+    every instant of motion: with branches x_i - x_j between grains and x_i - x_c at walls, tension positive,
         Omega sigma_ab = sum_walls F_a x_c,b + sum_i (m_i g_a - f_i,a) x_i,b,
-    F the force of a wall on a grain, f the whole force on it: from sum_b x_i,b (f_i = contacts + m_i g). Contacts of
-    grains alone have Omega sigma_ab = sum_walls F_a x_i,b + ..., which today's `stress/contact` gives."""
+    F the force of a wall on a grain, f the whole force on it: from sum_i x_i,b (f_i = contacts + m_i g). Of contacts
+    between grains alone it is sum_walls F_a x_i,b + ..."""
     deck = Deck(packing, boundary=boundary, **choices)
     columns = "id x y z mass fx fy fz"
     body = [gravity(*bulk)] if any(bulk) else []
@@ -232,13 +235,11 @@ def balance(packing, planes, bulk, boundary, steps, ranks, **choices):
         moving = f" shear {velocity[0]} {number(velocity[1])}" if velocity else ""
         body.append(wall(deck, name, f"{axis}plane {number(place)}{moving}"))
         columns += "".join(f" f_force_{name}[{k}]" for k in (1, 2, 3))
-    words = " walls no" if WALLS else ""
-    body += [f"compute grains all stress/contact{words}", "outputs grains"]
     names = ["sxx", "syy", "szz", "sxy", "sxz", "syz"]
-    asked = [f"v_grains_{n}" for n in names]
-    if WALLS:
-        body += ["compute s all stress/contact", "outputs s", "compute w all wall/contact", "outputs w"]
-        asked += [f"v_s_{n}" for n in names]
+    kinds = {"all": "", "grains": " walls no"} if WALLS else {"all": ""}
+    for kind, words in kinds.items():
+        body += [f"compute {kind} all stress/contact{words}", f"outputs {kind}"]
+    asked = [f"v_{kind}_{n}" for kind in kinds for n in names]
     every = steps // 10
     deck.body = [*body, *dump_grains(packing, every, columns=columns), *thermo(every, "vol", *asked), f"run {steps}"]
     result = run(deck, ranks)
@@ -252,9 +253,9 @@ def balance(packing, planes, bulk, boundary, steps, ranks, **choices):
         for name, (axis, place, _) in planes.items():
             force = vectors(snapshot, *(f"f_force_{name}[{j}]" for j in (1, 2, 3)))
             at_centres += force.T @ centres
-            at_points += force.T @ contact_points(snapshot, axis, place)
+            at_points += force.T @ contact_points(centres, axis, place)
         # Across periodic faces the branch is not between the centres here: only b along the others.
-        for kind, expected in (("grains", at_centres), ("s", at_points))[: 2 if WALLS else 1]:
+        for kind, expected in zip(kinds, (at_points, at_centres)):
             for n in names:
                 a, b = SIDES[n[1]], SIDES[n[2]]
                 if boundary.split()[b] == "p":
