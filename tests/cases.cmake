@@ -464,6 +464,14 @@ add_cases(outputs-variables cases/outputs.py LABEL case STYLES outputs stress/co
 add_cases(outputs-variables cases/outputs.py LABEL case
   STYLES outputs fabric contact/local property/atom contact/direction stress/contact CASES chosen listed-only users-own given-again)
 
+# Walls: what one grain at a wall does, in closed form, and the balance of the forces of walls with the stress
+add_cases(stress/contact-at-walls cases/wall_analytic.py LABEL case
+  STYLES stress/contact wall/gran dissipation energy/ledger
+  RANKS 1 LONG_RANKS 2
+  CASES bouncing-ball-0.1 bouncing-ball-0.3 bouncing-ball-0.5 bouncing-ball-0.7 bouncing-ball-0.9 sliding-block-30
+  sliding-block-60 spinning-ball-rolls thrown-ball-rolls backspin full-box plates spheroid-lies-ellipsoid
+  spheroid-lies-superquadric spheroid-stands-ellipsoid spheroid-stands-superquadric block-in-a-drum)
+
 # Format of the files, and what the tools that look for faults say of them
 add_cases(suite-style cases/style.py LABEL case STYLES suite style CASES clang-format black flake8 citation)
 add_cases(suite-style cases/style.py LABEL long STYLES suite style CASES clang-tidy)
