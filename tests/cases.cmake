@@ -201,7 +201,7 @@ add_cases(wall/gran-mended cases/walls_mended.py LABEL case STYLES wall/gran RAN
   floor-diagonal-superquadric floor-beside-the-diagonal-superquadric floor-far-superquadric floor-diagonal-ellipsoid
   floor-beside-the-diagonal-ellipsoid floor-far-ellipsoid edge-superquadric edge-ellipsoid)
 add_cases(wall/gran-mended cases/walls_mended.py LABEL case STYLES wall/gran CASES
-  torque-large torque-small torque-ellipsoid)
+  torque-large torque-small torque-ellipsoid second-run)
 add_cases(surface/ellipsoid-contact cases/ellipsoid_contacts.py LABEL case STYLES surface/ellipsoid CASES
   poles-meet poles-meet-gaussian poles-meet-mean equators-meet-gaussian equators-meet-mean flat-faces-meet-gaussian
   flat-faces-meet-mean unlike-grains-meet unlike-grains-meet-gaussian unlike-grains-meet-mean sphere-meets-pole-mean

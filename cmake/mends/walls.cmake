@@ -37,3 +37,7 @@ mend(fix_wall_gran_base.h "      wg->add_contactforce_stress_wall(ip, i_forces, 
       wg->add_contactforce_stress_wall(ip, i_forces, atom->superquadric_flag ? branch : sidata.delta, vwall, mesh?mesh->id(iTri):0);
     }"
      "likewise, the stress by wall contacts")
+
+mend(mesh_module_stress.h "virtual void setup(int vflag) {}"
+     "virtual void setup(int vflag) {}\n    virtual void setup_pre_force(int vflag) { pre_force(vflag); }"
+     "force and torque on a mesh are doubled when a run begins after another")

@@ -108,7 +108,20 @@ def torque(size, surface):
     return case
 
 
+def second_run(ranks):
+    """The force on a mesh when a run begins is that of one evaluation."""
+    deck = Deck(alone(Grain((3.0, 2.0, 0.99), (1.0,) * 3), "sphere"), boundary="f f f")
+    mesh = walls(deck, "mesh")
+    mesh[0] = "fix floor all mesh/surface/stress file floor.stl type 1"
+    deck.body = ["unfix integrate", *mesh, *dump_grains(deck.packing, 1), *thermo(1, "f_floor[3]"), "run 1", "run 0"]
+    done = run_in_folder_with_floor(deck, ranks)
+    force = done.dump("grains.dump")[-1][1]["fz"][0]
+    require(force > 1.0, "the grain does not touch the mesh")
+    require_close(done.thermo()[-1]["f_floor[3]"][-1], -force, ROUNDING, "force on the mesh as a run begins")
+
+
 CASES = {
+    "second-run": second_run,
     **{
         f"cylinder-turns-{axis}-{where}": rotating(axis, radius, place, "y" if axis == "x" else "x")
         for axis in "xyz"
