@@ -194,6 +194,14 @@ add_cases(surface/ellipsoid-wall cases/ellipsoid_walls.py LABEL case STYLES surf
   limit-alone-on-a-mesh)
 add_cases(surface/ellipsoid-wall cases/ellipsoid_walls.py LABEL case STYLES surface/ellipsoid RANKS 1 LONG_RANKS 2 CASES
   pile)
+add_cases(wall/gran-mended cases/walls_mended.py LABEL case STYLES wall/gran RANKS 1 CASES
+  cylinder-turns-x-inside cylinder-turns-x-inside-narrow cylinder-turns-x-outside
+  cylinder-turns-y-inside cylinder-turns-y-inside-narrow cylinder-turns-y-outside
+  cylinder-turns-z-inside cylinder-turns-z-inside-narrow cylinder-turns-z-outside
+  floor-diagonal-superquadric floor-beside-the-diagonal-superquadric floor-far-superquadric floor-diagonal-ellipsoid
+  floor-beside-the-diagonal-ellipsoid floor-far-ellipsoid edge-superquadric edge-ellipsoid)
+add_cases(wall/gran-mended cases/walls_mended.py LABEL case STYLES wall/gran CASES
+  torque-large torque-small torque-ellipsoid second-run)
 add_cases(surface/ellipsoid-contact cases/ellipsoid_contacts.py LABEL case STYLES surface/ellipsoid CASES
   poles-meet poles-meet-gaussian poles-meet-mean equators-meet-gaussian equators-meet-mean flat-faces-meet-gaussian
   flat-faces-meet-mean unlike-grains-meet unlike-grains-meet-gaussian unlike-grains-meet-mean sphere-meets-pole-mean
@@ -305,7 +313,7 @@ add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL RANKS 1 LON
   box-turned-orthogonal grains-deleted clear-starts-afresh-with-ellipsoids pair-style-twice
   time-step-changed-in-mid-run box-scaled)
 add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 4 CASES
-  grains-inserted clear-starts-afresh steps-numbered-anew)
+  grains-inserted clear-starts-afresh steps-renumbered)
 add_cases(every-style-rank-sweep cases/rank_sweep.py LABEL case STYLES ALL RANKS 8 CASES spheroids-through-a-flip)
 add_cases(every-style-rank-sweep cases/rank_sweep.py LABEL case STYLES ALL LONG_RANKS 8 CASES
   spheres superquadrics-through-a-flip)
@@ -362,7 +370,7 @@ add_cases(study-runs cases/study_runs.py LABEL case STYLES study RANKS 1 LONG_RA
   killed-run-continues longer-strain-continues)
 add_cases(study-runs cases/study_runs.py LABEL case STYLES study CASES
   one-at-a-time stopped-run-has-not-ended first-restart-cut no-restart-whole other-variables-refused
-  part-must-be-named reason-is-told means-of-files table-holds-everything)
+  part-must-be-named reason-is-given means-of-files table-holds-everything)
 add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study CASES basic-measures bad-configuration)
 add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study LONG_RANKS 1 CASES
   failing-runs-do-not-stop-others study-goes-on)
@@ -463,6 +471,14 @@ add_cases(outputs-variables cases/outputs.py LABEL case STYLES outputs stress/co
   prefixes)
 add_cases(outputs-variables cases/outputs.py LABEL case
   STYLES outputs fabric contact/local property/atom contact/direction stress/contact CASES chosen listed-only users-own given-again)
+
+# Walls: what one grain at a wall does, in closed form, and the balance of the forces of walls with the stress
+add_cases(stress/contact-at-walls cases/wall_analytic.py LABEL case
+  STYLES stress/contact wall/gran dissipation energy/ledger
+  RANKS 1 LONG_RANKS 2
+  CASES bouncing-ball-0.1 bouncing-ball-0.3 bouncing-ball-0.5 bouncing-ball-0.7 bouncing-ball-0.9 sliding-block-30
+  sliding-block-60 spinning-ball-rolls thrown-ball-rolls backspin full-box plates spheroid-lies-ellipsoid
+  spheroid-lies-superquadric spheroid-stands-ellipsoid spheroid-stands-superquadric block-in-a-drum)
 
 # Format of the files, and what the tools that look for faults say of them
 add_cases(suite-style cases/style.py LABEL case STYLES suite style CASES clang-format black flake8 citation)

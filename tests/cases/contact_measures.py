@@ -35,10 +35,10 @@ def computes_for(packing):
 
 
 def comparisons(moment, computes, doubt):
-    told = moment.vector(FABRIC)
-    yield comparison.compare("fabric scalar", moment.scalar(FABRIC), told[18], 1.0, True)
-    yield from comparison.of_fabric(told[:22], moment.rows)
-    yield from comparison.of_weighted(told[22:], moment.rows)
+    printed = moment.vector(FABRIC)
+    yield comparison.compare("fabric scalar", moment.scalar(FABRIC), printed[18], 1.0, True)
+    yield from comparison.of_fabric(printed[:22], moment.rows)
+    yield from comparison.of_weighted(printed[22:], moment.rows)
     yield from comparison.of_direction(moment.array(DIRECTION), moment.rows, doubt=doubt)
     yield from comparison.of_grains(moment.peratom(GRAIN), moment.rows, moment.grains, moment.chosen)
     for watched, angle, axis in ((POLAR, "polar", "auto"), (PARAMETRIC, "parametric", "auto"), (BY_X, "polar", "x")):
