@@ -374,7 +374,7 @@ def drained(ranks):
     scenery = [
         FALL,
         "fix gate all mesh/surface file gate.stl type 1",
-        "fix count all massflow/mesh mesh gate vec_side 0. 0. -1. delete_atoms yes",
+        "fix count all massflow/mesh mesh gate vec_side 0. 0. -1. count once delete_atoms yes",
         wall(deck, "primitive type 1 zcylinder 2.7 0. 0.", "side"),
     ]
     result = run_with(body(deck, scenery, 1500, 50, columns=["atoms"]), ranks, [("gate", floor(half=4.0))])
@@ -430,8 +430,8 @@ def rained(ranks):
 
 
 def between_runs(ranks):
-    """Between two runs grains are deleted, and join the group: what they have leaves and comes with them, and the ledger
-    goes on."""
+    """Between two runs grains are deleted, and join the group: what they have leaves and comes with them, and the
+    ledger goes on."""
     deck = scene(spheroids(20, 2.9, 0.5), half=6.0, timestep=0.1 * rayleigh_time(0.5))
     scenery = [FALL, wall(deck, PLANE), wall(deck, "primitive type 1 zcylinder 3.0 0. 0.", "side")]
     one_run = "run 1000"
@@ -590,7 +590,8 @@ def restarted(hole, *words):
 
 
 def torn_apart(ranks):
-    """Two spheres leave one after the other, pressed together: what is stored in their contact leaves with the first."""
+    """Two spheres leave one after the other, pressed together: what is stored in their contact leaves with the
+    first."""
     grains = [Grain((0.0, 0.0, -9.0)), Grain((0.0, 0.0, -7.05))]
     grains = [replace(g, velocity=(0.0, 0.0, -40.0), omega=(0.0, 1.0 * k, 0.0)) for k, g in enumerate(grains)]
     deck = scene(grains, half=5.0, atom_style="sphere", timestep=1e-4)
