@@ -127,7 +127,7 @@ void ComputeDissipation::answer_by_ledger() {
   const auto last = FixLedgerRecord::find(lmp, id)->account().last;
   const auto &sums = impl_->sums.total(*this).sums;
   const double dt = update->dt;
-  put_vector(
-      {last[E::D_n] / dt, last[E::D_t] / dt, last[E::D_damp] / dt, sums[LossSums::contacts], sums[LossSums::sliding]});
+  put_vector({(last[E::D_n] - last[E::D_n_w]) / dt, (last[E::D_t] - last[E::D_t_w]) / dt,
+              (last[E::D_damp] - last[E::D_damp_w]) / dt, sums[LossSums::contacts], sums[LossSums::sliding]});
   scalar = vector[0] + vector[1] + vector[2];
 }
