@@ -82,7 +82,7 @@ struct FixLedgerRecord::Impl {
   bool may_pass = false;    // grains, in a step
   bool laws_known = false;  // those of walls
   std::string name;         // of the compute, for messages
-  bool stepping = false;  // from the beginning of a step to its end
+  bool stepping = false;    // from the beginning of a step to its end
   double dt = 0.0;
 
   /** The state of all ranks together: the first one keeps it. */

@@ -413,8 +413,7 @@ def rained(ranks):
         FALL,
         wall(deck, PLANE),
         "region above block -5 5 -5 5 4 8 units box",
-        "fix small all particletemplate/sphere 15485863 atom_type 1 density constant 1000 "
-        f"radius constant {radius}",
+        "fix small all particletemplate/sphere 15485863 atom_type 1 density constant 1000 " f"radius constant {radius}",
         "fix kinds all particledistribution/discrete 15485867 1 small 1.0",
         "fix insert all insert/rate/region seed 32452843 distributiontemplate kinds nparticles 30 particlerate 50 "
         f"insert_every 200 vel constant 0 0 {-speed} overlapcheck yes all_in yes region above",
