@@ -55,6 +55,8 @@ add_cases(contact/surface-refused errors/measures.py LABEL error STYLES contact/
   surface-two-shapes)
 add_cases(contact/surface-refused errors/measures.py LABEL error STYLES contact/surface RANKS 1 LONG_RANKS 2 CASES
   surface-triaxial surface-of-spheres)
+add_cases(wall/contact-refused errors/walls.py LABEL error STYLES wall/contact wall/triangle RANKS 1 2 CASES names)
+add_cases(wall/contact-refused errors/walls.py LABEL error STYLES wall/contact CASES gone come-and-gone unknown-losses)
 add_cases(velocity/correlation-refused errors/measures.py LABEL error STYLES velocity/correlation CASES
   correlation-mesh-too-fine)
 add_cases(velocity/correlation-refused errors/measures.py LABEL error STYLES velocity/correlation RANKS 1 2 CASES

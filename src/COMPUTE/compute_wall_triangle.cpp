@@ -49,6 +49,7 @@ struct ComputeWallTriangle::Impl {
   std::vector<double> wear;
   std::vector<double> values;  // the rows, one after the other
   std::vector<double *> rows;
+  bool told = false;  // of the last evaluation; after a run its meshes may be gone
 
   /** In the first evaluation of a run: IDs are known when a mesh is distributed. What was worn stays, unless there are
    *  other triangles. */
@@ -90,6 +91,7 @@ void ComputeWallTriangle::init() {
 bool ComputeWallTriangle::wants_contacts() { return ContactCompute::wants_contacts() || impl_->keeps_wear; }
 
 void ComputeWallTriangle::begin_contacts() {
+  impl_->told = false;
   impl_->count_triangles();
   ContactCompute::begin_contacts();
 }
@@ -105,6 +107,8 @@ void ComputeWallTriangle::end_contacts() {
 void ComputeWallTriangle::compute_local() {
   require_tally();
   invoked_local = update->ntimestep;
+  if (impl_->told) return;
+  impl_->told = true;
   const WallTriangleSums &all = impl_->sums.total(*this);
   std::vector<double> wear = impl_->wear;
   sum_over_ranks(wear.data(), static_cast<int>(wear.size()));

@@ -67,9 +67,7 @@ def balance(ranks):
             f, t, x = (of_grains(grains, *names.split()) for names in ("fx fy fz", "tqx tqy tqz", "x y z"))
             require_close(force[k], -f.sum(axis=0), ROUNDING, "force on all walls", large)
             lacking = -(np.cross(x - ABOUT, f) + t).sum(axis=0)
-            # of superquadrics the host's two grains take their torques about points that differ by what its solver
-            # leaves
-            require_close(torque[k], lacking, ROUNDING if style == "sphere" else 1e-9, "torque on all walls", 5 * large)
+            require_close(torque[k], lacking, ROUNDING, "torque on all walls", 5 * large)
         for row, wall in enumerate(WALLS[1:], 2):
             axis, sign = "xy".index(wall[0]), -1.0 if wall[1] == "0" else 1.0
             require_close(vectors(table, "w", "force", row)[:, axis], sign * of(table, "w", "F_n", row), ROUNDING, wall)

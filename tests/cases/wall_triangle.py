@@ -36,7 +36,7 @@ def on_the_floor(every, steps, moves=True):
     return deck
 
 
-CEILING = flat(-1.0, 7.0, 3, height=5.88)
+CEILING = flat(-1.0, 7.0, 3, height=5.88, aside=-0.3)
 MESHES = {"floor": FLOOR, "ceiling": CEILING}
 
 

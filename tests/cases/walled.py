@@ -20,13 +20,14 @@ def stl(triangles):
     return "\n".join([*lines, "endsolid mesh"]) + "\n"
 
 
-def flat(low, high, squares, height=0.0):
-    """A square in two triangles for each of squares x squares."""
+def flat(low, high, squares, height=0.0, aside=0.0):
+    """A square in two triangles for each of squares x squares, moved along y by `aside`. Of grains above the diagonals
+    of squares the host decides by the order of its lists which triangle they touch."""
     at = np.linspace(low, high, squares + 1)
     found = []
     for x0, x1 in zip(at, at[1:]):
         for y0, y1 in zip(at, at[1:]):
-            a, b, c, d = ((x, y, height) for x, y in ((x0, y0), (x1, y0), (x1, y1), (x0, y1)))
+            a, b, c, d = ((x, y + aside, height) for x, y in ((x0, y0), (x1, y0), (x1, y1), (x0, y1)))
             found += [(a, b, c), (a, c, d)]
     return found
 
@@ -89,5 +90,5 @@ def boxed(packing, meshes=("floor",), **choices):
     return deck
 
 
-FLOOR = flat(-1.0, 7.0, 4)
+FLOOR = flat(-1.0, 7.0, 4, aside=-0.3)
 WALLS = ("floor", "x0", "x1", "y0", "y1")
