@@ -442,7 +442,7 @@ add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall
   balance mesh-stress drum)
 add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall/gran RANKS 1 2 CASES impacts)
 add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall/gran CASES
-  weight power-of-a-plane losses areas impacts-resumed)
+  couple weight power-of-a-plane losses areas impacts-resumed)
 add_cases(wall/triangle cases/wall_triangle.py LABEL case STYLES wall/triangle wall/contact RANKS 1 2 LONG_RANKS 4
   CASES rows wear)
 
@@ -453,7 +453,8 @@ add_cases(suite-floors cases/floors.py LABEL case STYLES suite CASES
 
 # Outputs have names
 set(with_outputs stress/contact fabric contact/direction contact/surface contact/grain contact/local contact/solver
-  wall/contact wall/triangle displacement/shear dissipation energy/ledger fluctuation layering nematic velocity/correlation velocity/memory
+  wall/contact wall/triangle
+  displacement/shear dissipation energy/ledger fluctuation layering nematic velocity/correlation velocity/memory
   property/atom press/strain)
 add_cases(every-style-outputs cases/outputs_declared.py LABEL case STYLES outputs ${with_outputs} RANKS 1 2 CASES every-number)
 add_cases(every-style-outputs cases/outputs_declared.py LABEL case STYLES outputs ${with_outputs} CASES

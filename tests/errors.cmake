@@ -1,7 +1,8 @@
 # Every style's command line: what must be refused, each bad input in a process of its own; and what must be taken
 set(styles_with_keywords stress/contact nematic contact/grain contact/solver energy/ledger dissipation fabric
   contact/surface contact/direction contact/local fluctuation layering velocity/correlation velocity/memory
-  wall/contact wall/triangle displacement/shear press/strain nve/spheroid gran/insitu)
+  wall/contact wall/triangle
+  displacement/shear press/strain nve/spheroid gran/insitu)
 set(keywords ${CMAKE_CURRENT_SOURCE_DIR}/errors/keywords.py)
 foreach(style IN LISTS styles_with_keywords)
   string(REPLACE / - case ${style})

@@ -8,7 +8,7 @@ import numpy as np
 
 from case import main, require, require_close, require_equal
 from columns import outputs
-from deck import Deck, Material, dump_grains, thermo
+from deck import POISSON, YOUNG, Deck, Material, dump_grains, thermo
 from packing import Grain, Packing
 from walled import FLOOR, WALLS, area_of, boxed, cube, drum, flat, run_with_meshes
 
@@ -80,6 +80,32 @@ def balance(ranks):
             for name in table:
                 scale = max(float(np.abs(alone[name]).max()), large)
                 require_close(table[name], alone[name], 1e-12, f"{name} of {ranks} ranks and of one", scale)
+
+
+def couple(ranks):
+    """Of a ball that spins on a smooth wall the wall feels the couple of rolling friction, mu_r r F_n, in the sense of
+    the spin, and nothing else about the ball."""
+    ball = Grain((1.0, 2.0, 0.99), omega=(0.0, 3.0, 0.0))
+    packing = Packing((12.0,) * 3, [ball], origin=(-6.0,) * 3, atom_style="sphere", triclinic=False)
+    deck = Deck(packing, boundary="f f f", rolling="cdt", material=Material(friction=(0.0,), rolling=(0.1,)))
+    deck.body = [
+        f"fix floor all wall/gran {deck.model()} primitive type 1 zplane 0",
+        "compute w all wall/contact about 1 2 0",
+        *thermo(1, *words("w", 1)),
+        *dump_grains(packing, 1),
+        "run 3",
+    ]
+    result = run_with_meshes(deck, ranks)
+    table = result.thermo()[-1]
+    # in the first evaluation of a run the host damps beyond the friction limit, which sets the ball in motion
+    force, torque = vectors(table, "w", "force")[1:], vectors(table, "w", "torque")[1:]
+    grains = [g for _, g in result.dump("grains.dump")][1:]
+    turned, x = (np.stack([of_grains(g, *names.split())[0] for g in grains]) for names in ("tqx tqy tqz", "x y z"))
+    require_close(torque, -turned + np.cross(x - [1.0, 2.0, 0.0], force), ROUNDING, "torque against the grain's")
+    # the model takes the elastic part of F_n, of two equal materials
+    elastic = 4.0 / 3.0 * YOUNG / (2.0 * (1.0 - POISSON**2)) * (1.0 - x[:, 2]) ** 1.5
+    require_close(-turned[:, 1], 0.1 * elastic, 1e-9, "couple")
+    require_equal(of(table, "w", "F_t")[1], 0.0, "friction")
 
 
 def mesh_stress(ranks):
@@ -327,6 +353,7 @@ def areas(ranks):
 
 CASES = {
     "balance": balance,
+    "couple": couple,
     "mesh-stress": mesh_stress,
     "weight": weight,
     "power-of-a-plane": power_of_a_plane,
