@@ -445,6 +445,15 @@ add_cases(study-runs cases/study_runs.py LABEL case STYLES study RANKS 1 LONG_RA
 add_cases(build-bare-debian cases/bare_debian.py LABEL long STYLES build CASES
   demos-are-equal tests-on-bookworm tests-on-trixie clang-of-trixie)
 
+# What grains do at walls
+add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall/gran RANKS 1 2 LONG_RANKS 4 CASES
+  balance mesh-stress drum)
+add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall/gran RANKS 1 2 CASES impacts)
+add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall/gran CASES
+  couple weight power-of-a-plane losses areas impacts-resumed)
+add_cases(wall/triangle cases/wall_triangle.py LABEL case STYLES wall/triangle wall/contact RANKS 1 2 LONG_RANKS 4
+  CASES rows wear)
+
 # Includes between the folders of src/
 add_cases(suite-floors cases/floors.py LABEL case STYLES suite CASES
   includes-go-down small-tree-passes up-refused up-by-angle-brackets-refused beside-refused host-in-core-refused
@@ -452,6 +461,7 @@ add_cases(suite-floors cases/floors.py LABEL case STYLES suite CASES
 
 # Outputs have names
 set(with_outputs stress/contact fabric contact/direction contact/surface contact/grain contact/local contact/solver
+  wall/contact wall/triangle
   displacement/shear dissipation energy/ledger fluctuation layering nematic velocity/correlation velocity/memory
   property/atom press/strain)
 add_cases(every-style-outputs cases/outputs_declared.py LABEL case STYLES outputs ${with_outputs} RANKS 1 2 CASES every-number)

@@ -25,8 +25,7 @@ struct LossSums {
     if (of != Of::powers) return;
     sums[normal_damping] += c.weight * damping_loss(c);
     sums[friction] += c.weight * friction_loss(c);
-    if (c.motion->damped)
-      sums[tangential_damping] += c.weight * c.motion->tangential_damping * c.motion->tangential_velocity.squaredNorm();
+    sums[tangential_damping] += c.weight * tangential_damping_loss(c);
   }
   std::array<double, 5> &numbers() { return sums; }
 };

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cstring>
 #include <iostream>
+#include <sstream>
 
 using namespace LAMMPS_NS;
 using grainscope::ContactLaw;
@@ -61,6 +62,16 @@ LAMMPS *take_over(LAMMPS *lmp) {
   for (int64_t hash : grainscope::observed_walls()) Factory::instance().addStyle("gran", hash, &create);
   std::cerr.rdbuf(errors);
   return lmp;
+}
+
+/** What follows `primitive type N` in the words of a command. */
+std::vector<std::string> primitive_of(const std::string &words) {
+  std::istringstream all(words);
+  std::vector<std::string> found;
+  for (std::string word; found.size() < 7 && all >> word;)
+    if (word == "primitive" || !found.empty()) found.push_back(word);
+  found.erase(found.begin(), found.begin() + std::min<std::size_t>(found.size(), 3));
+  return found;
 }
 
 /** The words of the command behind the style, for messages and for what they say of the models. */
@@ -208,9 +219,9 @@ void FixWallGranInsitu::restart(char *buffer) {
 
 void FixWallGranInsitu::add_to(std::vector<grainscope::Wall> &walls) {
   const ContactLaw *const law = impl_->contacts ? &impl_->contacts->law() : nullptr;
-  if (!is_mesh_wall()) walls.push_back({id, this, nullptr, law});
+  if (!is_mesh_wall()) walls.push_back({id, this, nullptr, law, primitive_of(impl_->words)});
   for (int k = 0; is_mesh_wall() && k < n_meshes(); k++)
-    walls.push_back({mesh_list()[k]->id, this, mesh_list()[k], law});
+    walls.push_back({mesh_list()[k]->id, this, mesh_list()[k], law, {}});
 }
 
 std::vector<grainscope::Wall> grainscope::walls_of(LAMMPS *lmp) {

@@ -159,11 +159,13 @@ inline __attribute__((always_inline)) void ContactReader::read(const Surfaces &s
   c.friction_force = law_.liquid_bridges ? friction_force(s, friction, c) : c.tangential_force;
   c.sliding = friction.cut || friction.beyond;
   c.slip = friction.slip;
-  if (observer_.needs_motion()) read_motion(s, friction, c);
+  if (observer_.needs_motion()) {
+    read_motion(s, friction, c);
+    if (law_.rolls) read_rolling(s, force_on_i, c);
+  }
   if (!law_.keeps_past()) return;
   read_past(s, c);
   if (law_.tangential == TangentialLaw::spring) read_spring(s, friction, c);
-  if (law_.rolls) read_rolling(s, force_on_i, c);
   write_past(s, c);
 }
 

@@ -26,6 +26,8 @@ COMPUTES = [
     "contact/local",
     "contact/local id force",
     "contact/solver",
+    "wall/contact impacts yes",
+    "wall/triangle wear yes",
     "property/atom shapex quatw blockiness2 volume",
     *(w.command for w in everything(dense_packing(1.5))),
 ]
@@ -73,6 +75,7 @@ def asked(kind, style):
         "contact/grain": ("compute sum all reduce sum c_it[1]", "c_sum"),
         "stress/atom": ("compute sum all reduce sum c_it[1]", "c_sum"),
         "coord/atom": ("compute sum all reduce sum c_it", "c_sum"),
+        "wall/triangle": ("compute sum all reduce sum c_it[1]", "c_sum"),
         "contact/local": ("compute sum all reduce sum c_it[1]", "c_sum"),
         "property/atom": ("compute sum all reduce sum c_it[1]", "c_sum"),
         "contact/direction": ("", "c_it[1][1]"),

@@ -23,6 +23,8 @@ COMMANDS = {
     "contact/grain": "",
     "contact/local": "",
     "contact/solver": "",
+    "wall/contact": "impacts yes",
+    "wall/triangle": "wear yes",
     "displacement/shear": "strain v_strain",
     "dissipation": "",
     "energy/ledger": "",
