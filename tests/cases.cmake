@@ -28,7 +28,7 @@ add_cases(stress/contact+dissipation+nematic-oracle cases/measures_against_oracl
 add_cases(stress/contact+dissipation+nematic-oracle cases/measures_against_oracle.py LABEL case
   STYLES ${first_measures} RANKS 1 LONG_RANKS 2 CASES
   spheres spheres-in-the-open spheroid-1.5-in-the-open spheres-through-a-flip spheroids-through-a-flip
-  walls-not-counted)
+  walls)
 add_cases(stress/contact+dissipation+nematic-oracle cases/measures_against_oracle.py LABEL case
   STYLES ${first_measures} CASES
   spheroid-0.33-in-the-open spheroid-3-in-the-open polydisperse two-types frictionless no-history subgroup
@@ -80,7 +80,7 @@ add_cases(fabric+contact/surface+contact/direction+contact/grain-oracle cases/co
   spheres-mu-0 spheres-mu-10 spheres-polydisperse spheroid-0.33-in-the-open spheroid-0.67-in-the-open
   spheroid-1-in-the-open spheroid-3-in-the-open spheroid-1.5-mu-0 spheroid-1.5-mu-10 spheroid-0.33 polydisperse
   two-types with-tangential-damping no-history tilted-backward subgroup group-of-one axis-along-body-x
-  walls-not-counted units-cgs)
+  walls units-cgs)
 add_cases(fabric+contact/surface+contact/direction+contact/grain-oracle cases/contact_measures.py LABEL case
   STYLES ${contact_measures} RANKS 1 2 CASES spheroid-1.5)
 add_cases(fabric+contact/surface+contact/direction+contact/grain-oracle cases/contact_measures.py LABEL case

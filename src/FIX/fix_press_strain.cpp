@@ -262,6 +262,7 @@ void FixPressStrain::take_input() {
 double FixPressStrain::pressure_now() {
   Impl &my = *impl_;
   if (my.pressure_step == update->ntimestep || !attached()) return my.pressure;
+  my.observer->require_complete("fix press/strain");
   my.pressure_step = update->ntimestep;
   my.pressure = my.now.pressure * force->nktv2p / my.observer->box().volume;
   MPI_Allreduce(MPI_IN_PLACE, &my.pressure, 1, MPI_DOUBLE, MPI_SUM, world);
