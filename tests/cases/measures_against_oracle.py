@@ -123,7 +123,7 @@ def check_dissipation(moment, tolerance, dt):
         if walls == "no":
             normal = measures.normal_loss_of_step(rows, moment.grains, moment.box)
         else:
-            normal = measures.wall_loss_of_step(rows, moment.grains, np.zeros(3))
+            normal = measures.wall_loss_of_step(rows, moment.grains, np.zeros(3), measures.normal_damping(rows))
         friction = measures.friction_of_step(rows, dt)
         scale = max(abs(normal), abs(friction), 1e-300)
         require_close(loss[:2], [normal, friction], tolerance, "dissipation of the step", scale)

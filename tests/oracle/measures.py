@@ -74,17 +74,24 @@ def friction_of_step(rows, dt):
     return np.sum(np.linalg.norm(rows["ft"], axis=1) * rows["slip"]) / dt
 
 
-def wall_loss_of_step(rows, grains, velocities):
-    """As normal_loss_of_step, of contacts with walls that move by `velocities` at the contact points."""
-    force, i = rows["fn_damping"][:, None] * rows["normal"], grains.index(rows["id"][:, 0])
+def normal_damping(rows):
+    return rows["fn_damping"][:, None] * rows["normal"]
+
+
+def wall_loss_of_step(rows, grains, velocities, force):
+    """As loss_of_step, of contacts with walls that move by `velocities` at the contact points."""
+    i = grains.index(rows["id"][:, 0])
     u = grains.v[i] + np.cross(grains.omega[i], rows["point"] - grains.x[i]) - velocities
     return -np.sum(np.einsum("ca,ca->c", force, u))
 
 
 def normal_loss_of_step(rows, grains, box):
-    """Minus the power of the damping forces with the velocities at the end of the step: per grain force . v and torque
+    return loss_of_step(rows, grains, box, normal_damping(rows))
+
+
+def loss_of_step(rows, grains, box, force):
+    """Minus the power of damping forces with the velocities at the end of the step: per grain force . v and torque
     . omega, and for contacts across a face the velocity of the partner's image."""
-    force = rows["fn_damping"][:, None] * rows["normal"]
     i, j = grains.index(rows["id"][:, 0]), grains.index(rows["id"][:, 1])
     lever_i = rows["point"] - grains.x[i]
     lever_j = lever_i + rows["branch"]
