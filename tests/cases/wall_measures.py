@@ -72,7 +72,7 @@ class Scene:
 
 
 def box_of_walls(**choices):
-    """Dense spheres between six planes that each overlap the outermost ones; the upper plane slides along x."""
+    """Dense spheres between six planes that each overlap the outermost ones; the floor slides along x."""
     packing = dense_packing(atom_style="sphere", **choices)
     gap = 0.29
     planes = [(axis, side) for axis in range(3) for side in (0, 1)]
@@ -84,7 +84,7 @@ def box_of_walls(**choices):
     body = [gravity()]
     for axis, side in planes:
         place = packing.edges[axis] + gap if side else -gap
-        moving = " shear x 0.5" if (axis, side) == (2, 1) else ""
+        moving = " shear x 0.5" if (axis, side) == (2, 0) else ""
         body.append(
             f"fix plane{axis}{side} all wall/gran model hertz tangential {{}} primitive type 1 {'xyz'[axis]}plane "
             f"{place!r}{moving} {{}}"
@@ -98,11 +98,11 @@ def of_model(deck, **choices):
     return replace(deck, body=[line.format(deck.tangential, deck.extra) for line in deck.body])
 
 
-def upper_plane_slides(normals, points):
-    return np.where(normals[:, 2:] < -0.5, [[0.5, 0.0, 0.0]], 0.0)
+def floor_slides(normals, points):
+    return np.where(normals[:, 2:] > 0.5, [[0.5, 0.0, 0.0]], 0.0)
 
 
-BOX = Scene(of_model(box_of_walls()), velocity=upper_plane_slides, settle=60)
+BOX = Scene(of_model(box_of_walls()), velocity=floor_slides, settle=60)
 VISCOUS = replace(BOX, deck=of_model(box_of_walls(), tangential="no_history", extra=""), viscous=True)
 
 TURN, AXIS = 0.7, np.array([0.8, 0.0, -0.5])  # radians per time, about y through this point
@@ -279,7 +279,67 @@ def check_balance(moment):
     require_close(found, expected, EXACT, "stress by what walls and weight do", size * len(rows["fn"]))
 
 
+def rows_of_walls(scene, ranks, steps=5):
+    """(step, rows by column) of contact/local with the columns that only walls have, and `walls only`."""
+    words = [*ROW_COLUMNS, "wall", "triangle"]
+    every = [f"c_walls[{k}]" for k in range(1, ROW_WIDTH + 3)]
+    body = [
+        *scene.deck.body,
+        *thermo(100, "step"),
+        f"run {scene.settle}",
+        f"compute walls all contact/local walls only {' '.join(words)}",
+        "compute grains all contact/local walls no id",
+        "compute both all contact/local walls yes id",
+        f"dump walls all local {steps} walls.dump {' '.join(every)}",
+        'dump_modify walls format "' + " ".join(["%.17g"] * len(every)) + '"',
+        *dump_local("grains", 2, steps, "grains"),
+        *dump_local("both", 2, steps, "both"),
+        f"run {steps}",
+    ]
+    result = run(replace(scene.deck, body=body), ranks, folder=meshes.folder_with(**scene.meshes))
+    for (step, columns), *others in zip(*map(result.dump, ("walls.dump", "grains.dump", "both.dump"))):
+        own, none, both = (list(c.values()) for _, c in ((step, columns), *others))
+        require(len(own[0]) + len(none[0]) == len(both[0]) and len(own[0]) > 20, "rows by the keyword walls")
+        require((own[1] == 0).all() and (none[1] > 0).all(), "id_j is 0 for walls alone")
+        table, rows, first = np.stack(own, axis=1), {}, 0
+        for name in words:
+            width = ROW_COLUMNS.get(name, 1)
+            rows[name] = table[:, first] if width == 1 else table[:, first : first + width]
+            first += width
+        yield step, rows
+
+
+def numbers_of_planes(ranks):
+    """Walls count in the order of their fixes; a primitive wall has no triangle."""
+    for _, rows in rows_of_walls(replace(BOX, settle=0), ranks):
+        inward = np.repeat(np.eye(3), 2, axis=0) * np.tile([1.0, -1.0], 3)[:, None]
+        require_close(rows["normal"], inward[rows["wall"].astype(int) - 1], 1e-12, "normals by the wall's number")
+        require(set(rows["wall"]) == {1, 2, 3, 4, 5, 6}, f"walls {sorted(set(rows['wall']))}")
+        require((rows["triangle"] == -1).all() and (rows["image"] == 0).all(), "triangle -1, image 0")
+        # from the contact point, half an overlap inside, to the centre
+        arm = (1.0 - 0.5 * rows["overlap"])[:, None]
+        require_close(rows["branch"], arm * rows["normal"], 1e-12, "branch")
+
+
+def numbers_of_triangles(ranks):
+    """Each mesh of a fix is a wall; triangles count from 0 in the order of their file."""
+    triangles = [np.array(PISTON.meshes[name], dtype=float) for name in ("box", "plate")]
+    seen = set()
+    for _, rows in rows_of_walls(PISTON, ranks):
+        for k, (wall, triangle) in enumerate(zip(rows["wall"].astype(int), rows["triangle"].astype(int))):
+            a, b, c = triangles[wall - 1][triangle]
+            normal = np.cross(b - a, c - a) / np.linalg.norm(np.cross(b - a, c - a))
+            seen.add(wall)
+            if wall == 1:  # the plate is no longer where its file has it
+                depth = abs(normal @ (rows["point"][k] - a))
+                require_close(depth, 0.5 * rows["overlap"][k], 1e-10, "distance of the triangle", 1.0)
+            require_close(abs(normal @ rows["normal"][k]), 1.0, 1e-6, "normal of the triangle", 1.0)
+    require(seen == {1, 2}, f"walls {seen}")
+
+
 CASES = {
+    "numbers-of-planes": numbers_of_planes,
+    "numbers-of-triangles": numbers_of_triangles,
     "box": agrees(BOX),
     "box-viscous": agrees(VISCOUS),
     "box-subgroup": agrees(BOX, "10:60", fewest=10),
