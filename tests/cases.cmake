@@ -99,7 +99,13 @@ add_cases(fabric+contact/surface+contact/direction+contact/grain-analytic cases/
   STYLES ${contact_measures} RANKS 1 LONG_RANKS 2 CASES
   every-bin-oblate-parametric opposite-bins powers-of-spheres-add-up)
 
-# contacts with walls, in every measure of contacts
+# wall/gran: the motion of the host's, contacts with walls in every measure of contacts
+add_cases(wall/gran-bitwise-equal cases/wall_bitwise.py LABEL case STYLES wall/gran gran/insitu RANKS 1 2 CASES
+  walls-default)
+add_cases(wall/gran-bitwise-equal cases/wall_bitwise.py LABEL case STYLES wall/gran gran/insitu RANKS 1 LONG_RANKS 2
+  CASES walls-superquadric models-default models-superquadric)
+add_cases(wall/gran-bitwise-equal cases/wall_bitwise.py LABEL case STYLES wall/gran gran/insitu surface/ellipsoid
+  RANKS 1 LONG_RANKS 2 CASES walls-ellipsoid models-ellipsoid)
 set(wall_measures wall/gran ${contact_measures} stress/contact dissipation contact/local)
 add_cases(wall/gran-measures cases/wall_measures.py LABEL case STYLES ${wall_measures} RANKS 1 2 LONG_RANKS 4 CASES
   box drum)

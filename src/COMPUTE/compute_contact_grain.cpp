@@ -22,13 +22,14 @@ enum { CONTACTS, SLIDING, NORMAL_POWER, FRICTION_POWER, MOBILISATION, ANGLE, WAL
 
 grainscope::Outputs declared() {
   grainscope::Outputs outputs;
-  outputs.per_grain = {{"N_c", "-", intensive, "contacts of the grain, with grains and with walls"},
-                       {"N_sliding", "-", intensive, "its contacts that slide"},
-                       {"P_n", "energy/time", intensive, "power lost by normal damping, half of each contact's with a grain"},
-                       {"P_t", "energy/time", intensive, "power lost by friction, half of each contact's with a grain"},
-                       {"mobilisation", "-", intensive, "|F_t| over its friction limit, mean over its contacts"},
-                       {"theta", "rad", intensive, "angle of the major axis to the flow x in the xy plane"},
-                       {"N_w", "-", intensive, "contacts of the grain with walls"}};
+  outputs.per_grain = {
+      {"N_c", "-", intensive, "contacts of the grain, with grains and with walls"},
+      {"N_sliding", "-", intensive, "its contacts that slide"},
+      {"P_n", "energy/time", intensive, "power lost by normal damping, half of each contact's with a grain"},
+      {"P_t", "energy/time", intensive, "power lost by friction, half of each contact's with a grain"},
+      {"mobilisation", "-", intensive, "|F_t| over its friction limit, mean over its contacts"},
+      {"theta", "rad", intensive, "angle of the major axis to the flow x in the xy plane"},
+      {"N_w", "-", intensive, "contacts of the grain with walls"}};
   return outputs;
 }
 

@@ -32,9 +32,10 @@ enum { CONTACTS, NORMAL, TANGENTIAL, MOBILISATION, SLIDING, NORMAL_POWER, FRICTI
 
 grainscope::Outputs declared(int bins) {
   grainscope::Outputs outputs;
-  outputs.vector = {{"P", "pressure", intensive, "sum of F_y r_y over contacts, with walls too, over the volume of the box"},
-                    {"A_p", "distance^2", intensive, "area of a grain, mean over the group"},
-                    {"N", "-", whole, "grains of the group"}};
+  outputs.vector = {
+      {"P", "pressure", intensive, "sum of F_y r_y over contacts, with walls too, over the volume of the box"},
+      {"A_p", "distance^2", intensive, "area of a grain, mean over the group"},
+      {"N", "-", whole, "grains of the group"}};
   outputs.set_array(bins, "bin of psi",
                     {{"psi", "rad", intensive, "angle of the bin's middle"},
                      {"area", "distance^2", intensive, "area A_j of the bin on a grain, mean over grains"},

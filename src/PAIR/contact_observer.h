@@ -86,7 +86,7 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   Contact *next_ = batch_.data();  // the first that is not filled in
   bool active_ = false;
   int walls_ = 0, to_come_ = 0;  // fixes for walls; of this evaluation
-  bool wanted_ = false;  // the evaluation, by a sink or for what contacts remember
+  bool wanted_ = false;          // the evaluation, by a sink or for what contacts remember
   bool motion_ = false;
   bool keeps_past_ = false;
   bool springs_move_ = true;

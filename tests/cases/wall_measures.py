@@ -7,12 +7,11 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_equal
-from columns import outputs
-from deck import POISSON, YOUNG, Deck, Material, dump_grains, dump_local, thermo
+from deck import YOUNG, Deck, dump_local, thermo
 import meshes
 from oracle import comparison, measures
-from oracle.state import ROW_COLUMNS, ROW_WIDTH, chosen_rows, grains_of, rows_of
-from packing import DENSITY, Grain, Packing, dense_packing
+from oracle.state import ROW_COLUMNS, ROW_WIDTH, chosen_rows
+from packing import Grain, Packing, dense_packing
 from run import run
 from watch import Watched, moments_of, watched_deck
 
@@ -20,6 +19,7 @@ from watch import Watched, moments_of, watched_deck
 EXACT = 1e-10
 GRAVITY = np.array([1.0, -0.5, -9.81])
 CHOICES = ("no", "yes", "only")
+UNDAMPED = "tangential_damping off"
 
 
 def gravity(g=GRAVITY):
@@ -71,39 +71,35 @@ class Scene:
         return list(moments_of(result, group=group))
 
 
+def wall(deck, name, words):
+    """By the models of the grains."""
+    return f"fix {name} all wall/gran {replace(deck, extra='').model()} {words} {deck.extra}"
+
+
 def box_of_walls(**choices):
     """Dense spheres between six planes that each overlap the outermost ones; the floor slides along x."""
-    packing = dense_packing(atom_style="sphere", **choices)
-    gap = 0.29
-    planes = [(axis, side) for axis in range(3) for side in (0, 1)]
+    packing = dense_packing(atom_style="sphere")
     deck = Deck(
         replace(packing, origin=(-2.0,) * 3, edges=tuple(e + 4.0 for e in packing.edges), triclinic=False),
         boundary="f f f",
-        extra="tangential_damping off",
+        **choices,
     )
-    body = [gravity()]
-    for axis, side in planes:
-        place = packing.edges[axis] + gap if side else -gap
-        moving = " shear x 0.5" if (axis, side) == (2, 0) else ""
-        body.append(
-            f"fix plane{axis}{side} all wall/gran model hertz tangential {{}} primitive type 1 {'xyz'[axis]}plane "
-            f"{place!r}{moving} {{}}"
-        )
-    deck.body = body
+    deck.body = [gravity()]
+    for axis in range(3):
+        for side in (0, 1):
+            place = packing.edges[axis] + 0.29 if side else -0.29
+            plane = f"primitive type 1 {'xyz'[axis]}plane {place!r}"
+            moving = " shear x 0.5" if (axis, side) == (2, 0) else ""
+            deck.body.append(wall(deck, f"plane{axis}{side}", plane + moving))
     return deck
-
-
-def of_model(deck, **choices):
-    deck = replace(deck, **choices)
-    return replace(deck, body=[line.format(deck.tangential, deck.extra) for line in deck.body])
 
 
 def floor_slides(normals, points):
     return np.where(normals[:, 2:] > 0.5, [[0.5, 0.0, 0.0]], 0.0)
 
 
-BOX = Scene(of_model(box_of_walls()), velocity=floor_slides, settle=60)
-VISCOUS = replace(BOX, deck=of_model(box_of_walls(), tangential="no_history", extra=""), viscous=True)
+BOX = Scene(box_of_walls(extra=UNDAMPED), velocity=floor_slides, settle=60)
+VISCOUS = replace(BOX, deck=box_of_walls(tangential="no_history"), viscous=True)
 
 TURN, AXIS = 0.7, np.array([0.8, 0.0, -0.5])  # radians per time, about y through this point
 
@@ -119,12 +115,11 @@ def drum():
         place = (2.3 * (x - 1) + 0.05 * y, 2.2 * (y - 1.5) + 0.03 * z, 3.1 * (z - 1) + 0.02 * x)
         grains.append(Grain(place, (1.0, 1.0, 1.5), tuple(turned), (0.0, 0.0, -1.0)))
     packing = Packing((20.0, 12.0, 20.0), grains, origin=(-10.0, -6.0, -10.0), triclinic=False)
-    deck = Deck(packing, boundary="f f f", extra="tangential_damping off", surface="ellipsoid")
+    deck = Deck(packing, boundary="f f f", extra=UNDAMPED, surface="ellipsoid")
     deck.body = [
         gravity(),
         "fix shell all mesh/surface file drum.stl type 1",
-        f"fix walls all wall/gran {replace(deck, extra='').model()} mesh n_meshes 1 meshes shell "
-        "tangential_damping off",
+        wall(deck, "walls", "mesh n_meshes 1 meshes shell"),
         f"fix turn all move/mesh mesh shell rotate origin {AXIS[0]} 0 {AXIS[2]} axis 0 1 0 period {2.0 * math.pi / TURN!r}",
     ]
     return deck
@@ -144,15 +139,12 @@ def hopper(**choices):
         x, y, z = k % 3, (k // 3) % 3, k // 9
         place = (2.2 * (x - 1) + 0.05 * z, 2.2 * (y - 1) + 0.03 * x, 3.6 + 2.2 * z)
         grains.append(Grain(place, ((0.8, 0.9, 1.0)[k % 3],) * 3, velocity=(0.0, 0.0, -3.0)))
-    packing = Packing(
-        (10.0, 10.0, 20.0), grains, atom_style="sphere", origin=(-5.0, -5.0, -2.0), triclinic=False
-    )
-    deck = Deck(packing, boundary="f f f", extra="tangential_damping off", **choices)
+    packing = Packing((10.0, 10.0, 20.0), grains, atom_style="sphere", origin=(-5.0, -5.0, -2.0), triclinic=False)
+    deck = Deck(packing, boundary="f f f", extra=UNDAMPED, **choices)
     deck.body = [
         gravity(),
         "fix silo all mesh/surface/stress file hopper.stl type 1",
-        f"fix walls all wall/gran {replace(deck, extra='').model()} mesh n_meshes 1 meshes silo "
-        "tangential_damping off",
+        wall(deck, "walls", "mesh n_meshes 1 meshes silo"),
     ]
     return deck
 
@@ -165,13 +157,13 @@ def piston():
     deck = Deck(
         replace(packing, origin=(-2.0,) * 3, edges=tuple(e + 4.0 for e in packing.edges), triclinic=False),
         boundary="f f f",
-        extra="tangential_damping off",
+        extra=UNDAMPED,
     )
     deck.body = [
         gravity(),
         "fix box all mesh/surface file box.stl type 1",
         "fix plate all mesh/surface file plate.stl type 1",
-        "fix walls all wall/gran model hertz tangential history mesh n_meshes 2 meshes box plate tangential_damping off",
+        wall(deck, "walls", "mesh n_meshes 2 meshes box plate"),
         f"fix move all move/mesh mesh plate linear 0.1 0.2 -{SPEED}",
     ]
     return Scene(deck, {"box": box, "plate": plate}, settle=200, velocity=coming_down)
@@ -270,9 +262,8 @@ def check_balance(moment):
     np.add.at(total, grains.index(between["id"][:, 1]), -between["force"])
     size = float(np.abs(rows["force"]).max())
     require_close(total, grains.force, 1e-10, "rows' forces and weight per grain", size)
-    moments = (
-        np.einsum("ca,cb->ab", at_walls["force"], at_walls["point"])
-        - np.einsum("ia,ib->ab", grains.force - weight, grains.x)
+    moments = np.einsum("ca,cb->ab", at_walls["force"], at_walls["point"]) - np.einsum(
+        "ia,ib->ab", grains.force - weight, grains.x
     )
     found = moment.vector(STRESS["yes"])[:7] * moment.force_box.volume
     expected = [*measures.six(moments), moments[1, 0]]

@@ -77,7 +77,9 @@ def bounce(kind, restitution):
     """All that the ball loses is lost by the normal damping of the wall."""
 
     def case(ranks):
-        deck = open_box([Grain((0.0, 0.0, 1.001), velocity=(0, 0, -1.0))], material=Material(restitution=(restitution,)))
+        deck = open_box(
+            [Grain((0.0, 0.0, 1.001), velocity=(0, 0, -1.0))], material=Material(restitution=(restitution,))
+        )
         deck = replace(deck, timestep=0.2 * deck.dt(), extra="tangential_damping off")
         deck.body = [
             *floor(deck, kind),
