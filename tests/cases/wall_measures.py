@@ -120,7 +120,8 @@ def drum():
         gravity(),
         "fix shell all mesh/surface file drum.stl type 1",
         wall(deck, "walls", "mesh n_meshes 1 meshes shell"),
-        f"fix turn all move/mesh mesh shell rotate origin {AXIS[0]} 0 {AXIS[2]} axis 0 1 0 period {2.0 * math.pi / TURN!r}",
+        f"fix turn all move/mesh mesh shell rotate origin {AXIS[0]} 0 {AXIS[2]} axis 0 1 0 period "
+        f"{2.0 * math.pi / TURN!r}",
     ]
     return deck
 
