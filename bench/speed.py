@@ -299,7 +299,7 @@ def main():
         choices=CASES,
         default=list(CASES),
         metavar="case",
-        help="of %(choices)s; gains are told against the first (default: all)",
+        help="of %(choices)s; gains are relative to the first (default: all)",
     )
     parser.add_argument("--repeats", type=int, default=5, help="rounds (default %(default)s)")
     parser.add_argument("--steps", type=int, help="steps of each run (default: 1000 for 2000 grains, fewer for more)")

@@ -1,4 +1,4 @@
-# What must be on the machine. All that is missing is told at once, with the one line that cures it.
+# What must be on the machine. All that is missing is reported at once, with the one line that cures it.
 
 set(missing "")
 set(packages "")

@@ -14,7 +14,7 @@ if(NOT GRAINSCOPE_VTK)
   list(FILTER staged EXCLUDE REGEX "^dump_.*vt[km]\\.(h|cpp)$")
 endif()
 
-# One mend: `old` becomes `new` in `file`, only where `old` stands. What was mended is told at the end of the configure run.
+# One mend: `old` becomes `new` in `file`, only where `old` stands. What was mended is reported at the end of the configure run.
 set(HOST_MENDS "")
 function(mend file old new why)
   if(NOT EXISTS "${HOST_SOURCE}/${file}")

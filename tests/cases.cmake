@@ -217,6 +217,14 @@ add_cases(surface/ellipsoid-wall cases/ellipsoid_walls.py LABEL case STYLES surf
   limit-alone-on-a-mesh)
 add_cases(surface/ellipsoid-wall cases/ellipsoid_walls.py LABEL case STYLES surface/ellipsoid RANKS 1 LONG_RANKS 2 CASES
   pile)
+add_cases(wall/gran-mended cases/walls_mended.py LABEL case STYLES wall/gran RANKS 1 CASES
+  cylinder-turns-x-inside cylinder-turns-x-inside-narrow cylinder-turns-x-outside
+  cylinder-turns-y-inside cylinder-turns-y-inside-narrow cylinder-turns-y-outside
+  cylinder-turns-z-inside cylinder-turns-z-inside-narrow cylinder-turns-z-outside
+  floor-diagonal-superquadric floor-beside-the-diagonal-superquadric floor-far-superquadric floor-diagonal-ellipsoid
+  floor-beside-the-diagonal-ellipsoid floor-far-ellipsoid edge-superquadric edge-ellipsoid)
+add_cases(wall/gran-mended cases/walls_mended.py LABEL case STYLES wall/gran CASES
+  torque-large torque-small torque-ellipsoid)
 add_cases(surface/ellipsoid-contact cases/ellipsoid_contacts.py LABEL case STYLES surface/ellipsoid CASES
   poles-meet poles-meet-gaussian poles-meet-mean equators-meet-gaussian equators-meet-mean flat-faces-meet-gaussian
   flat-faces-meet-mean unlike-grains-meet unlike-grains-meet-gaussian unlike-grains-meet-mean sphere-meets-pole-mean
@@ -320,7 +328,7 @@ add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL RANKS 1 LON
   box-turned-orthogonal grains-deleted clear-starts-afresh-with-ellipsoids pair-style-twice
   time-step-changed-in-mid-run box-scaled)
 add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 4 CASES
-  grains-inserted clear-starts-afresh steps-numbered-anew)
+  grains-inserted clear-starts-afresh steps-renumbered)
 add_cases(every-style-rank-sweep cases/rank_sweep.py LABEL case STYLES ALL RANKS 8 CASES spheroids-through-a-flip)
 add_cases(every-style-rank-sweep cases/rank_sweep.py LABEL case STYLES ALL LONG_RANKS 8 CASES
   spheres superquadrics-through-a-flip)
@@ -377,7 +385,7 @@ add_cases(study-runs cases/study_runs.py LABEL case STYLES study RANKS 1 LONG_RA
   killed-run-continues longer-strain-continues)
 add_cases(study-runs cases/study_runs.py LABEL case STYLES study CASES
   one-at-a-time stopped-run-has-not-ended first-restart-cut no-restart-whole other-variables-refused
-  part-must-be-named reason-is-told means-of-files table-holds-everything)
+  part-must-be-named reason-is-given means-of-files table-holds-everything)
 add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study CASES basic-measures bad-configuration)
 add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study LONG_RANKS 1 CASES
   failing-runs-do-not-stop-others study-goes-on)

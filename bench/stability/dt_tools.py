@@ -31,7 +31,7 @@ def damping_ratio(e):
 
 
 class Table:
-    """A csv whose rows are told apart by their first `keys` columns; rows already there are not made again."""
+    """A csv whose rows are distinguished by their first `keys` columns; rows already there are not made again."""
 
     def __init__(self, name, keys, columns):
         self.path, self.keys, self.columns = HERE / f"{name}.csv", keys, columns

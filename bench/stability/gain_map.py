@@ -169,7 +169,7 @@ class Bench:
 
 
 def parameters(folder):
-    """What in.simple_shear told of itself."""
+    """What in.simple_shear wrote of itself."""
     names, values = [line.split() for line in (folder / "out" / "parameters.txt").read_text().splitlines()]
     return {name.split("[")[0]: float(value) for name, value in zip(names[1:], values)}
 
@@ -303,7 +303,7 @@ def edge(rows, interval):
 
 def measure(bench, inertials, alphas):
     """Runs every cell that is not in the file yet, and more gains between the last that converges and the first that
-    does not. Gains are told in those of `gain auto` at the same place."""
+    does not. Gains are in units of that of `gain auto` at the same place."""
     done = {tuple(row[name] for name in KEY): row for row in read(CELL_FILE)}
     for inertial, alpha in itertools.product(inertials, alphas):
         for key in cells_of(inertial, alpha):

@@ -9,8 +9,9 @@
 namespace grainscope {
 
 inline bool ContactCompute::Selection::has(const Contact &c) const {
-  if (c.with_wall()) return walls != Walls::no && (mask[c.i] & bit);
-  return walls != Walls::only && (mask[c.i] & mask[c.j()] & bit);
+  const PartnerGrain *other = std::get_if<PartnerGrain>(&c.partner);
+  if (!other) return walls != Walls::no && (mask[c.i] & bit);
+  return (mask[c.i] & mask[other->index] & bit) && walls != Walls::only;
 }
 
 /** Calls `use` with each of the contacts that belongs to the measure. */

@@ -37,7 +37,8 @@ NearestImages::NearestImages(const PeriodicCell &cell, double range) {
   int most[3];
   for (int k = 0; k < 3; k++) {
     most[k] = cell.periodic[k] ? bin_index(2.0 * longest / cell.height(k), most_images) : 0;
-    if (most[k] < 0) throw std::length_error("the box is so narrow or so tilted that its images cannot be told apart");
+    if (most[k] < 0)
+      throw std::length_error("the box is so narrow or so tilted that its images cannot be distinguished");
   }
   for (int a = -most[0]; a <= most[0]; a++)
     for (int b = -most[1]; b <= most[1]; b++)

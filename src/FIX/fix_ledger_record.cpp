@@ -115,7 +115,8 @@ void FixLedgerRecord::begin_contacts() {
 void FixLedgerRecord::add_contacts(grainscope::ContactSpan contacts) {
   const bool springs_move = impl_->pair->observer().springs_move();
   for (const Contact &c : contacts)
-    if (!c.with_wall() && (atom->mask[c.i] & atom->mask[c.j()] & groupbit)) impl_->ledger.add(c, update->dt, springs_move);
+    if (!c.with_wall() && (atom->mask[c.i] & atom->mask[c.j()] & groupbit))
+      impl_->ledger.add(c, update->dt, springs_move);
 }
 
 /** Of a sphere, whose angular momentum the host does not keep. */

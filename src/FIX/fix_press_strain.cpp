@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_press_strain.h"
+#include "clipping_watch.h"
 #include "contact_observer.h"
 #include "fluctuations.h"
 #include "pair_gran_insitu.h"
+#include "press_strain_host_arguments.h"
 #include "press_strain_requirements.h"
 #include "press_strain_settings.h"
-#include "range_warning.h"
 #include "restart_state.h"
 #include "atom.h"
 #include "comm.h"
@@ -13,18 +14,15 @@
 #include "force.h"
 #include "modify.h"
 #include "update.h"
-#include <cstring>
 
 using namespace LAMMPS_NS;
 using grainscope::Fluctuations;
 using grainscope::NetworkResponse;
 using grainscope::press_strain_error;
-using grainscope::Tilt;
+using grainscope::PressStrainHostArguments;
 using Every = grainscope::PressStrainSettings::Every;
 
 namespace {
-
-const double often_clipped = 0.2;  // of the inputs, in steady state: by gain auto none are
 
 /** In restart files. The window is summed over ranks, so that any number of them may continue. */
 struct SavedControl {
@@ -53,10 +51,7 @@ struct FixPressStrain::Impl {
   NetworkResponse window;  // the same since the last input
   double window_steps = 0.0;
   double strain = 0.0, velocity = 0.0, averaged_pressure = 0.0, inputs = 0.0, clipped = 0.0;
-  double recently_clipped = 1.0;                        // of about a hundred inputs: a start is clipped
-  double recently_turned = 0.0, velocity_before = 0.0;  // clipped, and against the input before
-  bool settled = false;                                 // clipping has ceased once
-  grainscope::RangeWarning clipping;
+  grainscope::ClippingWatch clipping;
   bigint pressure_step = -1;
   double pressure = 0.0;
 
@@ -92,36 +87,11 @@ grainscope::Outputs FixPressStrain::Impl::declared() {
   return outputs;
 }
 
-/** What the base class is given: a deformation at rate zero of the box parameters that this fix moves, with velocities
- *  remapped. */
-struct FixPressStrain::HostArguments {
-  std::vector<std::string> words;
-  std::vector<char *> pointers;
-
-  HostArguments(LAMMPS *lmp, int narg, char **arg) : words{arg[0], arg[1], "deform", "1"} {
-    const Domain *domain = lmp->domain;
-    std::string axis = "y", shear;
-    for (int k = 3; k + 1 < narg; k++) {
-      if (!strcmp(arg[k], "axis") && strlen(arg[k + 1]) == 1 && strchr("xyz", arg[k + 1][0])) axis = arg[k + 1];
-      for (const Tilt &tilt : grainscope::tilts)
-        if (!strcmp(arg[k], "shear") && !strcmp(arg[k + 1], tilt.name) && domain->triclinic &&
-            domain->boundary[tilt.gradient][0] < 2 && domain->boundary[tilt.gradient][1] < 2)
-          shear = tilt.name;
-    }
-    const int *boundary = domain->boundary[axis[0] - 'x'];
-    if (boundary[0] >= 2 || boundary[1] >= 2) axis.clear();  // refused in our own words, later
-    for (const std::string &one : {axis, shear})
-      if (!one.empty()) words.insert(words.end(), {one, "vel", "0"});
-    words.insert(words.end(), {"remap", "v", "units", "box"});
-    for (std::string &word : words) pointers.push_back(&word[0]);
-  }
-};
-
 FixPressStrain::FixPressStrain(LAMMPS *lmp, int narg, char **arg)
-    : FixPressStrain(lmp, narg, arg, HostArguments(lmp, narg, arg)) {}
+    : FixPressStrain(lmp, narg, arg, PressStrainHostArguments(lmp, narg, arg)) {}
 
-FixPressStrain::FixPressStrain(LAMMPS *lmp, int narg, char **arg, const HostArguments &host)
-    : FixDeform(lmp, host.pointers.size(), const_cast<char **>(host.pointers.data())), impl_(new Impl(lmp, narg, arg)) {
+FixPressStrain::FixPressStrain(LAMMPS *lmp, int narg, char **arg, const PressStrainHostArguments &host)
+    : FixDeform(lmp, host.size(), host.words()), impl_(new Impl(lmp, narg, arg)) {
   // The box and its velocity remapping concern every grain; the group only says whose drift is removed.
   impl_->momentum_groupbit = groupbit;
   impl_->momentum_group = arg[1];
@@ -244,18 +214,7 @@ void FixPressStrain::take_input() {
   my.velocity = input.velocity;
   my.inputs += 1.0;
   if (input.clipped) my.clipped += 1.0;
-  my.recently_clipped += 0.01 * ((input.clipped ? 1.0 : 0.0) - my.recently_clipped);
-  my.settled = my.settled || (my.inputs >= 100.0 && my.recently_clipped < often_clipped / 4.0);
-  // A start is clipped one way; a loop that is not stable, one way and the other.
-  const bool turned = input.clipped && input.velocity * my.velocity_before < 0.0;
-  my.recently_turned += 0.01 * ((turned ? 1.0 : 0.0) - my.recently_turned);
-  my.velocity_before = input.velocity;
-  my.clipping.watch(lmp, (my.settled && my.recently_clipped > often_clipped) || my.recently_turned > often_clipped,
-                    "fix press/strain: %.2g of the last hundred inputs were clipped (limit %g), long after the start "
-                    "or one way and the other: the "
-                    "pressure is not under control. Use gain auto, a smaller gain or a shorter interval, or raise "
-                    "'limit' and 'maxrate'",
-                    my.recently_clipped, often_clipped);
+  my.clipping.watch(lmp, my.inputs, input);
 }
 
 /** Collective, once per evaluation; the last value when the pair style has been replaced since. */

@@ -13,6 +13,10 @@ FixStyle(press/strain,FixPressStrain)
 #include "outputs.h"
 #include <memory>
 
+namespace grainscope {
+class PressStrainHostArguments;
+}
+
 namespace LAMMPS_NS {
 
 /** Shears the box at a true rate and holds the normal pressure along one axis by moving that box length at strain
@@ -41,8 +45,7 @@ class FixPressStrain : public FixDeform, public grainscope::DeclaresOutputs, pub
   struct Impl;
   std::unique_ptr<Impl> impl_;
 
-  struct HostArguments;
-  FixPressStrain(class LAMMPS *lmp, int narg, char **arg, const HostArguments &host);
+  FixPressStrain(class LAMMPS *lmp, int narg, char **arg, const grainscope::PressStrainHostArguments &host);
 
   void evaluate_variables();
   double progress_of_a_step() const;

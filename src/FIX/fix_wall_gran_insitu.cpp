@@ -3,10 +3,13 @@
 #include "contact_observer.h"
 #include "evaluation_memory.h"
 #include "kept_wall_history.h"
+#include "mesh_velocities.h"
 #include "model_names.h"
 #include "observed_wall.h"
 #include "pair_gran_insitu.h"
+#include "restart_state.h"
 #include "atom.h"
+#include "comm.h"
 #include "error.h"
 #include "fix_mesh_surface.h"
 #include "force.h"
@@ -67,10 +70,16 @@ std::string words_of(int narg, char **arg) {
   return words;
 }
 
+/** In restart files, before the velocities of the meshes. */
+struct SavedWall {
+  static constexpr std::uint32_t version = 1;
+  double numbers;  // of MeshVelocities
+};
+
 }
 
 struct FixWallGranInsitu::Impl : grainscope::WallContacts {
-  explicit Impl(FixWallGranInsitu *fix) : fix(fix) {}
+  Impl(LAMMPS *lmp, FixWallGranInsitu *fix) : fix(fix), velocities(lmp) {}
   FixWallGranInsitu *fix;
   std::string words;
   std::vector<std::string> columns;  // of the contact history
@@ -80,6 +89,8 @@ struct FixWallGranInsitu::Impl : grainscope::WallContacts {
   int first = 0;  // number of its first wall
   PairGranInsitu *pair = nullptr;
   std::unique_ptr<ContactReader> contacts;
+  grainscope::MeshVelocities velocities;  // with `setup neutral`
+  bool restarted = false;                 // they are of a restart file
 
   ContactReader *reader() override { return contacts.get(); }
   void set_exponent(double value) override { exponent = value; }
@@ -92,6 +103,11 @@ struct FixWallGranInsitu::Impl : grainscope::WallContacts {
     wall.triangle = s.mesh->id(s.j);
     return wall;
   }
+  std::vector<TriMesh *> meshes() const {
+    std::vector<TriMesh *> meshes;
+    for (int k = 0; k < fix->n_meshes(); k++) meshes.push_back(fix->mesh_list()[k]->triMesh());
+    return meshes;
+  }
   int column_of(const std::string &name) const {
     const auto at = std::find(columns.begin(), columns.end(), name);
     return at == columns.end() ? -1 : at - columns.begin();
@@ -99,7 +115,7 @@ struct FixWallGranInsitu::Impl : grainscope::WallContacts {
 };
 
 FixWallGranInsitu::FixWallGranInsitu(LAMMPS *lmp, int narg, char **arg)
-    : FixWallGran(take_over(lmp), narg, arg), impl_(new Impl(this)) {
+    : FixWallGran(take_over(lmp), narg, arg), impl_(new Impl(lmp, this)) {
   impl_->words = words_of(narg, arg);
   const std::unique_ptr<Deferred> deferred(dynamic_cast<Deferred *>(impl));
   impl = nullptr;  // until there is another: making it may end the run
@@ -144,6 +160,9 @@ void FixWallGranInsitu::init() {
   impl_->contacts.reset(new ContactReader(impl_->pair->observer()));
   impl_->contacts->set_law(law);
   impl_->pair->observer().add_wall();
+  restart_global = impl_->pair->evaluation_memory() && is_moving();
+  if (restart_global && !impl_->restarted) impl_->velocities.keep(impl_->meshes());
+  impl_->restarted = false;
   std::vector<grainscope::Wall> before;
   for (int k = 0; k < modify->nfix && modify->fix[k] != this; k++)
     if (FixWallGranInsitu *wall = dynamic_cast<FixWallGranInsitu *>(modify->fix[k])) wall->add_to(before);
@@ -156,6 +175,7 @@ void FixWallGranInsitu::setup(int vflag) {
   const std::shared_ptr<grainscope::EvaluationMemory> memory = impl_->pair ? impl_->pair->evaluation_memory() : nullptr;
   if (!memory || !memory->repeats()) return FixWallGran::setup(vflag);
   memory->swap();
+  impl_->velocities.restore(impl_->meshes());
   {
     const grainscope::KeptWallHistory kept(*this, fix_history_primitive_, atom->nlocal);
     FixWallGran::setup(vflag);
@@ -169,6 +189,21 @@ void FixWallGranInsitu::post_force(int vflag) {
   observer.begin_wall();
   FixWallGran::post_force(vflag);
   observer.end();
+}
+
+void FixWallGranInsitu::write_restart(FILE *file) {
+  impl_->velocities.keep(impl_->meshes());
+  const std::vector<double> &numbers = impl_->velocities.numbers();
+  const SavedWall saved{static_cast<double>(numbers.size())};
+  if (comm->me == 0) grainscope::write_state(file, saved, numbers.data(), numbers.size() * sizeof(double));
+}
+
+void FixWallGranInsitu::restart(char *buffer) {
+  const SavedWall saved = grainscope::read_state<SavedWall>(lmp, *this, style, buffer);
+  std::vector<double> numbers(static_cast<std::size_t>(saved.numbers));
+  memcpy(numbers.data(), grainscope::state_block::tail(buffer), numbers.size() * sizeof(double));
+  impl_->velocities.set_numbers(numbers.data(), numbers.size());
+  impl_->restarted = true;
 }
 
 void FixWallGranInsitu::add_to(std::vector<grainscope::Wall> &walls) {

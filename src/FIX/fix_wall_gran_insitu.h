@@ -41,6 +41,8 @@ class FixWallGranInsitu : public FixWallGran, public grainscope::WallContactsOwn
   void init() override;
   void setup(int vflag) override;
   void post_force(int vflag) override;
+  void write_restart(FILE *file) override;
+  void restart(char *buffer) override;
   int add_history_value(std::string name, std::string newtonflag) override;
 
   grainscope::WallContacts &wall_contacts() override;

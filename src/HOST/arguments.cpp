@@ -18,7 +18,7 @@ std::string Arguments::word(const std::string &wanted) {
 }
 
 std::string Arguments::keyword(const std::vector<std::string> &keywords, const std::string &kind) {
-  const std::string got = choice(kind, keywords);
+  std::string got = choice(kind, keywords);
   if (!keywords_.insert(got).second) fail("'" + got + "' is given twice");
   return got;
 }
@@ -31,7 +31,7 @@ std::string Arguments::choice(const std::string &keyword, const std::vector<std:
   std::string list;
   for (std::size_t k = 0; k < choices.size(); k++)
     list += (k == 0 ? "" : k + 1 < choices.size() ? ", " : " or ") + choices[k];
-  const std::string got = word(list);
+  std::string got = word(list);
   for (const std::string &one : choices)
     if (got == one) return got;
   fail(keyword, list, got);

@@ -171,7 +171,7 @@ FormulaUnderway::~FormulaUnderway() { formula = outer_; }
 int index_in_brackets(LAMMPS *lmp, const char *brackets) {
   const char *digits = brackets + 1, *end = digits + std::strspn(digits, "0123456789");
   const int index = end - digits < 10 ? std::atoi(digits) : 0;
-  if (index < 1 || std::strcmp(end, "]"))
+  if (index < 1 || std::strcmp(end, "]") != 0)
     lmp->error->all(
         FLERR, ("what is in brackets must be an index, a whole number from 1 up, got '" + std::string(brackets) + "'")
                    .c_str());

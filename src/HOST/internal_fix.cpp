@@ -54,8 +54,8 @@ InternalFix *InternalFix::make_last(LAMMPS *lmp, const Words &words, const std::
 InternalFix *InternalFix::find(LAMMPS *lmp, const std::string &id, const char *style) {
   Modify *modify = lmp->modify;
   const int found = modify && modify->nfix ? modify->find_fix(id.c_str()) : -1;
-  return found < 0 || strcmp(modify->fix[found]->style, style) ? nullptr
-                                                               : static_cast<InternalFix *>(modify->fix[found]);
+  const bool known = found >= 0 && strcmp(modify->fix[found]->style, style) == 0;
+  return known ? static_cast<InternalFix *>(modify->fix[found]) : nullptr;
 }
 
 void InternalFix::remove(LAMMPS *lmp, const std::string &id, const char *style) {

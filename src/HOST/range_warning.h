@@ -13,7 +13,7 @@ namespace grainscope {
  *  after ten values outside in succession, because the start of a flow passes through much that does not last. */
 class RangeWarning {
  public:
-  /** `format` takes the two numbers. All ranks may call; rank 0 speaks. */
+  /** `format` takes the two numbers. All ranks may call; rank 0 prints. */
   void watch(LAMMPS_NS::LAMMPS *lmp, bool outside, const char *format, double value, double limit) {
     times_ = outside ? times_ + 1 : 0;
     if (warned_ || times_ < patience) return;

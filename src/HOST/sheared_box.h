@@ -25,7 +25,7 @@ class ShearedBox : private LAMMPS_NS::Pointers {
  public:
   /** `shear` may be null: no tilt is driven. */
   ShearedBox(LAMMPS_NS::LAMMPS *lmp, int axis, const Tilt *shear);
-  ~ShearedBox();
+  ~ShearedBox() override;
 
   double length() const;
   double tilt(const Tilt &which) const;

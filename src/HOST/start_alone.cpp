@@ -9,7 +9,7 @@
 
 namespace {
 
-/** Whatever started the program told it which rank it is: mpirun, srun or another. */
+/** Whether mpirun, srun or another launcher started the program: each sets the rank in the environment. */
 bool has_launcher() {
   const char *const launchers[] = {
       "OMPI_COMM_WORLD_SIZE", "PMIX_NAMESPACE", "PMIX_RANK", "PMI_RANK", "PMI_FD", "PMI_ID",

@@ -141,7 +141,8 @@ inline void ContactReader::read_rolling(const Surfaces &s, const Forces &force_o
   rolling.torque = Map<const Vector3d>(force_on_i.delta_torque) - c.motion->arm.cross(c.force);
 }
 
-inline void ContactReader::read(const Surfaces &s, const Forces &force_on_i, Contact &c) const {
+inline __attribute__((always_inline)) void ContactReader::read(const Surfaces &s, const Forces &force_on_i,
+                                                               Contact &c) const {
   const Vector3d normal(s.en[0], s.en[1], s.en[2]),
       force(force_on_i.delta_F[0], force_on_i.delta_F[1], force_on_i.delta_F[2]);
   const double normal_force = force.dot(normal), coefficient = law_.friction_coefficient(s.itype, s.jtype);
@@ -170,7 +171,7 @@ void ContactReader::after(const Surfaces &s, const Forces &force_on_i) {
   const double *const *x = observer_.positions();
   const bool ghost = s.j >= observer_.local_grains();
   Contact &c = observer_.next();
-  c.partner = PartnerGrain{s.j, ghost};
+  c.partner.emplace<PartnerGrain>(PartnerGrain{s.j, ghost});
   c.weight = ghost ? 0.5 : 1.0;
   c.branch = Map<const Vector3d>(x[s.i]) - Map<const Vector3d>(x[s.j]);
   read(s, force_on_i, c);
@@ -178,7 +179,7 @@ void ContactReader::after(const Surfaces &s, const Forces &force_on_i) {
 
 void ContactReader::after_wall(const Surfaces &s, const Forces &force_on_i, const PartnerWall &wall) {
   Contact &c = observer_.next();
-  c.partner = PartnerWall{wall.wall, wall.triangle, Map<const Vector3d>(s.v_j)};
+  c.partner.emplace<PartnerWall>(PartnerWall{wall.wall, wall.triangle, Map<const Vector3d>(s.v_j)});
   c.weight = 1.0;
   c.branch = Map<const Vector3d>(observer_.positions()[s.i]) - contact_point(s);
   read(s, force_on_i, c);

@@ -11,7 +11,7 @@ namespace grainscope {
 class GrainOrder : private LAMMPS_NS::Pointers {
  public:
   explicit GrainOrder(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
-  ~GrainOrder() { allow_sorting(); }
+  ~GrainOrder() override { allow_sorting(); }
   GrainOrder(const GrainOrder &) = delete;
   GrainOrder &operator=(const GrainOrder &) = delete;
 

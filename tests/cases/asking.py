@@ -44,7 +44,7 @@ def blocks(path):
 
 
 def every(watched, entries):
-    """Thermo told in every step, and what fix ave/time says in a run of its own, by step."""
+    """Thermo printed in every step, and what fix ave/time says in a run of its own, by step."""
     table = run(asked(*thermo(1, *entries))).thermo()[-1]
     return {int(s): np.array([table[e][k] for e in entries]) for k, s in enumerate(table["step"])}
 
@@ -106,10 +106,14 @@ def vectors(ranks):
     tables, lists = blocks(result.file("bins.txt")), blocks(result.file("axes.txt"))
     require(sorted(tables) == sorted(lists) == list(range(0, STEPS + 1, EVERY)), f"steps {sorted(tables)}")
     for step, table in tables.items():
-        told = expected[step][: rows * columns].reshape(rows, columns)
+        printed = expected[step][: rows * columns].reshape(rows, columns)
         for c in range(columns):
             require_close(
-                table[:, c], told[:, c], PRINTED, f"step {step}, column {c + 1}", max(np.abs(told[:, c]).max(), 1e-300)
+                table[:, c],
+                printed[:, c],
+                PRINTED,
+                f"step {step}, column {c + 1}",
+                max(np.abs(printed[:, c]).max(), 1e-300),
             )
         require_close(lists[step][:, 0], expected[step][rows * columns :], PRINTED, f"step {step}, c_fabric", 1.0)
 
@@ -146,14 +150,14 @@ def dumped(ranks):
     """dump custom alone announces contact/grain."""
     columns = " ".join(GRAIN.atom_columns())
     result = run(asked(f"dump grains all custom {EVERY} grains.dump id {columns}", "thermo_style custom step"), ranks)
-    told = run(asked(*thermo(EVERY, C_FABRIC["N_c"])), ranks).thermo()[-1][C_FABRIC["N_c"]]
-    for (step, grains), contacts in zip(result.dump("grains.dump"), told):
+    printed = run(asked(*thermo(EVERY, C_FABRIC["N_c"])), ranks).thermo()[-1][C_FABRIC["N_c"]]
+    for (step, grains), contacts in zip(result.dump("grains.dump"), printed):
         require_close(grains[C_GRAIN["N_c"]].sum(), 2.0 * contacts, 0.0, f"step {step}: contacts", 1.0)
 
 
 def come_and_go(ranks):
-    """Computes deleted between runs, defined again, and all of them in `clear`; what they kept of grains begins
-    anew."""
+    """Computes deleted between runs, defined again, and all of them in `clear`; what they kept of grains starts
+    again."""
     quantities = [q for w in GLOBAL for q in w.columns()]
     deck = Deck(dense_packing(1.5))
     define = [w.define("all") for w in [*GLOBAL, GRAIN]]
@@ -176,7 +180,7 @@ def come_and_go(ranks):
     again = blocks_of_thermo[2]
     require(
         again[C_MEMORY["samples"]][0] == 1.0 and again[C_MOVED["strain"]][0] == 0.0,
-        "the new computes did not begin anew",
+        "the new computes did not start again",
     )
     require(all(np.isfinite(values).all() for values in again.values()), "not finite")
 

@@ -118,7 +118,7 @@ DUMPS = [
 ]
 
 
-def told(result, block=-1):
+def printed(result, block=-1):
     return result.thermo()[block]
 
 
@@ -177,7 +177,7 @@ def same_as(change, plain, but=(), **choices):
 
     def case(ranks):
         deck = Deck(SPHERES, extra="ledger on", **choices)
-        found, expected = (told(run(replace(deck, body=body), ranks)) for body in (change, plain))
+        found, expected = (printed(run(replace(deck, body=body), ranks)) for body in (change, plain))
         require(len(expected["step"]) > 5 and expected[C_STRESS["N_c"]].min() > 100, "too little was run")
         for name, values in expected.items():
             if name != "step" and not name.startswith(but):
@@ -205,7 +205,7 @@ def pair_style_twice(ranks):
         ),
         ranks,
     )
-    require_close(told(result)["c_books"], 0.0 * told(result)["c_books"], 1e-12, "relative residual", 1.0)
+    require_close(printed(result)["c_books"], 0.0 * printed(result)["c_books"], 1e-12, "relative residual", 1.0)
 
 
 def before_pair_style(ranks):
@@ -219,7 +219,7 @@ def before_pair_style(ranks):
             ("pair_style", compute + "pair_style"),
         )
     )
-    found, expected = told(run(early, ranks)), told(run(late, ranks))
+    found, expected = printed(run(early, ranks)), printed(run(late, ranks))
     for name, values in expected.items():
         require_equal(found[name], values, name)
     require(expected[C_C["N_c"]].min() > 100, "no contacts")
@@ -257,7 +257,7 @@ def loss_of_a_changing_step(ranks):
         "run 20",
     ]
     result = run(Deck(SPHERES, body=body), ranks)
-    table, rows = told(result), [rows_of(columns, "rows") for _, columns in result.dump("rows.dump")]
+    table, rows = printed(result), [rows_of(columns, "rows") for _, columns in result.dump("rows.dump")]
     require(len(set(table["dt"])) > 10, "the time step did not change")
     for step in range(1, 21):
         expected = measures.friction_of_step(rows[step], table["dt"][step - 1])
@@ -306,7 +306,7 @@ CASES = {
     "grains-lost": still_right(LOOSE, LOSE, changed=grains_changed(0), boundary="p p f"),
     "clear-starts-afresh": clear_starts_afresh(SPHERES),
     "clear-starts-afresh-with-ellipsoids": clear_starts_afresh(SPHEROIDS, "ellipsoid"),
-    "steps-numbered-anew": same_as(
+    "steps-renumbered": same_as(
         [*asking(SPHERES), "run 20", "reset_timestep 0", "run 20"], [*asking(SPHERES), "run 20", "run 20"]
     ),
     "pair-style-twice-at-first": same_as(

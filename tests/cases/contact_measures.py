@@ -36,11 +36,11 @@ def computes_for(packing):
 
 
 def comparisons(moment, computes, doubt):
-    told = moment.vector(FABRIC)
-    yield comparison.compare("fabric scalar", moment.scalar(FABRIC), told[18], 1.0, True)
+    printed = moment.vector(FABRIC)
+    yield comparison.compare("fabric scalar", moment.scalar(FABRIC), printed[18], 1.0, True)
     between = chosen_rows(moment.rows, "no")
-    yield from comparison.of_fabric(told[:22], between)
-    yield from comparison.of_weighted(told[22:], between)
+    yield from comparison.of_fabric(printed[:22], between)
+    yield from comparison.of_weighted(printed[22:], between)
     yield from comparison.of_direction(moment.array(DIRECTION), between, doubt=doubt)
     yield from comparison.of_grains(moment.peratom(GRAIN), moment.rows, moment.grains, moment.chosen)
     for watched, angle, axis in ((POLAR, "polar", "auto"), (PARAMETRIC, "parametric", "auto"), (BY_X, "polar", "x")):

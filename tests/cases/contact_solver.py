@@ -107,7 +107,7 @@ def same_on_ranks(ranks):
 
 
 def begins_with_the_pair_style(ranks):
-    """pair_style anew: counts from 0. Under cohesion the loop is the host's, whose lists are not counted."""
+    """A new pair_style: counts from 0. Under cohesion the loop is the host's, whose lists are not counted."""
     deck = flow()
     model = deck.model()
     deck.body += [
@@ -120,7 +120,7 @@ def begins_with_the_pair_style(ranks):
     ]
     first, again, cohesive = (counts(t) for t in run(deck, ranks).thermo())
     require(
-        again[2] < 0.05 * first[2] and again[0] >= again[1] >= again[2] > 0.0, f"counts {first} before, {again} anew"
+        again[2] < 0.05 * first[2] and again[0] >= again[1] >= again[2] > 0.0, f"counts {first} before, {again} after"
     )
     require(cohesive[0] == 0.0 < cohesive[2], f"counts {cohesive} with cohesion")
 

@@ -45,7 +45,9 @@ def variants(plane):
 def agrees(deck, flow=Flow(), plane="xy", group="all", settle=50, check=None):
     def case(ranks):
         watched = variants(plane)
-        moments = watch(deck, list(watched), flow, ranks, group, settle=settle, every=10, told=10, contacts=False)
+        moments = watch(
+            deck, list(watched), flow, ranks, group, settle=settle, every=10, thermo_every=10, contacts=False
+        )
         for moment, (one, options) in itertools.product(moments, watched.items()):
             vector = moment.vector(one)
             require_close(moment.scalar(one), vector[0], 0.0, "correlation scalar", 1.0)
@@ -79,7 +81,7 @@ def running(ranks):
     watched = correlation_of("all", "average running", 9)
     once = correlation_of("once", "", 9)
     deck = Deck(dense_packing(atom_style="sphere"))
-    moments = watch(deck, [watched, once], pressed(0.05), ranks, settle=50, contacts=False, every=5, told=5)
+    moments = watch(deck, [watched, once], pressed(0.05), ranks, settle=50, contacts=False, every=5, thermo_every=5)
     tables, vectors = [m.array(once) for m in moments], [m.vector(once) for m in moments]
     for k, moment in enumerate(moments, 1):
         numerator, pairs = sum(t[:, 2] for t in tables[:k]), sum(t[:, 3] for t in tables[:k])

@@ -21,12 +21,12 @@ def saved(deck, ranks, name="half.restart"):
 
 
 def refused(result, *words):
-    """An error of ours or the host's, not a signal; told once."""
+    """An error of ours or the host's, not a signal; reported once."""
     text = " ".join(result.output.split())
     require(result.code > 0, f"ended with code {result.code}:\n{tail(result.output)}")
     require("Signal: " not in text and "Segmentation" not in text, f"it crashed:\n{tail(result.output)}")
     for word in words:
-        require(text.count(word) == 1, f"{word!r} is told {text.count(word)} times:\n{tail(result.output)}")
+        require(text.count(word) == 1, f"{word!r} is reported {text.count(word)} times:\n{tail(result.output)}")
 
 
 def damaged(harm, tries, *words):
@@ -69,7 +69,7 @@ def newest_whole_one(ranks):
     text = " ".join(result.output.split())
     require("at step 30" in text, "another file was taken")
     for word in (f"taking '{middle}', of step 30", f"'{last}' was cut short or damaged", "nowhere' cannot be opened"):
-        require(word in text, f"{word!r} was not told:\n{tail(result.output)}")
+        require(word in text, f"{word!r} was not reported:\n{tail(result.output)}")
     refused(attempt(deck.restarted(f"{folder}/none*", ["run 1"]), ranks), "read_restart: no file matches")
 
 

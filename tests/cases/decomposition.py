@@ -41,8 +41,8 @@ def same(packing, ranks, flow=shear(RATE), contacts=1, grids=None, bound=SUMS, *
     """All of GRIDS against one rank; hands back the results by grid."""
     questions, deck = asked(packing, flow, **choices)
     results = {"1 1 1": run(deck)}
-    told = results["1 1 1"].thermo()[-1][C_STRESS["N_c"]]
-    require(told.min() >= contacts, f"contacts {told}, expected {contacts} at least")
+    printed = results["1 1 1"].thermo()[-1][C_STRESS["N_c"]]
+    require(printed.min() >= contacts, f"contacts {printed}, expected {contacts} at least")
     for grid in grids or GRIDS[ranks]:
         results[grid] = run(replace(deck, processors=grid), ranks)
         found = differences(questions, results[grid], results["1 1 1"])
@@ -123,7 +123,7 @@ def migrants(ranks):
     """A lively gas: grains go through several ranks and faces, with all that is remembered of them."""
     packing = dense_packing(1.5, overlap=-0.25, speed=2.0, minimum=200)
     # Collisions at these speeds multiply what rounding does by ten each: 2e-9 seen, and as much on one rank where
-    # grains are sorted anew.
+    # grains are sorted again.
     results = same(packing, ranks, press(1e3, rate=0.5), contacts=0, bound=1e-7, steps=400, every=100)
     last = results["1 1 1"].thermo()[-1]
     require(last[C_STRESS["N_c"]][-1] > 100, "too few contacts")
@@ -168,15 +168,15 @@ def refused(deck, ranks, axis):
     built, the one before is good for it. Hands back the height found."""
     result = attempt(deck, ranks)
     text = " ".join(result.output.split())
-    told = re.search(
+    printed = re.search(
         rf"the periodic box must be at least 2 x \(largest diameter x contact distance factor \+ skin\) = "
         rf"{NEEDED:g} high along "
         rf"{axis}, got ([0-9.]+)",
         text,
     )
-    require(result.code != 0 and told is not None, f"not refused; the output ends:\n{tail(result.output)}")
-    require(NEEDED - SKIN < float(told[1]) <= NEEDED, f"refused at {told[1]}, with {NEEDED:g} needed")
-    return float(told[1])
+    require(result.code != 0 and printed is not None, f"not refused; the output ends:\n{tail(result.output)}")
+    require(NEEDED - SKIN < float(printed[1]) <= NEEDED, f"refused at {printed[1]}, with {NEEDED:g} needed")
+    return float(printed[1])
 
 
 def just_below(ranks):

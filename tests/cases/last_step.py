@@ -194,15 +194,15 @@ def rows_after_a_run(ranks):
     """contact/local by write_dump: the rows of the last step."""
     rows = ["compute rows all contact/local id overlap fn"]
     names = " ".join(outputs("contact/local", ("id_i", "id_j", "overlap", "fn")).of("rows").all("local"))
-    told = run(deck(*rows, f"dump d all local 5 rows.dump {names}", "run 5"), ranks).dump("rows.dump")[-1]
+    expected = run(deck(*rows, f"dump d all local 5 rows.dump {names}", "run 5"), ranks).dump("rows.dump")[-1]
     found = run(deck(*rows, "run 5", f"write_dump all local rows.dump {names}"), ranks).dump("rows.dump")[-1]
 
     def sorted_rows(snapshot):
         table = np.array(list(snapshot[1].values())).T
         return table[np.lexsort(table.T[::-1])]
 
-    require(len(sorted_rows(told)) > 100, "few contacts")
-    require_equal(sorted_rows(found), sorted_rows(told), "rows")
+    require(len(sorted_rows(expected)) > 100, "few contacts")
+    require_equal(sorted_rows(found), sorted_rows(expected), "rows")
 
 
 def sums_are_not_asked_twice(ranks):

@@ -436,7 +436,7 @@ def elastic_energy(choices):
 
 
 def runs(ranks):
-    """A run in two: what the host evaluates anew between them, and a `velocity` command, are work from outside."""
+    """A run in two: what the host recomputes between them, and a `velocity` command, are work from outside."""
     deck = sheared(dense_packing(1.5, speed=0.3), 0.02)
     deck.body = [
         *deck.body[:-1],
@@ -466,19 +466,19 @@ def groups(ranks):
     deck = sheared(dense_packing(1.5, speed=0.3), 0.05)
     parts = ["group half id 1:60", "group one id 7", "group nobody id 99999"]
     computes = [f"compute {name} {name} energy/ledger" for name in ("half", "one", "nobody")]
-    told = {name: outputs("energy/ledger").of(name).vector()[: len(NAMES)] for name in ("half", "one", "nobody")}
-    columns = [word for words in told.values() for word in words]
+    printed = {name: outputs("energy/ledger").of(name).vector()[: len(NAMES)] for name in ("half", "one", "nobody")}
+    columns = [word for words in printed.values() for word in words]
     deck.body = [*deck.body[:-4], *parts, *computes, *thermo(100, *TOTALS, *columns), "run 600"]
     table = run(deck, ranks).thermo()[0]
     everyone = account(table)
     require_closed(everyone)
-    half = {n: table[word][-1] for n, word in zip(NAMES, told["half"])}
+    half = {n: table[word][-1] for n, word in zip(NAMES, printed["half"])}
     require_closed(half, what="half")
     require(0.0 < half["D_n"] < everyone["D_n"] and abs(half["W_other"]) > 0.0, "half of the grains")
-    one = {n: table[word][-1] for n, word in zip(NAMES, told["one"])}
+    one = {n: table[word][-1] for n, word in zip(NAMES, printed["one"])}
     require_close(one["residual"], 0.0, ROUNDING, "one grain", turnover(everyone))
     require(one["D_n"] == 0.0 and one["W_other"] != 0.0, "one grain has no contact with itself")
-    require_equal([table[word][-1] for word in told["nobody"]], np.zeros(len(NAMES)), "nobody")
+    require_equal([table[word][-1] for word in printed["nobody"]], np.zeros(len(NAMES)), "nobody")
 
 
 def falling(ranks):

@@ -108,7 +108,7 @@ def grown(kind, styles, times, ran, ranks):
 
 
 def flat(kind, styles, host_styles, times, ran=False):
-    """Ours stay flat, the host's are told for comparison; what follows is as if there had been nothing."""
+    """Ours stay flat, the host's are printed for comparison; what follows is as if there had been nothing."""
 
     def case(ranks):
         theirs, _ = grown(kind, host_styles, times, ran, ranks)

@@ -57,15 +57,15 @@ def watched(deck, group="all"):
 
 @dataclass
 class Moment:
-    """One step of a run: what the deck was told, and what the oracle starts from."""
+    """One step of a run: what the computes gave, and what the oracle starts from."""
 
-    told: dict
+    printed: dict
     grains: object
     rows: dict
     box: object
 
     def vector(self, name):
-        return np.array([self.told[q] for q in vector(name)])
+        return np.array([self.printed[q] for q in vector(name)])
 
 
 def within(rows, low, high):
@@ -108,7 +108,7 @@ def check_stress(moment, chosen, tolerance, softest=5e6):
         if name in ("tangential", "ratios"):
             scale = max(scale, 1e-3 * float(np.abs(expected[:7]).max())) if name == "tangential" else max(scale, 1e-3)
         require_close(found[part], expected[part], tolerance, f"stress/contact {name}", scale)
-    require_close(moment.told["c_stress"], expected[25], tolerance, "stress/contact scalar")
+    require_close(moment.printed["c_stress"], expected[25], tolerance, "stress/contact scalar")
 
 
 def check_dissipation(moment, tolerance, dt):
@@ -129,7 +129,7 @@ def check_dissipation(moment, tolerance, dt):
         require_close(loss[:2], [normal, friction], tolerance, "dissipation of the step", scale)
     powers = moment.vector("loss")[[0, 1, 2, 5, 6, 7]]
     scale = max(float(np.abs(powers).max()), 1e-300)
-    require_close(moment.told["c_loss"], powers.sum(), 1e-14, "dissipation scalar", scale)
+    require_close(moment.printed["c_loss"], powers.sum(), 1e-14, "dissipation scalar", scale)
 
 
 def check_order(moment, chosen):
@@ -139,7 +139,7 @@ def check_order(moment, chosen):
         return
     order = measures.nematic(moment.grains, chosen)
     require_close(found[:6], order["q"], EXACT, "Q", 1.0)
-    require_close(moment.told["c_order"], order["s2"], EXACT, "S2", 1.0)
+    require_close(moment.printed["c_order"], order["s2"], EXACT, "S2", 1.0)
     require_close(abs(found[6:9] @ order["director"]), 1.0 if order["with_axis"] else 0.0, 1e-8, "director", 1.0)
     require_close(found[[9, 10]], [order["biaxiality"], order["theta"]], EXACT, "biaxiality, theta_x", 1.0)
     require_close(found[12:15], order["spin"], EXACT, "mean angular velocity")

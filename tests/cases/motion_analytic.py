@@ -47,7 +47,7 @@ def affine_flow(packing, rate=RATE, stretch=STRETCH):
 
 def observed(packing, ranks, computes, flow, steps=400, every=40):
     deck = Deck(packing, body=[f"variable strain equal step*dt*{number(flow.rate)}"])
-    return watch(deck, computes, flow, ranks, steps=steps, every=every, told=every, contacts=False), deck.dt()
+    return watch(deck, computes, flow, ranks, steps=steps, every=every, thermo_every=every, contacts=False), deck.dt()
 
 
 def affine(fraction, sign=1.0, stretch=STRETCH):
@@ -149,18 +149,18 @@ def energies(ranks):
 
 
 def lever(ranks):
-    """lever = sqrt<|dv|^2> / (|rate| d_eq): speeds +-s, rate 0.2, d_eq = 2 (abc)^(1/3) or as told."""
+    """lever = sqrt<|dv|^2> / (|rate| d_eq): speeds +-s, rate 0.2, d_eq = 2 (abc)^(1/3) or as given."""
     speed, shape = 0.5, (1.0, 1.0, 2.0)
     grains = [
         Grain((10.0, 10.0 + 0.0 * k, 10.0 * k + 5.0), shape, velocity=(0.0, 0.0, speed * (-1) ** k)) for k in range(2)
     ]
-    told = Watched("told", "fluctuation diameter 4", True, 14, (10, 5))
+    given = Watched("given", "fluctuation diameter 4", True, 14, (10, 5))
     packing = Packing((20.0,) * 3, grains)
     moment = watch(
-        Deck(packing), [FLUCTUATION, told], affine_flow(packing, stretch=0.0), ranks, steps=2, every=1, contacts=False
+        Deck(packing), [FLUCTUATION, given], affine_flow(packing, stretch=0.0), ranks, steps=2, every=1, contacts=False
     )[1]
     require_close(moment.scalar(FLUCTUATION), speed / (RATE * 2.0 * 2.0 ** (1 / 3)), 1e-12, "lever")
-    require_close(moment.scalar(told), speed / (RATE * 4.0), 1e-12, "lever with the diameter told")
+    require_close(moment.scalar(given), speed / (RATE * 4.0), 1e-12, "lever with the diameter given")
 
 
 def planes_of_grains(ranks):
@@ -317,7 +317,13 @@ def remembers(ranks):
     watched = Watched("memory", "velocity/memory component vx strain v_strain every 0.5 lags 4", True, 3, (5, 4))
     deck = Deck(packing, body=["variable strain equal step*0.01"])
     moment = watch(
-        deck, [watched], ranks=ranks, steps=50 * (samples - 1), every=50 * (samples - 1), told=10, contacts=False
+        deck,
+        [watched],
+        ranks=ranks,
+        steps=50 * (samples - 1),
+        every=50 * (samples - 1),
+        thermo_every=10,
+        contacts=False,
     )[-1]
     require(np.ptp(moment.columns["ix"]) > 1, "the grains did not cross the box")
     count = len(packing.grains)

@@ -31,7 +31,9 @@ LAYERINGS = {
 def agrees(deck, flow=Flow(), plane="xy", group="all", settle=50, check=None):
     def case(ranks):
         moving = fluctuations(plane)
-        moments = watch(deck, [*moving, *LAYERINGS], flow, ranks, group, settle=settle, every=5, told=5, contacts=False)
+        moments = watch(
+            deck, [*moving, *LAYERINGS], flow, ranks, group, settle=settle, every=5, thermo_every=5, contacts=False
+        )
         for moment in moments:
             for watched, kind in moving.items():
                 vector = moment.vector(watched)

@@ -29,13 +29,13 @@ def scene(flyer=(0.0, 0.0, 1.0), drift=(0.0, 0.0, 0.0), triclinic=False, **choic
     return Deck(packing, timestep=DT, **choices)
 
 
-def measured(deck, ranks, *lines, group="all", every=100, told=()):
+def measured(deck, ranks, *lines, group="all", every=100, more=()):
     strain = [
         "group rest id 1:8",
         f"variable strain equal step*dt*{number(RATE)}",
         f"compute moved {group} displacement/shear strain v_strain",
     ]
-    table = thermo(every, "zlo", "zhi", *MOVED, *told)
+    table = thermo(every, "zlo", "zhi", *MOVED, *more)
     return run(replace(deck, body=[*strain, *lines[:1], *table, *lines[1:]]), ranks).thermo()
 
 
@@ -58,12 +58,12 @@ def follows_the_flyer(boundary, group="all"):
 def top_layer(ranks):
     """Between neighbour lists the flyer is above the face that will follow it: it belongs to the highest of four
     layers, not to the lowest."""
-    told = [C_PROFILE[k, "N"] for k in range(1, 5)] + [C_SMECTIC["N"], C_LAYERED["dv_z"]]
+    more = [C_PROFILE[k, "N"] for k in range(1, 5)] + [C_SMECTIC["N"], C_LAYERED["dv_z"]]
     lines = [
         "compute profile all fluctuation plane xz layers 4\ncompute smectic all layering axis z layers 4\n"
         "compute layered all fluctuation plane xz flow layers 4 layers 4"
     ]
-    part = measured(scene(boundary="p p s"), ranks, *lines, "run 150", every=10, told=told)[0]
+    part = measured(scene(boundary="p p s"), ranks, *lines, "run 150", every=10, more=more)[0]
     # Four at the bottom, one at the top, four at 5 of 1 to 6 or more: in layers 3 or 4 (there with the flyer).
     require((part[C_PROFILE[1, "N"]] == 4.0).all(), f"grains in the lowest layer: {part[C_PROFILE[1, 'N']]}")
     require((part[C_PROFILE[4, "N"]] >= 1.0).all(), f"grains in the highest layer: {part[C_PROFILE[4, 'N']]}")
@@ -169,7 +169,7 @@ def is_a_change(words):
 
 
 def restarts_without_change(ranks):
-    """The box of a restart file is wrapped anew when the run begins."""
+    """The box of a restart file is wrapped again when the run begins."""
     deck = opened("p p s")
     first = run(replace(deck, body=["run 30", "write_restart half.restart", "run 30"]), ranks)
     again = run(deck.restarted(first.folder / "half.restart", ["run 30"]), ranks)

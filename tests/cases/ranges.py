@@ -38,8 +38,8 @@ def soft(fraction, restitution, steps, body=(), extra=""):
 
 
 def time_step(ranks):
-    """Overlaps of 2 %, e = 0.1, tangential damping: unstable from 0.1 T_R on. The step that is told is safe: nothing is
-    said at it."""
+    """Overlaps of 2 %, e = 0.1, tangential damping: unstable from 0.1 T_R on. The step given is safe: nothing is said
+    at it."""
     line = said(soft(0.15, 0.1, 1100), TIME_STEP, ranks)
     number, limit, safe = (
         float(x) for x in re.search(r"over the mass is (\S+), limit (\S+):.*below (\S+), or stiffer", line).groups()

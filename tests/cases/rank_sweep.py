@@ -99,19 +99,19 @@ def sweep(start, grids, table=None):
     def case(_):
         questions, on = state_of(start)
         one = on("1 1 1")
-        told = one.thermo()[-1]
+        printed = one.thermo()[-1]
         require(
-            told[C_STRESS["N_c"]].min() > 100 and told[C_STRESS["sliding"]].max() > 0.0,
+            printed[C_STRESS["N_c"]].min() > 100 and printed[C_STRESS["sliding"]].max() > 0.0,
             "too few contacts, or none that slides",
         )
-        require(told[C_MEMORY["samples"]][-1] > 4 and told[F_PRESS["inputs"]][-1] > 3, "nothing was remembered")
+        require(printed[C_MEMORY["samples"]][-1] > 4 and printed[F_PRESS["inputs"]][-1] > 3, "nothing was remembered")
         require(
-            np.ptp(told[F_PRESS["L_rate"]]) > 0.0 and np.ptp(told[F_PRESS["clipped"]]) == 0.0,
+            np.ptp(printed[F_PRESS["L_rate"]]) > 0.0 and np.ptp(printed[F_PRESS["clipped"]]) == 0.0,
             "no input that is not clipped",
         )
         require(
-            (np.diff(told["xy"]).min() < 0.0) == start.flips,
-            f"tilts {told['xy']}: the box was to turn back: {start.flips}",
+            (np.diff(printed["xy"]).min() < 0.0) == start.flips,
+            f"tilts {printed['xy']}: the box was to turn back: {start.flips}",
         )
         worst = Differences()
         for grid in grids:

@@ -35,8 +35,13 @@ def neutral(packing, surface="ellipsoid", **choices):
 def everything_with_state(deck):
     """Pressure control, what computes remember, the energy ledger: lines, and what thermo prints of them."""
     computes = [DISPLACEMENT, MEMORY, RUNNING]
-    told = [*STATE, *(q for w in computes for q in w.columns()), *C_LEDGER.vector()]
-    return [*strain_lines(RATE), PRESS, *(w.define("all") for w in computes), "compute ledger all energy/ledger"], told
+    printed = [*STATE, *(q for w in computes for q in w.columns()), *C_LEDGER.vector()]
+    return [
+        *strain_lines(RATE),
+        PRESS,
+        *(w.define("all") for w in computes),
+        "compute ledger all energy/ledger",
+    ], printed
 
 
 def same_tables(found, expected, tolerance, scale=None, skip=()):
@@ -89,9 +94,9 @@ def host_split_is_not(ranks):
 def measures_go_on(ranks):
     """All that has state, over a split run and over one that is not: totals of the ledger too."""
     deck = neutral(tilted(SPHEROIDS, 0.495))
-    lines, told = everything_with_state(deck)
+    lines, printed = everything_with_state(deck)
     whole, parts = (
-        run(replace(deck, body=[*lines, *thermo(10, *told), *runs]), ranks).thermo()
+        run(replace(deck, body=[*lines, *thermo(10, *printed), *runs]), ranks).thermo()
         for runs in (["run 120"], ["run 60", "run 60"])
     )
     expected, found = whole[0], parts[1]
@@ -133,17 +138,15 @@ def restart_is_exact(packing, surface="ellipsoid", extra="setup neutral ledger o
 
     def case(ranks):
         deck = Deck(packing, surface=surface, extra=extra)
-        lines, told = everything_with_state(deck)
-        rest = [*thermo(3, *told), *dump_grains(packing, 60), "run 60"]
+        lines, printed = everything_with_state(deck)
+        rest = [*thermo(3, *printed), *dump_grains(packing, 60), "run 60"]
         through = run(
-            replace(deck, body=[*lines, *thermo(1, *told), "run 45", "write_restart half.restart", *rest]), ranks
+            replace(deck, body=[*lines, *thermo(1, *printed), "run 45", "write_restart half.restart", *rest]), ranks
         )
         again = run(deck.restarted(through.folder / "half.restart", [*lines, *rest]), ranks)
         expected, found = through.thermo()[-1], again.thermo()[-1]
         require(expected[C_MEMORY["samples"]][-1] > 5 and expected[F_PRESS["inputs"]][-1] > 2, "nothing was measured")
-        first = (
-            0 if "neutral" in extra else 1
-        )  # by the host's custom the first row of a run tells of forces formed anew
+        first = 0 if "neutral" in extra else 1  # by the host's custom the first row of a run tells of recomputed forces
         same_tables({k: v[first:] for k, v in found.items()}, {k: v[first:] for k, v in expected.items()}, 0.0, 1.0)
         require_same_snapshots(
             again.dump("grains.dump")[-1:], through.dump("grains.dump")[-1:], "restarted against write and go on"
@@ -208,10 +211,10 @@ def stopped_by(number, to_one_rank=False):
     def case(ranks):
         steps = 100_000_000  # the signal is what ends it
         deck = neutral(SPHERES)
-        lines, told = everything_with_state(deck)
+        lines, printed = everything_with_state(deck)
         body = [
             *lines,
-            *thermo(10, *told),
+            *thermo(10, *printed),
             FLUSHED,
             f"fix means all ave/time 1 1 1 {F_PRESS['strain']} {C_STRESS['sxx']} file means.txt",
             f"run {steps} upto",

@@ -92,7 +92,7 @@ def same_array(watched, found, expected, tolerance, when):
         )
 
 
-def told(table, watched, row):
+def printed(table, watched, row):
     vector = np.array([table[f"c_{watched.name}[{k}]"][row] for k in range(1, watched.vector + 1)])
     rows, columns = watched.array
     array = np.array(
@@ -104,7 +104,7 @@ def told(table, watched, row):
 def same_results(found, expected, packing, tolerance):
     for row in range(STEPS + 1):
         for watched in everything(packing):
-            (v1, a1), (v2, a2) = (told(r.thermo()[-1], watched, row) for r in (found, expected))
+            (v1, a1), (v2, a2) = (printed(r.thermo()[-1], watched, row) for r in (found, expected))
             if watched.vector:
                 same_vector(watched, v1, v2, tolerance, f"step {row}")
             if watched.array[0]:
@@ -155,7 +155,7 @@ def empty_group(packing):
         result = measure(deck, state_of(deck), ranks, ["group nobody id 99999"], "nobody")
         for watched in everything(packing):
             for row in range(STEPS + 1):
-                vector, array = told(result.thermo()[-1], watched, row)
+                vector, array = printed(result.thermo()[-1], watched, row)
                 if watched.name == "moving":
                     vector[10] = 0.0
                 if watched.name == "moved":

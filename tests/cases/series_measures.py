@@ -76,7 +76,7 @@ def agrees(deck, flow, plane="xy", group="all", check=None):
     """Strain comes from fix press/strain, or else from a variable."""
     axes = tuple("xyz".index(a) for a in plane)
     every = 6.5 * EVERY * flow.rate * deck.dt()
-    told, words = (F_FLOW["strain"], "") if flow.length_rate else ("v_strain", " strain v_strain")
+    strain, words = (F_FLOW["strain"], "") if flow.length_rate else ("v_strain", " strain v_strain")
     body = [*deck.body, f"variable strain equal step*dt*{number(flow.rate)}"]
 
     def case(ranks):
@@ -90,11 +90,11 @@ def agrees(deck, flow, plane="xy", group="all", check=None):
             group,
             steps=STEPS,
             every=EVERY,
-            told=EVERY,
+            thermo_every=EVERY,
             contacts=False,
-            extra=(told,),
+            extra=(strain,),
         )
-        strains = [m.told[told] for m in moments]
+        strains = [m.printed[strain] for m in moments]
         check_displacement(displacement, moments, strains, axes)
         for watched, (name, kind) in kept.items():
             check_memory(watched, name, kind, moments, strains, axes, abs(every))

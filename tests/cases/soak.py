@@ -40,7 +40,7 @@ def measures(packing):
 
 
 def soaked(packing, steps, chunk, every):
-    """The deck: `steps` in runs of `chunk`, everything told every `every` steps; memory noted after each run."""
+    """The deck: `steps` in runs of `chunk`, everything printed every `every` steps; memory noted after each run."""
     deck = Deck(packing, surface="ellipsoid", extra="ledger on tangential_damping off")
     if packing.atom_style == "superquadric":
         deck.body = ["unfix integrate", "fix integrate all nve/spheroid"]

@@ -65,7 +65,7 @@ def alone_shares_no_directory(ranks):
     require(done.returncode == 0, f"ended with {done.returncode}: {done.stdout} {done.stderr}")
     seen = (scratch / "seen").read_text().split()
     require("in.deck" in seen, f"the deck saw {seen}")
-    # Open MPI 5 makes one whatever it is told, with a folder in it for each process: side-by-side is what counts there.
+    # Open MPI 5 makes one whatever the options, with a folder in it for each process: side-by-side is what counts.
     if open_mpi() < 5:
         require(shared_directory(scratch).name not in seen, f"Open MPI made a directory: {seen}")
 

@@ -54,14 +54,16 @@ def power_law_as_fit(x, y, errors):
 def without_errors(ranks):
     """Points without errors of their own: their scatter tells the fit's."""
     random = np.random.default_rng(2)
-    spread, told = [], []
+    spread, reported = [], []
     for _ in range(REPEATS):
         (_, exponent), (_, error) = power_law(
             INERTIA, INERTIA**-0.5 * np.exp(0.05 * random.standard_normal(7)), np.zeros(7)
         )
         spread.append(exponent)
-        told.append(error)
-    require_close(np.sqrt(np.mean(np.square(told))), np.std(spread), 0.15, "error of the exponent, against its spread")
+        reported.append(error)
+    require_close(
+        np.sqrt(np.mean(np.square(reported))), np.std(spread), 0.15, "error of the exponent, against its spread"
+    )
 
 
 def decay(ranks):

@@ -236,7 +236,7 @@ def part_must_be_named(ranks):
     require("part must be named" in done.stderr and "from 0.3 to 0.4" in done.stderr, f"it said {done.stderr}")
 
 
-def reason_is_told(ranks):
+def reason_is_given(ranks):
     status, output = run_to_end("bad", ranks, part=0.7)
     require(status == 1 and "part must be more than 0 and at most strain" in output, f"ended with {status}: {output}")
     status, output = run_to_end("flat", ranks, N=20, alpha=3)
@@ -316,7 +316,7 @@ main(
         "no-restart-whole": no_restart_whole,
         "other-variables-refused": other_variables_refused,
         "part-must-be-named": part_must_be_named,
-        "reason-is-told": reason_is_told,
+        "reason-is-given": reason_is_given,
         "means-of-files": means_of_files,
         "table-holds-everything": table_holds_everything,
     }

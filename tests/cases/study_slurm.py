@@ -182,13 +182,13 @@ def study(**config):
 
 def require_as_asked(one, state):
     """A job became `state`, and had asked for what the Snakefile wants."""
-    told = job(one.number)
+    reported = job(one.number)
     found = (
-        told["JobState"],
-        told["JobName"],
-        int(told["NumTasks"]),
-        megabytes(told["MinMemoryNode"]),
-        minutes(told["TimeLimit"]),
+        reported["JobState"],
+        reported["JobName"],
+        int(reported["NumTasks"]),
+        megabytes(reported["MinMemoryNode"]),
+        minutes(reported["TimeLimit"]),
     )
     print(f"job {one.number}: {found}", flush=True)
     expected = state, one.name, one.threads, one.memory, one.runtime

@@ -23,7 +23,7 @@ void angle_of_anything(fuzz::Input &input, int bands) {
 
 }
 
-/** Bands are told for any point; their areas add up to the area of the ellipsoid, however it is divided. */
+/** Every point is in a band; their areas add up to the area of the ellipsoid, however it is divided. */
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
   fuzz::Input input(data, size);
   angle_of_anything(input, input.whole(1, 1000));

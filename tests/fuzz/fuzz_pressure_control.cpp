@@ -37,17 +37,17 @@ void check_input(const PressureControl &control, const NetworkResponse &window, 
   require(error != 0.0 || input.velocity == 0.0, "nothing moves at the target", input.velocity);
 }
 
-/** As many multiples of the interval were told as have gone by; steps longer than an interval tell one. */
+/** As many multiples of the interval are counted as have been passed; a step longer than an interval counts one. */
 void check_intervals(fuzz::Input &input) {
   const double interval = input.logarithmic(1e-9, 1e6);
   Intervals intervals(interval);
-  double told = 0.0;
+  double counted = 0.0;
   for (int n = input.whole(1, 40); n > 0; n--) {
     const double step = interval * (input.flag() ? input.logarithmic(1e-6, 0.9) : 0.1);
-    told += intervals.advance(step);
+    counted += intervals.advance(step);
     const double gone = intervals.passed() / interval;
-    require(told == std::floor(gone + 1e-9) + 1.0 || told == std::floor(gone + 1e-9),
-            "multiples of an interval are told once", told - gone);
+    require(counted == std::floor(gone + 1e-9) + 1.0 || counted == std::floor(gone + 1e-9),
+            "multiples of an interval are counted once", counted - gone);
     require(intervals.next() > gone, "the next multiple is yet to come", intervals.next());
     if (input.flag()) {
       Intervals other(interval);

@@ -49,7 +49,7 @@ GrainModes modes_of(const std::vector<Touch> &touches, std::size_t n, const Matr
 }
 
 /** One grain and its contacts: the bound grows with every contact, is that of its parts, the same however the grain is
- *  turned, and reached at the time step that is told. */
+ *  turned, and reached at the time step that is given. */
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
   fuzz::Input input(data, size);
   const double radius = input.logarithmic(1e-3, 1e3), mass = input.logarithmic(1e-6, 1e6),
@@ -74,7 +74,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     require(step > 0.0, "the step at the limit is positive", step);
     if (std::isfinite(step))
       require_below(std::fabs(step * (step * mode.stiffness + mode.damping) / limit - 1.0), 1e-9,
-                    "the step that is told is at the limit");
+                    "the step that is given is at the limit");
     last = mode.value;
   }
   const GrainModes::Mode turned =

@@ -27,7 +27,7 @@ BUILDS = {
 }
 JOBS = os.environ.get("GRAINSCOPE_JOBS", "2")
 
-# Every build is told not to contract a * b + c (-ffp-contract=off), none to reorder sums. What -march=native changes
+# Every build is made not to contract a * b + c (-ffp-contract=off), none to reorder sums. What -march=native changes
 # are Eigen's own kernels, which add as many numbers side by side as a vector holds, and fuse: rounding, in what is
 # measured. 2e-14 was seen; a factor of 50 for other processors. Other libraries of mathematical functions may move
 # grains by rounding, which a hundred steps amplify (shuffle.py: to 3e-12).
@@ -91,14 +91,14 @@ def builds(packing, surface, bounds):
         )
         faults = []
         for a, b in itertools.combinations(BUILDS, 2):
-            told = []
+            cells = []
             for moments, bound in ((slice(0, 1), bounds[0]), (slice(0, 2), bounds[0]), (slice(None), bounds[1])):
                 found = differences(questions, results[a], results[b], moments)
                 quantity, value = max(found.items(), key=lambda item: item[1])
-                told += [f"{value:.1e}", quantity if value else "equal to the last bit"]
+                cells += [f"{value:.1e}", quantity if value else "equal to the last bit"]
                 if value > bound:
                     faults.append(f"{a} against {b}: {quantity} differs by {value:.3e} of its scale, allowed {bound}")
-            print(f"| {a}, {b} | {' | '.join(told)} |", flush=True)
+            print(f"| {a}, {b} | {' | '.join(cells)} |", flush=True)
         require(not faults, "; ".join(faults))
 
     return case

@@ -33,9 +33,9 @@ def packing_of(alpha, where):
 
 
 def of_contacts(moment, packing, doubt):
-    told = moment.vector(c.FABRIC)
-    yield from comparison.of_fabric(told[:22], moment.rows)
-    yield from comparison.of_weighted(told[22:], moment.rows)
+    printed = moment.vector(c.FABRIC)
+    yield from comparison.of_fabric(printed[:22], moment.rows)
+    yield from comparison.of_weighted(printed[22:], moment.rows)
     yield from comparison.of_direction(moment.array(c.DIRECTION), moment.rows, doubt=doubt)
     yield from comparison.of_grains(moment.peratom(c.GRAIN), moment.rows, moment.grains, moment.chosen)
     if packing.atom_style == "superquadric":
@@ -50,7 +50,7 @@ def of_motion(moment):
 
 
 def of_series(moments):
-    strains = [m.told["v_strain"] for m in moments]
+    strains = [m.printed["v_strain"] for m in moments]
     calls = [(m.grains.x, image_of(m), m.box, m.force_box, s) for m, s in zip(moments, strains)]
     last = moments[-1]
     yield from moving.of_displacement(last.vector(c.DISPLACEMENT), calls)

@@ -104,7 +104,7 @@ def book_spring(moved, a, b, u0, u1, dt, springs):
     """D_t, G_k, G_p, G_open of one contact: the work of both half steps is theirs and the spring's."""
     force0 = a["ft"] - a["viscous"] if a else np.zeros(3)
     work = -0.5 * dt * force0 @ u0 if a else 0.0
-    if not b and springs:  # opened: the half step after the last evaluation is told with the velocities before it
+    if not b and springs:  # opened: the half step after the last evaluation takes the velocities before it
         past = 0.5 * dt * a["kt"] * a["spring"] @ a["ut"]
         energy = 0.5 * a["kt"] * a["spring"] @ a["spring"]
         moved["G_open"] += energy + past

@@ -15,8 +15,8 @@ def listed(words):
 
 @dataclass
 class Kind:
-    """What may follow a keyword: how it is told, values that are taken (the limits, where there are any), and values
-    that are not."""
+    """What may follow a keyword: the requirement that messages give, values that are taken (the limits, where there are
+    any), and values that are not."""
 
     requirement: str
     good: tuple
@@ -34,7 +34,7 @@ def number(requirement, good, bad):
 def whole(low, high):
     return number(
         f"a whole number from {low} to {high}",
-        (str(low), str(high), "1e1"),
+        (str(low), str(high), *(("1e1",) if low <= 10 <= high else ())),
         (str(low - 1), str(high + 1), "-3", "2.5", "1e99"),
     )
 

@@ -179,7 +179,7 @@ def _tables_of_thermo(questions, table):
 
 
 def rows_from_lower(rows, grains):
-    """Rows with i the lower number, points told from its centre, in a fixed order: whichever owner wrote them."""
+    """Rows with i the lower number, points relative to its centre, in a fixed order: whichever owner wrote them."""
     rows = {name: np.array(values) for name, values in rows.items()}
     rows["point"] = rows["point"] - grains.x[grains.index(rows["id"][:, 0])]
     turned = rows["id"][:, 0] > rows["id"][:, 1]
@@ -235,8 +235,8 @@ def _compare_bins(watched, found, expected, differences):
 
 
 def differences(questions, found, expected, moments=slice(None), numbers=None):
-    """Of two results: every number that was told at these moments. `numbers`: what grain 1, 2, ... of `found` is called
-    in `expected`."""
+    """Of two results: every number that was printed at these moments. `numbers`: what grain 1, 2, ... of `found` is
+    called in `expected`."""
     worst, tables = Differences(), [
         {name: values[moments] for name, values in r.thermo()[-1].items()} for r in (found, expected)
     ]
@@ -274,7 +274,7 @@ def _largest(tables, *names):
 
 
 def _compare_grains(found, expected, worst):
-    """Grains are about 1 large: places are told over 1, torques over the largest force times 1."""
+    """Grains are about 1 large: positions are compared relative to 1, torques to the largest force times 1."""
     scales = {"x": 1.0, "torque": _largest(expected, *MOTION["force"])}
     for label, names in (
         *MOTION.items(),

@@ -22,7 +22,7 @@ NOTE = """for p in pid.*; do
 done >> memory.txt
 echo >> memory.txt
 """
-# The C library is told to give large blocks back as soon as they are free: it would keep a megabyte now and then.
+# The C library is set to give large blocks back as soon as they are free: it would keep a megabyte now and then.
 LAUNCHER = """#!/bin/sh
 export MALLOC_MMAP_THRESHOLD_=131072 MALLOC_TRIM_THRESHOLD_=131072
 echo $$ > pid.${OMPI_COMM_WORLD_RANK:-0}

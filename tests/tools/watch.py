@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Runs a deck with computes in thermo and grains and contacts in dumps, and hands back one Moment per snapshot: what
-the deck was told, and what the oracle starts from."""
+the computes gave, and what the oracle starts from."""
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -66,7 +66,7 @@ def pressed(rate, target=1e5, plane=(0, 1), every="1e-3"):
 @dataclass
 class Moment:
     step: int
-    told: dict
+    printed: dict
     columns: dict
     grains: object
     rows: dict  # of the group, or None
@@ -75,15 +75,15 @@ class Moment:
     chosen: np.ndarray
 
     def scalar(self, watched):
-        return self.told[f"c_{watched.name}"]
+        return self.printed[f"c_{watched.name}"]
 
     def vector(self, watched):
-        return np.array([self.told[f"c_{watched.name}[{k}]"] for k in range(1, watched.vector + 1)])
+        return np.array([self.printed[f"c_{watched.name}[{k}]"] for k in range(1, watched.vector + 1)])
 
     def array(self, watched):
         rows, columns = watched.array
         return np.array(
-            [[self.told[f"c_{watched.name}[{r}][{c}]"] for c in range(1, columns + 1)] for r in range(1, rows + 1)]
+            [[self.printed[f"c_{watched.name}[{r}][{c}]"] for c in range(1, columns + 1)] for r in range(1, rows + 1)]
         )
 
     def peratom(self, watched):
@@ -101,10 +101,10 @@ def grain_columns(packing, *more):
 
 
 def watched_deck(
-    deck, computes, flow=Flow(), group="all", every=5, steps=20, settle=0, contacts=True, extra=(), told=1
+    deck, computes, flow=Flow(), group="all", every=5, steps=20, settle=0, contacts=True, extra=(), thermo_every=1
 ):
-    """`settle` steps of flow first, then `steps` with dumps every `every` and thermo every `told`; `extra`: further
-    thermo columns."""
+    """`settle` steps of flow first, then `steps` with dumps every `every` and thermo every `thermo_every`; `extra`:
+    further thermo columns."""
     start = [f"group chosen id {group}"] if group != "all" else ["group chosen union all"]
     start += [flow.line] if flow.line else []
     start += [*thermo(100, "step"), f"run {settle}"] if settle else []
@@ -115,7 +115,10 @@ def watched_deck(
         *([flow.length_rate] if flow.length_rate else []),
         *(q for w in computes for q in w.columns()),
     ]
-    output = [*thermo(told, *quantities), *dump_grains(deck.packing, every, columns=grain_columns(deck.packing, *more))]
+    output = [
+        *thermo(thermo_every, *quantities),
+        *dump_grains(deck.packing, every, columns=grain_columns(deck.packing, *more)),
+    ]
     if contacts:
         output += ["compute rows chosen contact/local", *dump_local("rows", ROW_WIDTH, every, "rows")]
     return replace(deck, body=[*deck.body, *start, *(w.define("chosen") for w in computes), *output, f"run {steps}"])
@@ -149,8 +152,8 @@ def moments_of(result, flow=Flow(), group="all"):
     for (step, columns), (_, rows) in zip(grains_dump, rows_dump):
         row, grains = int(np.searchsorted(table["step"], step)), grains_of(columns)
         low, high = map(int, group.split(":")) if group != "all" else (1, len(grains.ids))
-        # The force evaluation of a step saw the box that the end of the step before had left (if that was told), turned
-        # back if due.
+        # The force evaluation of a step saw the box that the end of the step before had left (if that was printed),
+        # turned back if due.
         yield Moment(
             step,
             {name: float(values[row]) for name, values in table.items()},

@@ -30,8 +30,8 @@ struct Sphere {
 };
 
 /** Two spheres under a law of this test's own: an elastic force k d^(3/2), damping c d^(1/4) u_n, a tangential spring
- *  of stiffness h d^(1/2) with friction, a torque against rolling; and a constant force from outside. The ledger is
- *  told what it would be told by the pair style. */
+ *  of stiffness h d^(1/2) with friction, a torque against rolling; and a constant force from outside. The ledger
+ *  gets what it would get from the pair style. */
 class Pair {
  public:
   static constexpr double radius = 1.0, k = 1e4, c = 30.0, h = 8e3, friction = 0.3;

@@ -313,8 +313,8 @@ TYPED_TEST(ellipsoid_form, same_in_any_unit) {
   }
 }
 
-/** Decisions close to tangency: of the pairs apart or overlapping by less than 1e-12, none outside BAND is told
- *  wrongly. */
+/** Decisions close to tangency: of the pairs apart or overlapping by less than 1e-12, none outside BAND is
+ *  decided wrongly. */
 TYPED_TEST(ellipsoid_form, decides_as_exact_arithmetic_does) {
   RandomPairs random(25);
   int decided = 0;

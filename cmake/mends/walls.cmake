@@ -1,0 +1,39 @@
+# Walls that push where they should not, or do not say where they push.
+
+# A rotating cylinder: its velocity is that of the contact point.
+mend(fix_wall_gran.cpp "primitiveWall_->calcRadialDistance(x_[iPart],rdist);" "double at_wall[3];
+          vectorAdd3D(x_[iPart],delta,at_wall);
+          primitiveWall_->calcRadialDistance(sidata.is_non_spherical ? sidata.contact_point : at_wall,rdist);"
+     "a rotating primitive cylinder has the velocity of the grain's centre, not of the contact point")
+mend(primitive_wall_definitions.h "return Cylinder<1>::calcRadialDistance(pos,param,dx,dz);"
+     "return Cylinder<1>::calcRadialDistance(pos,param,dz,dx);" "a rotating ycylinder moves along its radius")
+
+# A superquadric on a mesh: where its lowest point lies beside a triangle, the neighbour in the same plane has the contact.
+mend(tri_mesh_I_superquadric.h "        if(dFace < 0.001*particle.shape[0] or flag == 0) {" "        if(flag > 0) {
+          int beyond[3], n_beyond = 0;
+          for(int k = 0; k < 3; k++)
+            if(baryFace[k] < 0.0) beyond[n_beyond++] = k;
+          const bool active = n_beyond == 0 or (n_beyond == 1 and edgeActive(nTri)[(beyond[0]+1)%3]) or
+                              (n_beyond == 2 and cornerActive(nTri)[3-beyond[0]-beyond[1]]);
+          if(!active) return LARGE_TRIMESH;
+        }
+        if(dFace < 0.001*particle.shape[0] or flag == 0) {"
+     "superquadrics are pushed by every triangle of a plane that they reach near an edge, not by one")
+mend(fix_wall_gran.cpp "                    deltan = mesh->resolveTriSuperquadricContact(iTri, delta, sidata.contact_point, particle, bary);"
+     "                    deltan = mesh->resolveTriSuperquadricContact(iTri, delta, sidata.contact_point, particle, bary);
+                    double face_normal[3];
+                    mesh->surfaceNorm(iTri, face_normal);
+                    barysign = deltan <= 0 && fabs(vectorDot3D(delta, face_normal)) == vectorMag3DSquared(face_normal) ? 7 : -1;"
+     "likewise, on an edge itself; and springs are lost from one triangle of a plane to the next")
+
+# The lever of a superquadric on a wall.
+mend(fix_wall_gran_base.h "            delta[2] = -sidata.delta[2];\n" "            delta[2] = -sidata.delta[2];
+            if(atom->superquadric_flag) vectorSubtract3D(sidata.contact_point,x,delta);\n"
+     "torque on a mesh, and its wear, take the contact point of a superquadric to be one unit of length from its centre")
+mend(fix_wall_gran_base.h "      wg->add_contactforce_stress_wall(ip, i_forces, sidata.delta, vwall, mesh?mesh->id(iTri):0);"
+     "    {
+      double branch[3];
+      vectorSubtract3D(x,sidata.contact_point,branch);
+      wg->add_contactforce_stress_wall(ip, i_forces, atom->superquadric_flag ? branch : sidata.delta, vwall, mesh?mesh->id(iTri):0);
+    }"
+     "likewise, the stress by wall contacts")

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_CLIPPING_WATCH_H
+#define GRAINSCOPE_CLIPPING_WATCH_H
+
+#include "pressure_control.h"
+#include "range_warning.h"
+
+namespace grainscope {
+
+/** Warns once when so many inputs of fix press/strain are clipped that the pressure is not under control. Fractions
+ *  are running means over about a hundred inputs. */
+class ClippingWatch {
+ public:
+  /** After each input; `inputs`: their number so far, this one included. */
+  void watch(LAMMPS_NS::LAMMPS *lmp, double inputs, const PressureControl::Input &input);
+
+ private:
+  double clipped_ = 1.0;                           // fraction of inputs; 1 because a start is clipped
+  double reversed_ = 0.0, velocity_before_ = 0.0;  // fraction clipped and against the velocity of the input before
+  bool settled_ = false;                           // clipping has ceased once
+  RangeWarning warning_;
+};
+
+}
+
+#endif
