@@ -45,7 +45,8 @@ add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu run/
   hybrid newton-on setup-twice guard-by-hand memory-by-hand misspelt-model misspelt-setting)
 add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu RANKS 1 2 CASES small-periodic-box)
 add_cases(press/strain-refused errors/press_strain.py LABEL error STYLES press/strain CASES
-  target-no-such-variable rate-variable-zero not-periodic-along-axis cylinder-across-the-axis second-fix-deform)
+  target-no-such-variable rate-variable-zero not-periodic-along-axis cylinder-across-the-axis second-fix-deform
+  gain-auto-unknown-model gain-auto-unknown-model-of-a-wall)
 add_cases(press/strain-refused errors/press_strain.py LABEL error STYLES press/strain RANKS 1 LONG_RANKS 2 CASES
   target-variable-negative orthogonal-box)
 add_cases(press/strain-refused errors/press_strain.py LABEL error STYLES press/strain RANKS 1 2 CASES wall-on-the-axis)

@@ -9,6 +9,7 @@ from run import run
 
 PLANE = Keyword("plane", choice("xy", "xz", "yz"))
 COMPONENT = Keyword("component", choice("vx", "vy", "vz", "wx", "wy", "wz"))
+WALLS = Keyword("walls", choice("no", "yes", "only"))
 FLOW = [
     Keyword("flow", Kind("box, rate, fit or layers", ("box", "fit"), ("q", "", "nan", "1e999", "BOX", "5"))),
     Keyword("flow rate", number("a shear rate", ("0", "-1e300", "1e300"), ())),
@@ -54,6 +55,8 @@ COLUMNS = (
     "sliding",
     "slip",
     "mobilisation",
+    "wall",
+    "triangle",
 )
 
 
@@ -134,9 +137,9 @@ NAMES_OF_WALLS = [
     ),
 ]
 STYLES = [
-    compute("stress/contact"),
+    compute("stress/contact", WALLS),
     compute("nematic"),
-    compute("contact/grain"),
+    compute("contact/grain", WALLS),
     compute("contact/solver"),
     compute("energy/ledger"),
     compute(
@@ -180,16 +183,17 @@ STYLES = [
             ),
         ],
     ),
-    compute("dissipation", Keyword("mode", choice("instantaneous", "step", "ledger"))),
-    compute("fabric", PLANE, flags=("branch", "force/normal", "force/tangential")),
+    compute("dissipation", Keyword("mode", choice("instantaneous", "step", "ledger")), WALLS),
+    compute("fabric", PLANE, WALLS, flags=("branch", "force/normal", "force/tangential")),
     compute(
         "contact/surface",
         Keyword("bins", whole(1, 1000)),
         Keyword("angle", choice("polar", "parametric")),
         Keyword("axis", choice("auto", "x", "y", "z")),
+        WALLS,
     ),
-    compute("contact/direction", PLANE, Keyword("bins", even(2, 10000))),
-    compute("contact/local", flags=COLUMNS, sort="column"),
+    compute("contact/direction", PLANE, Keyword("bins", even(2, 10000)), WALLS),
+    compute("contact/local", WALLS, flags=COLUMNS, sort="column", order=(*COLUMNS, "walls")),
     compute("fluctuation", PLANE, Keyword("layers", whole(1, 10000)), Keyword("diameter", LENGTH), *FLOW),
     compute("layering", Keyword("axis", choice("x", "y", "z")), Keyword("layers", even(2, 1000))),
     compute(
