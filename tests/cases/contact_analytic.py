@@ -211,7 +211,7 @@ def powers_add_up(packing, material=Material()):
             expected, grains = moment.vector(power), moment.peratom(grain)
             scale = np.abs(expected[:2]).max()
             require_close(grains[:, 2:4].sum(axis=0), expected[:2], 1e-11, "P_n, P_t over grains", scale)
-            require_equal(grains[:, :2].sum(axis=0), 2.0 * expected[3:], "contacts, sliding contacts over grains")
+            require_equal(grains[:, :2].sum(axis=0), 2.0 * expected[3:5], "contacts, sliding contacts over grains")
             if surface in computes:
                 table = moment.array(surface)
                 require_close(table[:, 9:11].sum(axis=0), expected[:2], 1e-11, "P_n, P_t over bins", scale)

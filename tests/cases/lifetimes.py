@@ -35,6 +35,8 @@ FIXES = [
     "nve/spheroid",
     "press/strain axis y target 2e4 shear xy rate 0.02 every 1e-3",
     "press/strain axis z target v_held every/step 5",
+    "wall/gran model hertz tangential history surface ellipsoid primitive type 1 zplane -2.0 "
+    "allow_special_domain_periodic yes",
 ]
 MADE_BY_OTHERS = {"grain/record", "ledger/record", "run/guard", "setup/memory"}
 PAIRS = [
