@@ -96,7 +96,7 @@ add_cases(energy/ledger-refused errors/ledger.py LABEL error STYLES energy/ledge
 add_cases(energy/ledger-refused errors/ledger.py LABEL error STYLES energy/ledger ledger/record RANKS 1 2 CASES
   loose-grains restart-without)
 add_cases(energy/ledger-refused errors/ledger.py LABEL error STYLES energy/ledger ledger/record
-  RANKS 1 LONG_RANKS 2 CASES ledger-off grains-inserted restart-with)
+  RANKS 1 LONG_RANKS 2 CASES ledger-off wall-cohesion restart-with)
 
 # The build
 add_cases(build-host errors/build.py LABEL error STYLES build CASES

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+/** What the ledger is shown: contacts and grains. */
 #include "energy_ledger.h"
 #include "four.h"
 #include "lanes.h"
+#include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <numeric>
 
 namespace grainscope {
 
@@ -13,17 +13,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
-
-double sum_of_three(const double *x) { return x[0] + x[1] + x[2]; }
-
-/** L:M of two upper triangles, on the diagonal and off it. */
-double on_diagonal(const Matrix3d &l, const double m[8]) { return l(0, 0) * m[0] + l(1, 1) * m[1] + l(2, 2) * m[2]; }
-double off_diagonal(const Matrix3d &l, const double m[8]) { return l(1, 2) * m[4] + l(0, 2) * m[5] + l(0, 1) * m[6]; }
-
-template <class Numbers>
-double sum(const Numbers &numbers) {
-  return std::accumulate(std::begin(numbers), std::end(numbers), 0.0);
-}
 
 /** overlap^(exponent - 1): k_n over it depends on curvature and material alone. */
 double of_overlap(double overlap, double exponent) {
@@ -41,20 +30,43 @@ LedgerFrame carried(const LedgerFrame &before, const LedgerFrame &after) {
 
 }
 
-void EnergyLedger::set_law(const ContactLaw &law) {
-  const bool spring = law.tangential == TangentialLaw::spring;
-  law_ = {law.exponent, spring, spring || law.tangential == TangentialLaw::viscous, law.rolls};
-  energy_factor_ = 1.0 / (1.0 + law.exponent);
+EnergyLedger::Law::Law(const ContactLaw &law)
+    : exponent(law.exponent), energy_factor(1.0 / (1.0 + law.exponent)),
+      spring(law.tangential == TangentialLaw::spring), viscous(spring || law.tangential == TangentialLaw::viscous),
+      rolling(law.rolls) {}
+
+bool EnergyLedger::Law::has(Part part) const {
+  switch (part) {
+    case EnergyLedger::spring: return spring;
+    case EnergyLedger::sliding: return viscous && !spring;
+    case EnergyLedger::viscous: return viscous;
+    case EnergyLedger::rolling: return rolling;
+    default: return true;
+  }
+}
+
+void EnergyLedger::set_laws(const ContactLaw &between_grains, const std::vector<const ContactLaw *> &with_walls) {
+  law_ = Law(between_grains);
+  now_.contacts[walls] = Contacts();
+  kinds_ = with_walls.empty() ? 1 : partners;
   slots_ = 0;
-  const bool used[parts] = {true, true, law_.spring || law_.viscous, law_.viscous, law_.rolling};
-  for (int k = 0; k < parts; k++) slot_[k] = used[k] ? slots_++ : -1;
+  for (int k = 0; k < parts; k++) slot_[grains][k] = law_.has(Part(k)) ? slots_++ : -1;
+  for (int k = 0; k < parts; k++) {
+    const bool used = std::any_of(with_walls.begin(), with_walls.end(),
+                                  [k](const ContactLaw *law) { return Law(*law).has(Part(k)); });
+    slot_[walls][k] = used ? slots_++ : -1;
+  }
 }
 
 void EnergyLedger::begin_evaluation(int n_local, bool repeats) {
   if (!cleared_) wrenches_.clear();
   wrenches_.resize(8 * static_cast<std::size_t>(n_local) * slots_, 0.0);
   cleared_ = true;
-  contacts_ = Contacts();
+  now_.contacts[grains] = Contacts();
+  if (kinds_ > 1) {
+    now_.contacts[walls] = Contacts();
+    now_.walls.clear();
+  }
   stepped_ = stepped_ && repeats;
 }
 
@@ -71,80 +83,126 @@ struct EnergyLedger::Unit {
   }
 };
 
-GRAINSCOPE_INLINE void EnergyLedger::add_part(int part, double size, const Unit &unit, double *of_i, double *of_j) {
+void EnergyLedger::WallContacts::clear() {
+  std::fill(&places[0][0], &places[0][0] + 8 * parts, 0.0);
+  std::fill(&force[0][0], &force[0][0] + 4 * parts, 0.0);
+  touches.clear();
+  moving = false;
+}
+
+GRAINSCOPE_INLINE void EnergyLedger::WallContacts::add(int part, const Contact &c, const Vector3d &f) {
+  const Vector3d &at = c.motion->point;
+  add_to(places[part], Four{f[0] * at[0], f[1] * at[1], f[2] * at[2], f.dot(c.wall().velocity)});
+  add_to(places[part] + 4, four_of(f[1] * at[2], f[0] * at[2], f[0] * at[1]));
+  add_to(force[part], four_of(f));
+  touches.back().force[part] = f;
+}
+
+template <EnergyLedger::Partner partner>
+GRAINSCOPE_INLINE void EnergyLedger::add_part(int part, double size, const Unit &unit, const Contact &c, double *of_i,
+                                              double *of_j) {
   const Four times = four_times(size), force = times * unit.force;
-  const int at = 8 * slot_[part];
-  add_to(contacts_.sums[part], times * unit.diagonal);
-  add_to(contacts_.sums[part] + 4, times * unit.beside);
+  const int at = 8 * slot_[partner][part];
+  double *const sums = now_.contacts[partner].sums[part];
+  add_to(sums, times * unit.diagonal);
+  add_to(sums + 4, times * unit.beside);
   add_to(of_i + at, force);
   add_to(of_i + at + 4, times * unit.torque_i);
-  if (!of_j) return;
+  if (partner == walls) now_.walls.add(part, c, Vector3d(force[0], force[1], force[2]));
+  if (partner == walls || !of_j) return;
   take_from(of_j + at, force);
   take_from(of_j + at + 4, times * unit.torque_j);
 }
 
-GRAINSCOPE_INLINE void EnergyLedger::add_past(const Contact &c, const ContactPast &past, double elastic_force) {
+GRAINSCOPE_INLINE void EnergyLedger::add_past(Contacts &sums, const Law &law, const Contact &c, double elastic_force) {
+  const ContactPast &past = *c.past;
   const double w = c.weight;
-  contacts_.kept_elastic += w * past.elastic_work;
+  sums.kept_elastic += w * past.elastic_work;
   double path = 0.5 * (past.elastic_force + elastic_force) * (c.overlap - past.overlap);
-  const double base0 = of_overlap(past.overlap, law_.exponent), base1 = of_overlap(c.overlap, law_.exponent);
+  const double base0 = of_overlap(past.overlap, law.exponent), base1 = of_overlap(c.overlap, law.exponent);
   if (past.overlap > 0.0 && c.overlap > 0.0) {
     // energy = factor d^2 base k, with k = k_n/base: the part of the stiffness that does not depend on the overlap
     const double change = c.motion->normal_stiffness / base1 - past.elastic_force / (past.overlap * base0);
-    path += 0.5 * energy_factor_ * (past.overlap * past.overlap * base0 + c.overlap * c.overlap * base1) * change;
+    path += 0.5 * law.energy_factor * (past.overlap * past.overlap * base0 + c.overlap * c.overlap * base1) * change;
   }
-  contacts_.elastic_path += w * path;
+  sums.elastic_path += w * path;
 }
 
-GRAINSCOPE_INLINE void EnergyLedger::add_spring(const Contact &c) {
+GRAINSCOPE_INLINE void EnergyLedger::add_spring(Contacts &sums, const Contact &c) {
   const ContactSpring &s = *c.spring;
   const double w = c.weight, k0 = c.past ? c.past->tangential_stiffness : 0.0, k1 = c.motion->tangential_stiffness;
   const Vector3d mean = 0.5 * w * (k0 * s.before + k1 * s.after);
   const double cut = c.sliding ? mean.dot(s.cut) : 0.0;
-  contacts_.friction += cut;
-  contacts_.travel += mean.dot(s.after - s.before) + cut;
+  sums.friction += cut;
+  sums.travel += mean.dot(s.after - s.before) + cut;
   const double stiffening = -0.5 * w * (k1 - k0) * s.before.dot(s.after);
   if (c.past) {
-    contacts_.stiffening += stiffening;
-    contacts_.kept_spring += w * c.past->spring_work;
-    contacts_.kept_energy += 0.5 * w * k0 * s.before.squaredNorm();
+    sums.stiffening += stiffening;
+    sums.kept_spring += w * c.past->spring_work;
+    sums.kept_energy += 0.5 * w * k0 * s.before.squaredNorm();
   } else {
-    contacts_.revived += stiffening;
+    sums.revived += stiffening;
   }
 }
 
-GRAINSCOPE_CLONES
-void EnergyLedger::add(const Contact &c, double dt, bool springs_move) {
+template <EnergyLedger::Partner partner>
+GRAINSCOPE_INLINE void EnergyLedger::add_contact(const Law &law, const Contact &c, double dt, bool springs_move) {
   cleared_ = false;
+  Contacts &sums = now_.contacts[partner];
   const ContactMotion &m = *c.motion;
   const double elastic_force = m.normal_stiffness * c.overlap;
   const Vector3d arm_j = m.arm + c.branch;
-  double *const of_i = wrenches_of(c.i), *const of_j = c.ghost() ? nullptr : wrenches_of(c.j());
+  double *const of_i = wrenches_of(c.i), *of_j = nullptr;
+  const PartnerGrain *const other = partner == grains ? std::get_if<PartnerGrain>(&c.partner) : nullptr;
+  if (other && !other->ghost) of_j = wrenches_of(other->index);
   const Unit normal(c, c.normal, arm_j, m.normal_velocity);
-  add_part(elastic, elastic_force, normal, of_i, of_j);
-  add_part(damping, m.normal_damping, normal, of_i, of_j);
-  if (slot_[spring] >= 0) {
+  add_part<partner>(elastic, elastic_force, normal, c, of_i, of_j);
+  add_part<partner>(damping, m.normal_damping, normal, c, of_i, of_j);
+  if (law.viscous) {
     // In the first evaluation of a run the host does not turn springs into the contact plane: they may push along the
     // normal too.
     Vector3d force = c.force - (elastic_force + m.normal_damping) * c.normal;
-    if (law_.viscous && m.damped) {
+    if (m.damped) {
       const Vector3d viscous_force = -m.tangential_damping * m.tangential_velocity;
       force -= viscous_force;
-      add_part(viscous, 1.0, Unit(c, viscous_force, arm_j, viscous_force.dot(m.tangential_velocity)), of_i, of_j);
+      add_part<partner>(viscous, 1.0, Unit(c, viscous_force, arm_j, viscous_force.dot(m.tangential_velocity)), c, of_i,
+                        of_j);
     }
-    add_part(spring, 1.0, Unit(c, force, arm_j, force.dot(m.tangential_velocity)), of_i, of_j);
+    add_part<partner>(law.spring ? spring : sliding, 1.0, Unit(c, force, arm_j, force.dot(m.tangential_velocity)), c,
+                      of_i, of_j);
   }
-  if (law_.rolling) {
+  if (law.rolling) {
     Unit unit(c, Vector3d::Zero(), arm_j, c.rolling->torque.dot(c.rolling->spin));
     unit.torque_i = unit.torque_j = four_of(c.rolling->torque);
-    add_part(rolling, 1.0, unit, of_i, of_j);
+    add_part<partner>(rolling, 1.0, unit, c, of_i, of_j);
   }
-  contacts_.normal_energy += c.weight * elastic_force * c.overlap * energy_factor_;
-  if (law_.spring) contacts_.spring_energy += 0.5 * c.weight * m.tangential_stiffness * c.spring->after.squaredNorm();
+  sums.normal_energy += c.weight * elastic_force * c.overlap * law.energy_factor;
+  if (law.spring) sums.spring_energy += 0.5 * c.weight * m.tangential_stiffness * c.spring->after.squaredNorm();
   if (!springs_move) return;
-  if (c.past) add_past(c, *c.past, elastic_force);
-  else contacts_.new_elastic -= 0.5 * dt * c.weight * elastic_force * m.normal_velocity;
-  if (law_.spring) add_spring(c);
+  if (c.past) add_past(sums, law, c, elastic_force);
+  else sums.new_elastic -= 0.5 * dt * c.weight * elastic_force * m.normal_velocity;
+  if (law.spring) add_spring(sums, c);
+}
+
+void EnergyLedger::add_with_wall(const Contact &c, int grain_id, double dt, bool springs_move) {
+  const PartnerWall &wall = c.wall();
+  Touch touch{grain_id, wall.wall, wall.triangle, wall.velocity, {}};
+  for (Vector3d &force : touch.force) force.setZero();
+  now_.walls.touches.push_back(touch);
+  now_.walls.moving = now_.walls.moving || !wall.velocity.isZero(0.0);
+  add_contact<walls>(Law(*c.law), c, dt, springs_move);
+}
+
+GRAINSCOPE_CLONES
+void EnergyLedger::add(ContactSpan contacts, const Members &members, double dt, bool springs_move) {
+  for (const Contact &c : contacts) {
+    const int of_i = members.mask[c.i] & members.bit;
+    if (const PartnerGrain *other = std::get_if<PartnerGrain>(&c.partner)) {
+      if (of_i & members.mask[other->index]) add_contact<grains>(law_, c, dt, springs_move);
+    } else if (of_i) {
+      add_with_wall(c, members.ids[c.i], dt, springs_move);
+    }
+  }
 }
 
 GRAINSCOPE_CLONES
@@ -160,50 +218,6 @@ void EnergyLedger::end_of_step(const Grain &g, const double omega[3], const doub
     other_torque -= four_at(at + 4);
   }
   add_to(ends_.other, other_force * four_of(p) + other_torque * four_of(w));
-}
-
-/** Taken from the grains in the half step before an evaluation. */
-double EnergyLedger::half_work(const Contacts &contacts, int part, double dt) {
-  return -0.5 * dt * contacts.sums[part][power_place];
-}
-
-void EnergyLedger::book_step(double dt) {
-  Entries step{};
-  double work[parts];
-  step[W_box] = starts_.box;
-  step[W_shear] = starts_.shear;
-  for (int k = 0; k < parts; k++) {
-    work[k] = starts_.work[k] + half_work(contacts_, k, dt);
-    for (const Contacts *end : {&before_, &contacts_}) {
-      step[W_box] -= 0.5 * dt * on_diagonal(frame_.velocity_gradient, end->sums[k]);
-      step[W_shear] -= 0.5 * dt * off_diagonal(frame_.velocity_gradient, end->sums[k]);
-    }
-  }
-  step[W_other] = 0.5 * dt * (sum_of_three(starts_.other) + sum_of_three(ends_.other));
-  step[D_n] = work[damping];
-  step[D_damp] = work[viscous];
-  step[D_rolling] = work[rolling];
-  const double path =
-      contacts_.elastic_path + contacts_.new_elastic + half_work(before_, elastic, dt) - contacts_.kept_elastic;
-  step[G_n] = work[elastic] - path;
-  step[G_dt] = path - (contacts_.normal_energy - before_.normal_energy);
-  if (law_.spring) {
-    const double last_half = half_work(before_, spring, dt) - contacts_.kept_spring;
-    step[D_t] = contacts_.friction;
-    step[G_k] = contacts_.stiffening;
-    step[G_p] = work[spring] - contacts_.travel - last_half;
-    step[G_open] = before_.spring_energy - contacts_.kept_energy + last_half + contacts_.revived;
-  } else {
-    step[D_t] = work[spring];
-  }
-  for (int k = 0; k < entries; k++) {
-    last_[k] = between_[k] + step[k];
-    totals_[k] += last_[k];
-  }
-  between_.fill(0.0);
-  stored_before_ = ended_;
-  ended_ = stored_ = {contacts_.normal_energy, contacts_.spring_energy, ends_.k_tr, ends_.k_rot};
-  stepped_ = true;
 }
 
 void EnergyLedger::begin_start_of_step(const LedgerFrame &frame) {
@@ -228,9 +242,8 @@ void EnergyLedger::start_of_step(const Grain &g, const double omega_after[3], co
 
   const Four velocity = four_of(p), turning = four_of(spin);
   Four other = four_of(force) * velocity + four_of(torque) * turning;
-  for (int k = 0; k < parts; k++) {
-    if (slot_[k] < 0) continue;
-    double *part = wrenches_of(g.index) + 8 * slot_[k];
+  double *part = wrenches_of(g.index);
+  for (int k = 0; k < slots_; k++, part += 8) {
     const Four power = four_at(part + 0) * velocity + four_at(part + 4) * turning;
     add_to(starts_.rate[k], power);
     other -= power;
@@ -246,32 +259,27 @@ void EnergyLedger::start_of_step(const Grain &g, const double omega_after[3], co
   starts_.shear -= all - box;
 }
 
-void EnergyLedger::book_start(double dt) {
-  for (int k = 0; k < parts; k++) {
-    const double flow = on_diagonal(next_.velocity_gradient, contacts_.sums[k]) +
-                        off_diagonal(next_.velocity_gradient, contacts_.sums[k]);
-    starts_.work[k] = -0.5 * dt * (sum_of_three(starts_.rate[k]) + flow);
-  }
-  cleared_ = true;
-  if (stepped_) {
-    const double carried = driven_ ? starts_.k_carried : starts_.k_new, old = moved_ ? starts_.k_old : carried;
-    between_[W_other] += old - stored_[K_tr] + starts_.k_rot - stored_[K_rot];
-    between_[W_box] += carried - old;
-    between_[W_frame] += starts_.k_new - carried;
-    stored_[K_tr] = starts_.k_new;
-    stored_[K_rot] = starts_.k_rot;
-  } else {  // forces were recomputed: a run begins
-    stored_ = {contacts_.normal_energy, contacts_.spring_energy, starts_.k_new, starts_.k_rot};
-    if (started_) {
-      between_[W_other] += sum(stored_) - sum(ended_);
-    } else {
-      start_energy_ = sum(stored_);
-      ended_ = stored_;
-    }
-    started_ = true;
-  }
-  before_ = contacts_;
-  frame_ = next_;
+void EnergyLedger::end_with_weight(const Grain &g, const Vector3d &weight) {
+  const Map<const Vector3d> x(g.x), v(g.v);
+  ends_.weight += weight.dot(v - frame_.flow(x));
+}
+
+void EnergyLedger::start_with_weight(const Grain &g, const Vector3d &weight, double dt) {
+  const Map<const Vector3d> x(g.x), v(g.v), force(g.force);
+  starts_.weight += weight.dot(v - next_.flow(x) + 0.5 * dt / g.mass * force);
+}
+
+double EnergyLedger::kinetic_in_step(const Grain &g, const double omega[3], const double momentum[3]) const {
+  const Vector3d p = Map<const Vector3d>(g.v) - frame_.flow(Map<const Vector3d>(g.x));
+  return 0.5 * (g.mass * p.squaredNorm() + Map<const Vector3d>(omega).dot(Map<const Vector3d>(momentum)));
+}
+
+double EnergyLedger::kinetic_between_steps(const Grain &g, const double omega_after[3], const double momentum[3],
+                                           double dt) const {
+  const Map<const Vector3d> force(g.force), torque(g.torque), spin(omega_after);
+  const Vector3d p = Map<const Vector3d>(g.v) - frame_.flow(Map<const Vector3d>(g.x));
+  return 0.5 * (g.mass * p.squaredNorm() - (0.25 * dt * dt / g.mass) * force.squaredNorm() +
+                spin.dot(Map<const Vector3d>(momentum) - 0.5 * dt * torque));
 }
 
 }

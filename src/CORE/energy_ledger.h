@@ -23,7 +23,10 @@ struct LedgerFrame : AffineFlow {
  *  The step from n to n+1 moves x^n to x^{n+1} with v = v^{n+1/2}, so that (F^n + F^{n+1})/2 . v dt, each force with
  *  its own lever arms, is exactly the change of K = sum m v^2/2 - dt^2 F^2/8m, and likewise for rotations. Velocities
  *  are peculiar, p = v - L (x - x_c); in terms of contact velocities u, sum_grains F.p + T.w = sum_contacts F.u -
- *  F.L r.
+ *  F.L r. A contact with a wall that moves with V at the contact point c: F.p + T.w = F.u - F.L r + F.P, r = x - c and
+ *  P = V - L (c - x_c) the wall's velocity against the flow. F.P is what the wall does: W_wall. A wall's velocity at the
+ *  end of a step is that of the whole step, as it moves before forces are evaluated; where a contact goes on, both of
+ *  the step's forces are paired with it.
  *
  *  Per contact, s the tangential spring, 0 and 1 the two ends of the step, `cut` what friction takes from the spring:
  *    D_t = (k0 s0 + k1 s1)/2 . cut          G_k = -(k1 - k0)/2 s0.s1          (k_t follows the overlap,
@@ -40,9 +43,33 @@ struct LedgerFrame : AffineFlow {
  *  Source of the identities: velocity Verlet (kick, drift, kick); see doc/compute_energy_ledger.md. */
 class EnergyLedger {
  public:
-  /** Rows of the account, each an energy. */
-  enum Entry { W_shear, W_box, W_frame, W_other, D_n, D_t, D_damp, D_rolling, G_k, G_p, G_n, G_open, G_dt, entries };
-  enum Store { U_n, U_t, K_tr, K_rot, stores };
+  /** Rows of the account, each an energy. Those with _w are the share of contacts with walls, G_w that of all G. */
+  enum Entry {
+    W_shear,
+    W_box,
+    W_frame,
+    W_other,
+    D_n,
+    D_t,
+    D_damp,
+    D_rolling,
+    G_k,
+    G_p,
+    G_n,
+    G_open,
+    G_dt,
+    W_wall,
+    W_gravity,
+    W_in,
+    W_out,
+    D_n_w,
+    D_t_w,
+    D_damp_w,
+    D_rolling_w,
+    G_w,
+    entries
+  };
+  enum Store { U_n, U_t, K_tr, K_rot, U_n_w, U_t_w, stores };
   using Entries = std::array<double, entries>;
   using Stores = std::array<double, stores>;
 
@@ -53,18 +80,39 @@ class EnergyLedger {
     const double *x, *v, *force, *torque;
   };
 
-  void set_law(const ContactLaw &law);
+  /** What grains bring when they come and take when they leave: their kinetic energy, and what is stored in contacts
+   *  that only exist with them, by partner. */
+  enum Partner { grains, walls, partners };
+  struct Passage {
+    double kinetic = 0.0;
+    double normal[partners] = {}, spring[partners] = {};
+    double all() const;
+  };
+
+  /** The laws of grains among each other, and of grains with each of the walls. */
+  void set_laws(const ContactLaw &between_grains, const std::vector<const ContactLaw *> &with_walls = {});
 
   /** A force evaluation begins: forget the contacts of the last. `repeats`: it repeats the last, where a run goes on as
    *  if it had not ended. */
   void begin_evaluation(int n_local, bool repeats = false);
-  /** A contact of two grains of the group. `springs_move`: false in the first evaluation of a run. */
-  void add(const Contact &contact, double dt, bool springs_move);
+  /** The grains that the ledger is about: by local index, those with the bit; IDs tell them in any evaluation. */
+  struct Members {
+    const int *mask;
+    int bit;
+    const int *ids;
+  };
+  /** Contacts of members with each other and with walls. `springs_move`: false in the first evaluation of a run. */
+  void add(ContactSpan contacts, const Members &members, double dt, bool springs_move);
 
   /** After the forces of step n are complete, before the second kick: v = v^{n-1/2}, x = x^n; angular velocity and
    *  momentum likewise. */
   void begin_end_of_step() { ends_ = Ends(); }
   void end_of_step(const Grain &grain, const double omega[3], const double momentum[3], double dt);
+  /** Its weight, whose work is not to be other work; likewise at the start of a step. */
+  void end_with_weight(const Grain &grain, const Eigen::Vector3d &weight);
+  /** Some left and some came since the step began, before its forces were evaluated. Kinetic energies are those of the
+   *  half step, without forces; of a contact also the work of its last or first half step is stored in it. */
+  void pass_in_step(const Passage &out, const Passage &in);
   /** Books the step from n-1 to n. */
   void book_step(double dt);
 
@@ -72,8 +120,11 @@ class EnergyLedger {
    *  kick, and momentum, before it: inertia w = L + torque dt/2. */
   void begin_start_of_step(const LedgerFrame &frame);
   void start_of_step(const Grain &grain, const double omega_after[3], const double momentum[3], double dt);
+  void start_with_weight(const Grain &grain, const Eigen::Vector3d &weight, double dt);
   /** Books what was changed between the steps, and takes the frame. */
   void book_start(double dt);
+  /** Some left and some came between two steps. */
+  void pass_between_steps(const Passage &out, const Passage &in);
 
   /** The forces were evaluated and no step was booked since: at the beginning of a run, or in the middle of a step. */
   bool pending() const { return !stepped_; }
@@ -83,8 +134,16 @@ class EnergyLedger {
   const Stores &stored() const { return stored_; }
   const Stores &stored_before() const { return stored_before_; }
   double start_energy() const { return start_energy_; }
-  /** W - D - G - (stored - stored at the start), of `totals` with all W, D and G positive, as described above. */
+  /** W - W_out - D - G - (stored - stored at the start), of `totals` with all W, D and G positive, as described
+   *  above. */
   static double residual(const Entries &totals, double stored_change);
+  /** U + K. */
+  static double energy(const Stores &stored);
+  /** Kinetic energy of a grain in the middle of a step, in the frame of that step. */
+  double kinetic_in_step(const Grain &grain, const double omega[3], const double momentum[3]) const;
+  /** And between two steps; arguments as of start_of_step(). */
+  double kinetic_between_steps(const Grain &grain, const double omega_after[3], const double momentum[3],
+                               double dt) const;
 
   /** State for restart files; sums over ranks may be given to one rank. */
   using State = std::array<double, 2 * entries + 1 + 2 * stores>;
@@ -95,11 +154,11 @@ class EnergyLedger {
   void restore(const State &state, const LedgerFrame &frame);
 
  private:
-  enum Part { elastic, damping, spring, viscous, rolling, parts };
+  enum Part { elastic, damping, spring, sliding, viscous, rolling, parts };
   /** Eight numbers of each part: force, -, torque, - on a grain; or in sums over contacts F_a r_b xx yy zz, F.u, F_a
    *  r_b yz xz xy, -. */
   static constexpr int power_place = 3;
-  /** Sums over the contacts of one evaluation. */
+  /** Sums over the contacts of one evaluation with one kind of partner. */
   struct Contacts {
     double sums[parts][8] = {};
     double normal_energy = 0.0, spring_energy = 0.0;
@@ -108,29 +167,52 @@ class EnergyLedger {
     double kept_elastic = 0.0, kept_spring = 0.0, kept_energy = 0.0;  // of the past of those that did
     double friction = 0.0, stiffening = 0.0, travel = 0.0, revived = 0.0;
   };
+  /** What more is known of contacts with walls: sums, c the contact point, F_a c_b xx yy zz, F.V, F_a c_b yz xz xy, -;
+   *  F; and each by itself. */
+  struct Touch {
+    int grain, wall, triangle;
+    Eigen::Vector3d velocity, force[parts];
+    bool operator<(const Touch &other) const;
+  };
+  struct WallContacts {
+    double places[parts][8] = {}, force[parts][4] = {};
+    std::vector<Touch> touches;
+    bool moving = false;  // a wall
+    void add(int part, const Contact &c, const Eigen::Vector3d &force_of_part);
+    void clear();
+  };
+  /** One evaluation. */
+  struct Evaluation {
+    Contacts contacts[partners];
+    WallContacts walls;
+  };
   struct Ends {
-    double k_tr = 0.0, k_rot = 0.0, other[4] = {};
+    double k_tr = 0.0, k_rot = 0.0, other[4] = {}, weight = 0.0;
   };  // arrays: three terms of a sum, dt/2 times
   struct Starts {
-    double rate[parts][4] = {}, work[parts] = {}, other[4] = {}, shear = 0.0, box = 0.0;
+    double rate[partners * parts][4] = {}, work[partners][parts] = {}, other[4] = {}, shear = 0.0, box = 0.0;
     // in the frame of the last step, in that carried on, in the next
     double k_old = 0.0, k_carried = 0.0, k_new = 0.0, k_rot = 0.0;
+    double weight = 0.0;
   };
 
-  /** What of the contact law there is to be booked. */
+  /** What of a contact law there is to be booked. */
   struct Law {
     double exponent = 1.5;
-    bool spring = false;   // a tangential one
-    bool viscous = false;  // tangential damping, or friction without a spring
+    double energy_factor = 0.4;  // U_n = energy_factor k_n overlap^2
+    bool spring = false;         // a tangential one
+    bool viscous = false;        // tangential damping, or friction without a spring
     bool rolling = false;
+    Law() = default;
+    explicit Law(const ContactLaw &law);
+    bool has(Part part) const;
   };
-  Law law_;
-  double energy_factor_ = 0.4;  // U_n = energy_factor k_n overlap^2
-  int slot_[parts];             // of a part in a grain's wrenches, or -1
-  int slots_ = 0;
+  Law law_;                       // between grains
+  int slot_[partners][parts];     // of a part in a grain's wrenches, or -1
+  int slots_ = 0, kinds_ = 1;     // kinds: of partners that there are
   std::vector<double> wrenches_;  // eight numbers for each part on each local grain
   bool cleared_ = false;          // and all are 0
-  Contacts contacts_, before_;
+  Evaluation now_, before_;
   Ends ends_;
   Starts starts_;
   LedgerFrame frame_, next_, carried_;
@@ -139,16 +221,26 @@ class EnergyLedger {
   bool stepped_ = false;  // the contacts were booked as the end of a step
   bool started_ = false;  // there was a step before
   Entries totals_{}, last_{}, between_{};
+  Entries passed_{};  // by grains that left and came within the step
   Stores stored_{}, stored_before_{};
   Stores ended_{};  // at the end of the last step
   double start_energy_ = 0.0;
 
   double *wrenches_of(int i) { return &wrenches_[8 * static_cast<std::size_t>(i) * slots_]; }
   static double half_work(const Contacts &contacts, int part, double dt);
+  static double wall_power(const WallContacts &sums, int part, const LedgerFrame &frame);
   struct Unit;
-  void add_part(int part, double size, const Unit &unit, double *of_i, double *of_j);
-  void add_past(const Contact &c, const ContactPast &past, double elastic_force);
-  void add_spring(const Contact &c);
+  template <Partner partner>
+  void add_contact(const Law &law, const Contact &c, double dt, bool springs_move);
+  void add_with_wall(const Contact &c, int grain_id, double dt, bool springs_move);
+  template <Partner partner>
+  void add_part(int part, double size, const Unit &unit, const Contact &c, double *of_i, double *of_j);
+  static void add_past(Contacts &sums, const Law &law, const Contact &c, double elastic_force);
+  static void add_spring(Contacts &sums, const Contact &c);
+  void book_contacts(Partner partner, double dt, Entries &step) const;
+  void book_walls(double dt, Entries &step);
+  void take_velocity_of_step(double dt);
+  void store(double k_tr, double k_rot);
 };
 
 }

@@ -9,12 +9,13 @@ FixStyle(ledger/record,FixLedgerRecord)
 #define LMP_FIX_LEDGER_RECORD_H
 
 #include "contact_sink.h"
+#include "energy_ledger.h"
 #include "internal_fix.h"
 #include <memory>
 #include <string>
 
 namespace grainscope {
-class EnergyLedger;
+class LedgerGrains;
 struct LedgerAccount;
 }
 
@@ -30,6 +31,7 @@ class FixLedgerRecord : public grainscope::InternalFix, public grainscope::Conta
   int setmask() override;
   void init() override;
   void pre_initial_integrate() override;
+  void pre_exchange() override;
   void pre_final_integrate() override;
   void write_restart(FILE *file) override;
   void restart(char *buffer) override;
@@ -37,6 +39,7 @@ class FixLedgerRecord : public grainscope::InternalFix, public grainscope::Conta
   bool wants_contacts() override { return true; }
   void begin_contacts() override;
   void add_contacts(grainscope::ContactSpan contacts) override;
+  void end_run() override;
 
   /** Makes the record of compute `id`, in its constructor; `style` is for messages. Collective. */
   static FixLedgerRecord *make(class LAMMPS *lmp, const char *id, int igroup, const std::string &style);
@@ -53,9 +56,18 @@ class FixLedgerRecord : public grainscope::InternalFix, public grainscope::Conta
   std::unique_ptr<Impl> impl_;
 
   [[noreturn]] void fail(const std::string &message) const;
-  double start_step(grainscope::EnergyLedger &ledger) const;
+  bool grains_may_pass() const;
+  grainscope::EnergyLedger::Grain shown(int i) const;
+  Eigen::Vector3d weight(int i) const;
+  void start_step(grainscope::EnergyLedger &ledger) const;
   double moment_of_inertia(int i) const;
-  void coming_spin(int i, double momentum[3], double omega_after[3]) const;
+  const double *momentum(int i, double place[3]) const;
+  void coming_spin(const grainscope::EnergyLedger::Grain &grain, double momentum[3], double omega_after[3]) const;
+  std::unique_ptr<grainscope::LedgerGrains> grains_in_step() const;
+  std::unique_ptr<grainscope::LedgerGrains> grains_between_steps(const grainscope::EnergyLedger &ledger) const;
+  void book_passage_in_step();
+  void book_passage_between_steps(grainscope::EnergyLedger &ledger, bool evaluated) const;
+  void book_leaving_before_run();
 };
 
 }

@@ -219,9 +219,9 @@ void FixWallGranInsitu::restart(char *buffer) {
 
 void FixWallGranInsitu::add_to(std::vector<grainscope::Wall> &walls) {
   const ContactLaw *const law = impl_->contacts ? &impl_->contacts->law() : nullptr;
-  if (!is_mesh_wall()) walls.push_back({id, this, nullptr, law, primitive_of(impl_->words)});
+  if (!is_mesh_wall()) walls.push_back({id, this, nullptr, law, primitive_of(impl_->words), fix_history_primitive_});
   for (int k = 0; is_mesh_wall() && k < n_meshes(); k++)
-    walls.push_back({mesh_list()[k]->id, this, mesh_list()[k], law, {}});
+    walls.push_back({mesh_list()[k]->id, this, mesh_list()[k], law, {}, nullptr});
 }
 
 std::vector<grainscope::Wall> grainscope::walls_of(LAMMPS *lmp) {

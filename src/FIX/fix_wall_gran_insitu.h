@@ -21,9 +21,10 @@ struct ContactLaw;
 struct Wall {
   std::string name;  // ID of the fix wall/gran, or of the mesh
   LAMMPS_NS::FixWallGran *fix;
-  LAMMPS_NS::FixMeshSurface *mesh;     // null for a primitive wall
-  const ContactLaw *law;               // of the run that was set up last; null without pair_style gran/insitu
-  std::vector<std::string> primitive;  // of a primitive wall, as in the command: zplane 0.0
+  LAMMPS_NS::FixMeshSurface *mesh;      // null for a primitive wall
+  const ContactLaw *law;                // of the run that was set up last; null without pair_style gran/insitu
+  std::vector<std::string> primitive;   // of a primitive wall, as in the command: zplane 0.0
+  LAMMPS_NS::FixPropertyAtom *history;  // of a primitive wall's contacts, if it has one
 };
 
 /** All walls, in the order of their fixes: PartnerWall::wall counts them so. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ledger_requirements.h"
 #include "contact_law.h"
+#include "fix_wall_gran_insitu.h"
 #include "pair_gran_insitu.h"
 #include "atom.h"
 #include "domain.h"
@@ -42,6 +43,16 @@ void LedgerRequirements::require_known_contacts(PairGranInsitu &pair) const {
     fail("grains were given other IDs, and what is known of contacts goes by ID: say 'compress no' to delete_atoms");
 }
 
+std::vector<const ContactLaw *> LedgerRequirements::require_known_walls() const {
+  std::vector<const ContactLaw *> laws;
+  for (const Wall &wall : walls_of(lmp)) {
+    const std::string why = wall.law->why_no_energy();
+    if (!why.empty()) fail("wall " + wall.name + ": " + why);
+    laws.push_back(wall.law);
+  }
+  return laws;
+}
+
 /** Whether some grain belongs to the ledger's group and to another. Collective. */
 bool LedgerRequirements::shares_grains(int other_groupbit) const {
   int any = 0;
@@ -53,12 +64,14 @@ bool LedgerRequirements::shares_grains(int other_groupbit) const {
 
 /** Kinetic energy is booked as velocity Verlet moves it: every grain of the group by one such fix, or not at all
  *  (frozen). */
-void LedgerRequirements::require_moved_by_verlet() const {
-  int moved = 0;
+LedgerRequirements::Movers LedgerRequirements::require_moved_by_verlet() const {
+  Movers movers;
   for (int k = 0; k < modify->nfix; k++) {
     const Fix *fix = modify->fix[k];
-    if (one_of(fix->style, {"nve/sphere", "nve/superquadric", "nve/spheroid", "freeze"})) {
-      moved |= fix->groupbit;
+    if (one_of(fix->style, {"nve/sphere", "nve/superquadric", "nve/spheroid"})) {
+      movers.moved |= fix->groupbit;
+    } else if (!strcmp(fix->style, "freeze")) {
+      movers.frozen |= fix->groupbit;
     } else if (fix->time_integrate || fix->rigid_flag || strstr(fix->style, "multisphere") ||
                !strcmp(fix->style, "move")) {
       if (shares_grains(fix->groupbit))
@@ -69,12 +82,13 @@ void LedgerRequirements::require_moved_by_verlet() const {
   }
   int loose = 0;
   for (int i = 0; i < atom->nlocal; i++)
-    if ((atom->mask[i] & groupbit_) && !(atom->mask[i] & moved)) loose++;
+    if ((atom->mask[i] & groupbit_) && !(atom->mask[i] & (movers.moved | movers.frozen))) loose++;
   MPI_Allreduce(MPI_IN_PLACE, &loose, 1, MPI_INT, MPI_SUM, world);
   if (loose)
     fail("every grain of the group must be moved by fix nve/sphere, nve/superquadric or nve/spheroid, or be frozen, "
          "got " +
          std::to_string(loose) + " that are not");
+  return movers;
 }
 
 void LedgerRequirements::require_flowing_box() const {

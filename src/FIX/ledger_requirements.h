@@ -4,12 +4,15 @@
 
 #include "pointers.h"
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 class PairGranInsitu;
 }
 
 namespace grainscope {
+
+struct ContactLaw;
 
 /** What the energy ledger of a group needs of contact models, fixes and box: what is not met ends the run.
  *  Collective. */
@@ -20,7 +23,15 @@ class LedgerRequirements : private LAMMPS_NS::Pointers {
       : Pointers(lmp), groupbit_(groupbit), who_(who) {}
 
   void require_known_contacts(LAMMPS_NS::PairGranInsitu &pair) const;
-  void require_moved_by_verlet() const;
+  /** Their laws, which they know when all fixes have been initialised. */
+  std::vector<const ContactLaw *> require_known_walls() const;
+  /** Group bits: of fixes that move grains, and of fixes freeze. */
+  struct Movers {
+    int moved = 0, frozen = 0;
+    /** Whatever force there is on such a grain, it stays. */
+    bool hold(int mask) const { return (mask & frozen) && !(mask & moved); }
+  };
+  Movers require_moved_by_verlet() const;
   void require_flowing_box() const;
 
  private:

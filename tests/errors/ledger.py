@@ -36,17 +36,6 @@ def restarts(written, read, *words):
     return case
 
 
-INSERT = [
-    "region top block 0.5 11 0.5 11 5 11 units box",
-    "fix small all particletemplate/sphere 15485863 atom_type 1 density constant 1000 radius constant 0.05",
-    "fix kinds all particledistribution/discrete 15485867 1 small 1.0",
-    "fix insert all insert/rate/region seed 32452843 distributiontemplate kinds nparticles 30 particlerate 1000 "
-    "insert_every 20 "
-    "vel constant 0 0 0 overlapcheck yes all_in yes region top",
-    "thermo_style custom step c_c",
-    "thermo 1",
-    "run 60",
-]
 ROLLING = ("coeffRollingStiffness", "coefficientRollingViscousDamping")
 CASES = {
     "ledger-off": refused(
@@ -104,11 +93,11 @@ CASES = {
     "record-by-hand": refused(
         "fix ledger/record: is made by the computes that need it", compute="fix r all ledger/record x"
     ),
-    "grains-inserted": refused(
-        NAME + "the group changed by",
-        "grains in the middle of a run",
-        after=INSERT,
-        packing=replace(dense_packing(atom_style="sphere", overlap=-0.3), triclinic=False),
+    "wall-cohesion": refused(
+        NAME + "wall floor: does not know the energy of cohesion: only 'cohesion off', got 'model hertz tangential "
+        "history cohesion sjkr primitive",
+        before=["fix floor all wall/gran model hertz tangential history cohesion sjkr primitive type 1 zplane 0.0"],
+        packing=replace(SPHERES, triclinic=False),
     ),
     "restart-without": restarts(
         "",

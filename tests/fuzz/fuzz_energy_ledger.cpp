@@ -34,7 +34,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
   Pair pair(input.logarithmic(1e-6, 1e-2));
   const grainscope::ContactLaw law = make_law(1.5, grainscope::TangentialLaw::spring, input.flag());
   pair.rolling = law.rolls ? input.logarithmic(1e-3, 1.0) : 0.0;
-  pair.ledger.set_law(law);
+  pair.ledger.set_laws(law);
   for (Sphere &s : pair.spheres) {
     s.mass = input.logarithmic(0.1, 10.0);
     s.inertia = 0.4 * s.mass;

@@ -105,7 +105,7 @@ void rotations(Random &random) {
 void ledgers(Random &random) {
   for (int n = 0; n < 50; n++) {
     colliding_pair::Pair pair;
-    pair.ledger.set_law(make_law(1.5, grainscope::TangentialLaw::spring, true));
+    pair.ledger.set_laws(make_law(1.5, grainscope::TangentialLaw::spring, true));
     pair.rolling = 0.1;
     pair.frame.velocity_gradient(0, 1) = random.uniform(-1.0, 1.0);
     for (auto &sphere : pair.spheres)

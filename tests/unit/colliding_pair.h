@@ -17,6 +17,12 @@ using grainscope::ContactSpring;
 using grainscope::EnergyLedger;
 using grainscope::LedgerFrame;
 
+/** Grains 0 and 1. */
+inline EnergyLedger::Members everyone() {
+  static const int mask[2] = {1, 1}, ids[2] = {1, 2};
+  return {mask, 1, ids};
+}
+
 /** A sphere that moves by kick, drift, kick; its velocities are those that the ledger is shown. */
 struct Sphere {
   double mass, inertia;
@@ -44,7 +50,7 @@ class Pair {
   double rolling = 0.0;  // torque per difference of spins
   bool touching = false, touched = false;
 
-  explicit Pair(double step = 1e-3) : dt(step) { ledger.set_law(make_law(1.5, grainscope::TangentialLaw::spring)); }
+  explicit Pair(double step = 1e-3) : dt(step) { ledger.set_laws(make_law(1.5, grainscope::TangentialLaw::spring)); }
 
   void evaluate(bool springs_move) {
     Sphere &i = spheres[0], &j = spheres[1];
@@ -91,7 +97,7 @@ class Pair {
     const Vector3d spin = i.omega - j.omega, torque = -rolling * spin;
     contact.rolling = ContactRolling{spin, torque};
     contact.past = past_;
-    ledger.add(contact, dt, springs_move);
+    ledger.add({&contact, 1}, everyone(), dt, springs_move);
     past_ = ContactPast{d, motion.normal_stiffness * d, motion.tangential_stiffness,
                         -0.5 * dt * motion.normal_stiffness * d * u.dot(n),
                         0.5 * dt * motion.tangential_stiffness * spring_.dot(motion.tangential_velocity)};
