@@ -115,7 +115,7 @@ add_cases(wall/gran-rows cases/wall_measures.py LABEL case STYLES wall/gran cont
   numbers-of-planes numbers-of-triangles)
 add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES ${wall_measures} RANKS 1 LONG_RANKS 2 CASES
   column-on-a-plane column-on-a-mesh bounce-on-a-plane-e-0.1 bounce-on-a-plane-e-0.9 bounce-on-a-mesh-e-0.1
-  bounce-on-a-mesh-e-0.9 dragged rattlers)
+  bounce-on-a-mesh-e-0.9 booked dragged rattlers)
 add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran stress/contact press/strain gran/insitu
   RANKS 1 2 LONG_RANKS 4 CASES press-between-sides)
 add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran stress/contact press/strain gran/insitu

@@ -150,10 +150,15 @@ void ComputeDissipation::answer_by_ledger() {
   using E = grainscope::EnergyLedger;
   const auto last = FixLedgerRecord::find(lmp, id)->account().last;
   LossSums sums = impl_->sums.total(*this);
-  if (walls_ != Walls::only) {
-    sums.of_grains()[LossSums::normal_damping] = last[E::D_n] / update->dt;
-    sums.of_grains()[LossSums::friction] = last[E::D_t] / update->dt;
-    sums.of_grains()[LossSums::tangential_damping] = last[E::D_damp] / update->dt;
+  const struct {
+    int loss;
+    E::Entry all, of_walls;
+  } losses[] = {{LossSums::normal_damping, E::D_n, E::D_n_w},
+                {LossSums::friction, E::D_t, E::D_t_w},
+                {LossSums::tangential_damping, E::D_damp, E::D_damp_w}};
+  for (const auto &one : losses) {
+    if (walls_ != Walls::only) sums.of_grains()[one.loss] = (last[one.all] - last[one.of_walls]) / update->dt;
+    if (walls_ != Walls::no) sums.of_walls()[one.loss] = last[one.of_walls] / update->dt;
   }
   put(sums.all.data());
 }
