@@ -19,7 +19,7 @@ add_cases(contact/local+gran/insitu-host cases/pair_host.py LABEL case STYLES co
 add_cases(gran/insitu+stress/contact-host-tally cases/ranks.py LABEL case STYLES gran/insitu stress/contact
   RANKS 1 LONG_RANKS 2 CASES stress-atom-of-spheres stress-atom-of-spheroids)
 add_cases(gran/insitu-range cases/ranges.py LABEL case STYLES gran/insitu RANKS 1 LONG_RANKS 2 CASES
-  time-step time-step-in-short-runs time-step-unseen quiet unstable-from-the-start)
+  time-step time-step-in-short-runs time-step-at-walls time-step-unseen quiet unstable-from-the-start)
 
 # stress/contact, dissipation, nematic, contact/local against the oracle and a contact law of its own
 set(first_measures stress/contact dissipation nematic contact/local)
@@ -28,7 +28,7 @@ add_cases(stress/contact+dissipation+nematic-oracle cases/measures_against_oracl
 add_cases(stress/contact+dissipation+nematic-oracle cases/measures_against_oracle.py LABEL case
   STYLES ${first_measures} RANKS 1 LONG_RANKS 2 CASES
   spheres spheres-in-the-open spheroid-1.5-in-the-open spheres-through-a-flip spheroids-through-a-flip
-  walls-not-counted)
+  walls)
 add_cases(stress/contact+dissipation+nematic-oracle cases/measures_against_oracle.py LABEL case
   STYLES ${first_measures} CASES
   spheroid-0.33-in-the-open spheroid-3-in-the-open polydisperse two-types frictionless no-history subgroup
@@ -80,7 +80,7 @@ add_cases(fabric+contact/surface+contact/direction+contact/grain-oracle cases/co
   spheres-mu-0 spheres-mu-10 spheres-polydisperse spheroid-0.33-in-the-open spheroid-0.67-in-the-open
   spheroid-1-in-the-open spheroid-3-in-the-open spheroid-1.5-mu-0 spheroid-1.5-mu-10 spheroid-0.33 polydisperse
   two-types with-tangential-damping no-history tilted-backward subgroup group-of-one axis-along-body-x
-  walls-not-counted units-cgs)
+  walls units-cgs)
 add_cases(fabric+contact/surface+contact/direction+contact/grain-oracle cases/contact_measures.py LABEL case
   STYLES ${contact_measures} RANKS 1 2 CASES spheroid-1.5)
 add_cases(fabric+contact/surface+contact/direction+contact/grain-oracle cases/contact_measures.py LABEL case
@@ -98,6 +98,29 @@ add_cases(fabric+contact/surface+contact/direction+contact/grain-analytic cases/
 add_cases(fabric+contact/surface+contact/direction+contact/grain-analytic cases/contact_analytic.py LABEL case
   STYLES ${contact_measures} RANKS 1 LONG_RANKS 2 CASES
   every-bin-oblate-parametric opposite-bins powers-of-spheres-add-up)
+
+# wall/gran: the motion of the host's, contacts with walls in every measure of contacts
+add_cases(wall/gran-bitwise-equal cases/wall_bitwise.py LABEL case STYLES wall/gran gran/insitu RANKS 1 2 CASES
+  walls-default)
+add_cases(wall/gran-bitwise-equal cases/wall_bitwise.py LABEL case STYLES wall/gran gran/insitu RANKS 1 LONG_RANKS 2
+  CASES walls-superquadric models-default models-superquadric)
+add_cases(wall/gran-bitwise-equal cases/wall_bitwise.py LABEL case STYLES wall/gran gran/insitu surface/ellipsoid
+  RANKS 1 LONG_RANKS 2 CASES walls-ellipsoid models-ellipsoid)
+set(wall_measures wall/gran ${contact_measures} stress/contact dissipation contact/local)
+add_cases(wall/gran-measures cases/wall_measures.py LABEL case STYLES ${wall_measures} RANKS 1 2 LONG_RANKS 4 CASES
+  box drum)
+add_cases(wall/gran-measures cases/wall_measures.py LABEL case STYLES ${wall_measures} RANKS 1 LONG_RANKS 2 4 CASES
+  piston hopper box-viscous box-subgroup box-empty-group hopper-frictionless)
+add_cases(wall/gran-rows cases/wall_measures.py LABEL case STYLES wall/gran contact/local RANKS 1 LONG_RANKS 2 4 CASES
+  numbers-of-planes numbers-of-triangles)
+add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES ${wall_measures} RANKS 1 LONG_RANKS 2 CASES
+  column-on-a-plane column-on-a-mesh bounce-on-a-plane-e-0.1 bounce-on-a-plane-e-0.9 bounce-on-a-mesh-e-0.1
+  bounce-on-a-mesh-e-0.9 booked dragged rattlers)
+add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran stress/contact press/strain gran/insitu
+  RANKS 1 2 LONG_RANKS 4 CASES press-between-sides)
+add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran stress/contact press/strain gran/insitu
+  RANKS 1 2 CASES asked-before-walls)
+add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran gran/insitu RANKS 1 2 CASES unseen-walls)
 
 # fluctuation, layering, velocity/correlation, displacement/shear, velocity/memory
 set(motion_measures fluctuation layering velocity/correlation)
@@ -453,6 +476,15 @@ add_cases(study-runs cases/study_runs.py LABEL case STYLES study RANKS 1 LONG_RA
 add_cases(build-bare-debian cases/bare_debian.py LABEL long STYLES build CASES
   demos-are-equal tests-on-bookworm tests-on-trixie clang-of-trixie)
 
+# What grains do at walls
+add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall/gran RANKS 1 2 LONG_RANKS 4 CASES
+  balance mesh-stress drum)
+add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall/gran RANKS 1 2 CASES impacts)
+add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall/gran CASES
+  couple weight power-of-a-plane losses areas impacts-resumed)
+add_cases(wall/triangle cases/wall_triangle.py LABEL case STYLES wall/triangle wall/contact RANKS 1 2 LONG_RANKS 4
+  CASES rows wear)
+
 # Includes between the folders of src/
 add_cases(suite-floors cases/floors.py LABEL case STYLES suite CASES
   includes-go-down small-tree-passes up-refused up-by-angle-brackets-refused beside-refused host-in-core-refused
@@ -460,6 +492,7 @@ add_cases(suite-floors cases/floors.py LABEL case STYLES suite CASES
 
 # Outputs have names
 set(with_outputs stress/contact fabric contact/direction contact/surface contact/grain contact/local contact/solver
+  wall/contact wall/triangle
   displacement/shear dissipation energy/ledger fluctuation layering nematic velocity/correlation velocity/memory
   property/atom press/strain)
 add_cases(every-style-outputs cases/outputs_declared.py LABEL case STYLES outputs ${with_outputs} RANKS 1 2 CASES every-number)

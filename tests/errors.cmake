@@ -1,6 +1,7 @@
 # Every style's command line: what must be refused, each bad input in a process of its own; and what must be taken
 set(styles_with_keywords stress/contact nematic contact/grain contact/solver energy/ledger dissipation fabric
   contact/surface contact/direction contact/local fluctuation layering velocity/correlation velocity/memory
+  wall/contact wall/triangle
   displacement/shear press/strain nve/spheroid gran/insitu)
 set(keywords ${CMAKE_CURRENT_SOURCE_DIR}/errors/keywords.py)
 foreach(style IN LISTS styles_with_keywords)
@@ -44,7 +45,8 @@ add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu run/
   hybrid newton-on setup-twice guard-by-hand memory-by-hand misspelt-model misspelt-setting)
 add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu RANKS 1 2 CASES small-periodic-box)
 add_cases(press/strain-refused errors/press_strain.py LABEL error STYLES press/strain CASES
-  target-no-such-variable rate-variable-zero not-periodic-along-axis cylinder-across-the-axis second-fix-deform)
+  target-no-such-variable rate-variable-zero not-periodic-along-axis cylinder-across-the-axis second-fix-deform
+  gain-auto-unknown-model gain-auto-unknown-model-of-a-wall)
 add_cases(press/strain-refused errors/press_strain.py LABEL error STYLES press/strain RANKS 1 LONG_RANKS 2 CASES
   target-variable-negative orthogonal-box)
 add_cases(press/strain-refused errors/press_strain.py LABEL error STYLES press/strain RANKS 1 2 CASES wall-on-the-axis)
@@ -55,6 +57,8 @@ add_cases(contact/surface-refused errors/measures.py LABEL error STYLES contact/
   surface-two-shapes)
 add_cases(contact/surface-refused errors/measures.py LABEL error STYLES contact/surface RANKS 1 LONG_RANKS 2 CASES
   surface-triaxial surface-of-spheres)
+add_cases(wall/contact-refused errors/walls.py LABEL error STYLES wall/contact wall/triangle RANKS 1 2 CASES names)
+add_cases(wall/contact-refused errors/walls.py LABEL error STYLES wall/contact CASES gone come-and-gone unknown-losses)
 add_cases(velocity/correlation-refused errors/measures.py LABEL error STYLES velocity/correlation CASES
   correlation-mesh-too-fine)
 add_cases(velocity/correlation-refused errors/measures.py LABEL error STYLES velocity/correlation RANKS 1 2 CASES

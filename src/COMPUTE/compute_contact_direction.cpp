@@ -40,9 +40,11 @@ ComputeContactDirection::ComputeContactDirection(LAMMPS *lmp, int &iarg, int nar
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   grainscope::Plane plane;
   int half = 36;  // bins from 0 to pi; the other half is their mirror image
+  walls_ = Walls::no;
   while (!arguments.done()) {
-    const std::string keyword = arguments.keyword({"plane", "bins"});
-    if (keyword == "plane") plane.read(arguments);
+    const std::string keyword = arguments.keyword({"plane", "bins", "walls"});
+    if (keyword == "walls") read_walls(arguments);
+    else if (keyword == "plane") plane.read(arguments);
     else half = arguments.even_number(keyword, 2, 10000) / 2;
   }
   impl_->sums = grainscope::ContactSums<DirectionSums>(DirectionSums(plane.flow, plane.gradient, half));

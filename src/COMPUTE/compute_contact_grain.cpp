@@ -18,16 +18,18 @@ namespace {
 
 constexpr auto intensive = grainscope::Extent::intensive;
 
-enum { CONTACTS, SLIDING, NORMAL_POWER, FRICTION_POWER, MOBILISATION, ANGLE, WIDTH };
+enum { CONTACTS, SLIDING, NORMAL_POWER, FRICTION_POWER, MOBILISATION, ANGLE, WALL_CONTACTS, WIDTH };
 
 grainscope::Outputs declared() {
   grainscope::Outputs outputs;
-  outputs.per_grain = {{"N_c", "-", intensive, "contacts of the grain"},
-                       {"N_sliding", "-", intensive, "its contacts that slide"},
-                       {"P_n", "energy/time", intensive, "power lost by normal damping, half of each contact's"},
-                       {"P_t", "energy/time", intensive, "power lost by friction, half of each contact's"},
-                       {"mobilisation", "-", intensive, "|F_t| over its friction limit, mean over its contacts"},
-                       {"theta", "rad", intensive, "angle of the major axis to the flow x in the xy plane"}};
+  outputs.per_grain = {
+      {"N_c", "-", intensive, "contacts of the grain, with grains and with walls"},
+      {"N_sliding", "-", intensive, "its contacts that slide"},
+      {"P_n", "energy/time", intensive, "power lost by normal damping, half of each contact's with a grain"},
+      {"P_t", "energy/time", intensive, "power lost by friction, half of each contact's with a grain"},
+      {"mobilisation", "-", intensive, "|F_t| over its friction limit, mean over its contacts"},
+      {"theta", "rad", intensive, "angle of the major axis to the flow x in the xy plane"},
+      {"N_w", "-", intensive, "contacts of the grain with walls"}};
   return outputs;
 }
 
@@ -42,7 +44,10 @@ struct ComputeContactGrain::Impl {
 ComputeContactGrain::ComputeContactGrain(LAMMPS *lmp, int &iarg, int narg, char **arg)
     : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
-  arguments.require_none();
+  while (!arguments.done()) {
+    arguments.keyword({"walls"});
+    read_walls(arguments);
+  }
   declare(this, declared());
   require_count(WIDTH, outputs().per_grain, "columns");
 }
@@ -62,8 +67,10 @@ void ComputeContactGrain::begin_contacts() {
 
 void ComputeContactGrain::add_contacts(grainscope::ContactSpan contacts) {
   grainscope::for_each_contact(contacts, selection(), [this](const Contact &c) {
-    const double contribution[ANGLE] = {1.0, c.sliding ? 1.0 : 0.0, 0.5 * grainscope::damping_loss(c),
-                                        0.5 * grainscope::friction_loss(c), grainscope::mobilisation(c)};
+    const double share = c.with_wall() ? 1.0 : 0.5;
+    const double contribution[ANGLE] = {1.0, c.sliding ? 1.0 : 0.0, share * grainscope::damping_loss(c),
+                                        share * grainscope::friction_loss(c), grainscope::mobilisation(c)};
+    if (c.with_wall()) array_atom[c.i][WALL_CONTACTS] += 1.0;
     for (int k = 0; k < ANGLE; k++) {
       array_atom[c.i][k] += contribution[k];
       if (c.with_own_grain()) array_atom[c.j()][k] += contribution[k];  // a ghost's owner counts it

@@ -18,8 +18,10 @@ namespace {
 struct Row {
   const Contact &contact;
   const double *image;
-  int id_i, id_j;
+  int id_i, id_j;  // id_j is 0 for a wall
 };
+
+const double no_shift[3] = {0.0, 0.0, 0.0};
 
 double *put(double *at, const Vector3d &v) { return std::copy(v.data(), v.data() + 3, at); }
 
@@ -70,7 +72,14 @@ const Column columns[] = {
     {"slip", one, "distance", "length cut from the tangential spring",
      [](const Row &r, double *to) { *to = r.contact.slip; }},
     {"mobilisation", one, "-", "|F_t| over its friction limit",
-     [](const Row &r, double *to) { *to = grainscope::mobilisation(r.contact); }, true}};
+     [](const Row &r, double *to) { *to = grainscope::mobilisation(r.contact); }, true},
+    {"wall", one, "-", "number of the wall, from 1, 0 for a grain",
+     [](const Row &r, double *to) { *to = r.contact.with_wall() ? r.contact.wall().wall + 1 : 0; }},
+    {"triangle", one, "-", "ID of the wall's triangle, from 0, -1 for none",
+     [](const Row &r, double *to) { *to = r.contact.with_wall() ? r.contact.wall().triangle : -1; }}};
+
+/** The columns that are written where none is asked for: scripts count them. */
+const int usual_columns = 15;
 
 }
 
@@ -88,17 +97,20 @@ struct ComputeContactLocal::Impl {
 ComputeContactLocal::ComputeContactLocal(LAMMPS *lmp, int &iarg, int narg, char **arg)
     : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
-  const bool all = arguments.done();
   std::vector<std::string> names;
-  for (const Column &column : columns) {
-    names.push_back(column.name);
-    if (all) impl_->chosen.push_back({&column, 0});
-  }
+  for (const Column &column : columns) names.push_back(column.name);
+  names.push_back("walls");
   while (!arguments.done()) {
     const std::string name = arguments.keyword(names, "column");
+    if (name == "walls") {
+      read_walls(arguments);
+      continue;
+    }
     const auto same = [&name](const Column &column) { return name == column.name; };
     impl_->chosen.push_back({std::find_if(std::begin(columns), std::end(columns), same), 0});
   }
+  if (impl_->chosen.empty())
+    for (int k = 0; k < usual_columns; k++) impl_->chosen.push_back({&columns[k], 0});
   grainscope::Outputs outputs;
   for (Impl::Chosen &one : impl_->chosen) {
     const grainscope::OutputList list = one.column->outputs();
@@ -138,7 +150,8 @@ void ComputeContactLocal::add_contacts(grainscope::ContactSpan contacts) {
 }
 
 void ComputeContactLocal::add_row(const Contact &c) {
-  const Row row = {c, observer_->image_shift(c.j()), atom->tag[c.i], atom->tag[c.j()]};
+  const Row row = c.with_wall() ? Row{c, no_shift, atom->tag[c.i], 0}
+                                : Row{c, observer_->image_shift(c.j()), atom->tag[c.i], atom->tag[c.j()]};
   impl_->values.resize(impl_->values.size() + impl_->width);
   double *to = impl_->values.data() + impl_->values.size() - impl_->width;
   for (const Impl::Chosen &one : impl_->chosen) {

@@ -14,9 +14,9 @@ ComputeStyle(contact/local,ComputeContactLocal)
 
 namespace LAMMPS_NS {
 
-/** One row per contact between grains of the group, straight from the force evaluation that drove the step, each
- *  contact once over all ranks; for dump local. Per grain the forces of the rows sum to f. Columns by keyword; all
- *  of them by default, in the order of the table in doc/compute_contact_local.md. */
+/** One row per contact of the group, with a grain or a wall, straight from the force evaluation that drove the step,
+ *  each contact once over all ranks; for dump local. Per grain the forces of the rows sum to f. Columns by keyword; by
+ *  default all that contacts between grains have, in the order of the table in doc/compute_contact_local.md. */
 class ComputeContactLocal : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
  public:
   ComputeContactLocal(class LAMMPS *lmp, int &iarg, int narg, char **arg);

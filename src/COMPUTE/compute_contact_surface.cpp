@@ -32,13 +32,14 @@ enum { CONTACTS, NORMAL, TANGENTIAL, MOBILISATION, SLIDING, NORMAL_POWER, FRICTI
 
 grainscope::Outputs declared(int bins) {
   grainscope::Outputs outputs;
-  outputs.vector = {{"P", "pressure", intensive, "sum of F_y r_y over contacts, over the volume of the box"},
-                    {"A_p", "distance^2", intensive, "area of a grain, mean over the group"},
-                    {"N", "-", whole, "grains of the group"}};
+  outputs.vector = {
+      {"P", "pressure", intensive, "sum of F_y r_y over contacts, with walls too, over the volume of the box"},
+      {"A_p", "distance^2", intensive, "area of a grain, mean over the group"},
+      {"N", "-", whole, "grains of the group"}};
   outputs.set_array(bins, "bin of psi",
                     {{"psi", "rad", intensive, "angle of the bin's middle"},
                      {"area", "distance^2", intensive, "area A_j of the bin on a grain, mean over grains"},
-                     {"N_c", "-", whole, "contacts N_j of the bin, each on both of its grains"},
+                     {"N_c", "-", whole, "contacts N_j of the bin, each on both of its grains, with a wall on one"},
                      {"rho_s", "1/distance^2", intensive, "share of the contacts over the area A_j"},
                      {"rho_s_A_p", "-", intensive, "rho_s A_p = (N_j/N)/(A_j/A_p)"},
                      {"F_n", "-", intensive, "F_n/(P A_p), mean over the bin's contacts"},
@@ -71,12 +72,11 @@ struct SurfaceSums {
   SurfaceAngle angle = SurfaceAngle::polar;
   int axis = -1;             // body axis; -1: the symmetry axis
   double unit_area = 0.0;    // of a grain whose semi-axis along the axis is 1
-  std::vector<double> sums;  // bins x SUMS, sum of F_y r_y over contacts, contacts whose place is not finite
+  std::vector<double> sums;  // bins x SUMS, contacts whose place is not finite
 
-  void reset() { sums.assign(bins * SUMS + 2, 0.0); }
+  void reset() { sums.assign(bins * SUMS + 1, 0.0); }
   std::vector<double> &numbers() { return sums; }
   const double *bin(int k) const { return &sums[k * SUMS]; }
-  double moment() const { return sums[bins * SUMS]; }
   double not_finite() const { return sums.back(); }
 
   /** The body axis that angles are measured from: z for spheres. */
@@ -86,7 +86,6 @@ struct SurfaceSums {
     return symmetry < 0 ? 2 : symmetry;
   }
   void add(const Contact &c) {
-    sums[bins * SUMS] += c.weight * c.force[1] * c.branch[1];
     const Vector3d arm = c.motion->point - Map<const Vector3d>(atom->x[c.i]);
     add_to(c.i, arm, c);
     if (c.with_own_grain()) add_to(c.j(), arm + c.branch, c);  // a ghost's owner counts it
@@ -106,8 +105,22 @@ struct SurfaceSums {
     s[TANGENTIAL] += c.tangential_force.norm() / area;
     s[MOBILISATION] += grainscope::mobilisation(c);
     s[SLIDING] += c.sliding ? 1.0 : 0.0;
-    s[NORMAL_POWER] += 0.5 * grainscope::damping_loss(c);
-    s[FRICTION_POWER] += 0.5 * grainscope::friction_loss(c);
+    const double share = c.with_wall() ? 1.0 : 0.5;
+    s[NORMAL_POWER] += share * grainscope::damping_loss(c);
+    s[FRICTION_POWER] += share * grainscope::friction_loss(c);
+  }
+};
+
+/** The pressure that forces are divided by is that of all contacts, whichever are counted in bins. */
+struct PressureSum : grainscope::ContactCompute::Accumulator {
+  double moment = 0.0;  // sum of F_y r_y, of this rank
+
+  void reset() override { moment = 0.0; }
+  void add(grainscope::ContactSpan contacts, const grainscope::ContactCompute &of) override {
+    grainscope::ContactCompute::Selection all = of.selection();
+    all.walls = grainscope::ContactCompute::Walls::yes;
+    grainscope::for_each_contact(contacts, all,
+                                 [this](const Contact &c) { moment += c.weight * c.force[1] * c.branch[1]; });
   }
 };
 
@@ -115,6 +128,7 @@ struct SurfaceSums {
 
 struct ComputeContactSurface::Impl {
   grainscope::ContactSums<SurfaceSums> contacts;
+  PressureSum pressure;
   // semi-axes of a grain of the group's shape, 1 along the axis; zero for an empty group
   Vector3d proportions = Vector3d::Zero();
   std::vector<double> unit_areas;          // of its bands
@@ -127,8 +141,10 @@ struct ComputeContactSurface::Impl {
 ComputeContactSurface::ComputeContactSurface(LAMMPS *lmp, int &iarg, int narg, char **arg)
     : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
+  walls_ = Walls::no;
   while (!arguments.done()) {
-    const std::string keyword = arguments.keyword({"bins", "angle", "axis"});
+    const std::string keyword = arguments.keyword({"bins", "angle", "axis", "walls"});
+    if (keyword == "walls") read_walls(arguments);
     if (keyword == "bins") impl_->sums().bins = arguments.whole_number(keyword, 1, 1000);
     if (keyword == "angle")
       impl_->sums().angle = arguments.choice(keyword, {"polar", "parametric"}) == "polar" ? SurfaceAngle::polar
@@ -141,6 +157,7 @@ ComputeContactSurface::ComputeContactSurface(LAMMPS *lmp, int &iarg, int narg, c
   require_axes(atom, arguments);
   impl_->sums().atom = atom;
   sums_over(impl_->contacts);
+  sums_over(impl_->pressure);
   declare(this, declared(impl_->sums().bins));
 }
 
@@ -223,9 +240,11 @@ void ComputeContactSurface::begin_contacts() {
 }
 
 void ComputeContactSurface::answer() {
+  observer_->require_complete(name_ + " " + id);  // the pressure needs walls, whatever the bins count
   const SurfaceSums &all = impl_->contacts.total(*this);
   require_finite(all.not_finite());
-  const double pressure = all.moment() / observer_->box().volume;
+  double pressure = impl_->pressure.moment / observer_->box().volume;
+  sum_over_ranks(&pressure, 1);
   const double per_pressure = pressure > 0.0 ? 1.0 / pressure : 0.0;
   double contacts = 0.0, power = 0.0;
   for (int k = 0; k < all.bins; k++) {

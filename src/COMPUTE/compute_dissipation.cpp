@@ -26,13 +26,18 @@ constexpr auto extensive = grainscope::Extent::extensive;
 
 grainscope::Outputs declared() {
   grainscope::Outputs outputs;
-  outputs.scalar = {{"P_total", "energy/time", extensive, "P_n + P_t + P_t_damp"}};
+  outputs.scalar = {{"P_total", "energy/time", extensive, "all six powers together"}};
   outputs.vector = {
       {"P_n", "energy/time", extensive, "power lost by normal damping"},
       {"P_t", "energy/time", extensive, "power lost by friction of sliding contacts"},
       {"P_t_damp", "energy/time", extensive, "power lost by tangential damping of contacts that do not slide"},
-      {"N_c", "-", extensive, "contacts"},
-      {"N_sliding", "-", extensive, "sliding contacts"}};
+      {"N_c", "-", extensive, "contacts between grains"},
+      {"N_sliding", "-", extensive, "sliding contacts between grains"},
+      {"P_n_w", "energy/time", extensive, "power lost by normal damping at walls"},
+      {"P_t_w", "energy/time", extensive, "power lost by friction at walls"},
+      {"P_t_damp_w", "energy/time", extensive, "power lost by tangential damping at walls"},
+      {"N_w", "-", extensive, "contacts with walls"},
+      {"N_sliding_w", "-", extensive, "sliding contacts with walls"}};
   return outputs;
 }
 
@@ -41,11 +46,15 @@ struct DampingForces : grainscope::ContactCompute::Accumulator {
   const Atom *atom = nullptr;
   const Domain *domain = nullptr;
   const grainscope::ContactObserver *observer = nullptr;
-  grainscope::GrainPower normal, tangential;
+  struct Of {
+    grainscope::GrainPower normal, tangential;
+  } grains, walls;
 
   void reset() override {
-    normal.reset(atom->nlocal);
-    tangential.reset(atom->nlocal);
+    for (Of *of : {&grains, &walls}) {
+      of->normal.reset(atom->nlocal);
+      of->tangential.reset(atom->nlocal);
+    }
   }
   void add(grainscope::ContactSpan contacts, const grainscope::ContactCompute &of) override {
     grainscope::for_each_contact(contacts, of.selection(), [this](const Contact &c) { add(c); });
@@ -57,8 +66,9 @@ struct DampingForces : grainscope::ContactCompute::Accumulator {
     if (c.with_wall()) image_velocity = c.wall().velocity;
     if (c.ghost() && domain->deform_vremap && (atom->mask[c.j()] & domain->deform_groupbit))
       image_velocity = observer->image_velocity(c.j());
-    normal.add(c, m.normal_damping * c.normal, lever_i, lever_j, image_velocity);
-    if (m.damped) tangential.add(c, -m.tangential_damping * m.tangential_velocity, lever_i, lever_j, image_velocity);
+    Of &of = c.with_wall() ? walls : grains;
+    of.normal.add(c, m.normal_damping * c.normal, lever_i, lever_j, image_velocity);
+    if (m.damped) of.tangential.add(c, -m.tangential_damping * m.tangential_velocity, lever_i, lever_j, image_velocity);
   }
 };
 
@@ -74,7 +84,11 @@ ComputeDissipation::ComputeDissipation(LAMMPS *lmp, int &iarg, int narg, char **
     : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   while (!arguments.done()) {
-    const std::string keyword = arguments.keyword({"mode"});
+    const std::string keyword = arguments.keyword({"mode", "walls"});
+    if (keyword == "walls") {
+      read_walls(arguments);
+      continue;
+    }
     const std::string mode = arguments.choice(keyword, {"instantaneous", "step", "ledger"});
     impl_->mode = mode == "step" ? Mode::step : mode == "ledger" ? Mode::ledger : Mode::instantaneous;
   }
@@ -86,6 +100,7 @@ ComputeDissipation::ComputeDissipation(LAMMPS *lmp, int &iarg, int narg, char **
   sums_over(impl_->sums);
   if (impl_->mode == Mode::step) sums_over(impl_->damping);
   declare(this, declared());
+  require_count(2 * LossSums::WIDTH, outputs().vector, "elements");
   if (impl_->mode == Mode::ledger) FixLedgerRecord::make(lmp, id, igroup, "dissipation mode ledger");
 }
 
@@ -109,25 +124,41 @@ bool ComputeDissipation::needs_images() const { return impl_->mode == Mode::step
 
 void ComputeDissipation::answer() {
   if (impl_->mode == Mode::ledger) return answer_by_ledger();
-  std::array<double, 5> values = impl_->sums.mine().sums;
+  LossSums sums = impl_->sums.mine();
+  const auto to_powers = [this](const DampingForces::Of &damping, double *of) {
+    of[LossSums::normal_damping] = -damping.normal.power(atom->v, atom->omega);
+    of[LossSums::friction] /= observer_->time_step();
+    of[LossSums::tangential_damping] = -damping.tangential.power(atom->v, atom->omega);
+  };
   if (impl_->mode == Mode::step) {
-    values[LossSums::normal_damping] = -impl_->damping.normal.power(atom->v, atom->omega);
-    values[LossSums::friction] /= observer_->time_step();
-    values[LossSums::tangential_damping] = -impl_->damping.tangential.power(atom->v, atom->omega);
+    to_powers(impl_->damping.grains, sums.of_grains());
+    to_powers(impl_->damping.walls, sums.of_walls());
   }
-  sum_over_ranks(values.data(), values.size());
-  double *out = vector;
-  for (double value : values) *out++ = value + 0.0;  // no negative zeros
-  require_all_elements(out);
-  scalar = vector[0] + vector[1] + vector[2];
+  sum_over_ranks(sums.all.data(), sums.all.size());
+  put(sums.all.data());
+}
+
+void ComputeDissipation::put(const double *values) {
+  for (int k = 0; k < size_vector; k++) vector[k] = values[k] + 0.0;  // no negative zeros
+  scalar = 0.0;
+  for (int first : {0, static_cast<int>(LossSums::WIDTH)})
+    for (int k : {LossSums::normal_damping, LossSums::friction, LossSums::tangential_damping})
+      scalar += vector[first + k];
 }
 
 void ComputeDissipation::answer_by_ledger() {
   using E = grainscope::EnergyLedger;
   const auto last = FixLedgerRecord::find(lmp, id)->account().last;
-  const auto &sums = impl_->sums.total(*this).sums;
-  const double dt = update->dt;
-  put_vector({(last[E::D_n] - last[E::D_n_w]) / dt, (last[E::D_t] - last[E::D_t_w]) / dt,
-              (last[E::D_damp] - last[E::D_damp_w]) / dt, sums[LossSums::contacts], sums[LossSums::sliding]});
-  scalar = vector[0] + vector[1] + vector[2];
+  LossSums sums = impl_->sums.total(*this);
+  const struct {
+    int loss;
+    E::Entry all, of_walls;
+  } losses[] = {{LossSums::normal_damping, E::D_n, E::D_n_w},
+                {LossSums::friction, E::D_t, E::D_t_w},
+                {LossSums::tangential_damping, E::D_damp, E::D_damp_w}};
+  for (const auto &one : losses) {
+    if (walls_ != Walls::only) sums.of_grains()[one.loss] = (last[one.all] - last[one.of_walls]) / update->dt;
+    if (walls_ != Walls::no) sums.of_walls()[one.loss] = last[one.of_walls] / update->dt;
+  }
+  put(sums.all.data());
 }

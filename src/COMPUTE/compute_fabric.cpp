@@ -73,8 +73,10 @@ struct ComputeFabric::Impl {
 ComputeFabric::ComputeFabric(LAMMPS *lmp, int &iarg, int narg, char **arg)
     : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
+  walls_ = Walls::no;
   while (!arguments.done()) {
-    const std::string keyword = arguments.keyword({"plane", "branch", "force/normal", "force/tangential"});
+    const std::string keyword = arguments.keyword({"plane", "walls", "branch", "force/normal", "force/tangential"});
+    if (keyword == "walls") read_walls(arguments);
     if (keyword == "plane") impl_->plane.read(arguments);
     for (const Weighted &one : weighted_tensors)
       if (keyword == one.name) impl_->chosen.push_back(&one);

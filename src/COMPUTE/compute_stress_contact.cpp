@@ -43,12 +43,13 @@ grainscope::Outputs declared() {
       .add({"mu_eff", "-", intensive, "effective friction, sxy/P"})
       .add({"N1", "-", intensive, "first normal stress difference, (sxx - syy)/P"})
       .add({"N2", "-", intensive, "second normal stress difference, (syy - szz)/P"})
-      .add({"N_c", "-", whole, "contacts"})
-      .add({"Z", "-", intensive, "coordination number, 2 N_c/N"})
+      .add({"N_c", "-", whole, "contacts between grains"})
+      .add({"Z", "-", intensive, "coordination number, (2 N_c + N_w)/N"})
       .add({"sliding", "-", intensive, "fraction of contacts that slide"})
       .add({"overlap_mean", "distance", intensive, "mean overlap"})
       .add({"overlap_max", "distance", intensive, "largest overlap"})
-      .add({"kappa", "-", intensive, "stiffness number, min(alpha, 1) (E/P)^(2/3)"});
+      .add({"kappa", "-", intensive, "stiffness number, min(alpha, 1) (E/P)^(2/3)"})
+      .add({"N_w", "-", whole, "contacts with walls"});
   return outputs;
 }
 
@@ -61,7 +62,10 @@ struct ComputeStressContact::Impl {
 ComputeStressContact::ComputeStressContact(LAMMPS *lmp, int &iarg, int narg, char **arg)
     : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
-  arguments.require_none();
+  while (!arguments.done()) {
+    arguments.keyword({"walls"});
+    read_walls(arguments);
+  }
   sums_over(impl_->sums);
   declare(this, declared());
 }
@@ -71,9 +75,15 @@ ComputeStressContact::~ComputeStressContact() {}
 void ComputeStressContact::init() {
   ContactCompute::init();
   stiffness_of_build_ = -1;
-  if (!law().knows_sliding() && comm->me == 0)
+  if (!knows_sliding() && comm->me == 0)
     error->warning(FLERR, "compute stress/contact: sliding is known for 'tangential' off, no_history and history only; "
-                          "element 32 stays 0");
+                          "other contacts never count as sliding in element 32");
+}
+
+/** Of all contacts that are counted. */
+bool ComputeStressContact::knows_sliding() const {
+  const std::vector<const grainscope::ContactLaw *> laws = laws_of_contacts();
+  return std::all_of(laws.begin(), laws.end(), [](const grainscope::ContactLaw *law) { return law->knows_sliding(); });
 }
 
 /** Smallest Young's modulus among the types of the group; 0 when the deck defines none. */
@@ -124,14 +134,14 @@ void ComputeStressContact::answer() {
   for (const Eigen::Matrix3d *part : {&normal, &tangential, &kinetic}) out = grainscope::write_components(*part, out);
   const double pressure = -total(1, 1);
   const double per_pressure = pressure > 0.0 ? 1.0 / pressure : 0.0;
-  const double contacts = all.contacts();
-  const double per_contact = contacts > 0.0 ? 1.0 / contacts : 0.0;
+  const double of_grains = all.contacts_of_grains(), with_walls = all.contacts_with_walls();
+  const double per_contact = all.contacts() > 0.0 ? 1.0 / all.contacts() : 0.0;
   *out++ = pressure;
   *out++ = total(0, 1) * per_pressure;
   *out++ = (total(0, 0) - total(1, 1)) * per_pressure;
   *out++ = (total(1, 1) - total(2, 2)) * per_pressure;
-  *out++ = contacts;
-  *out++ = motion.grains() > 0.0 ? 2.0 * contacts / motion.grains() : 0.0;
+  *out++ = of_grains;
+  *out++ = motion.grains() > 0.0 ? (2.0 * of_grains + with_walls) / motion.grains() : 0.0;
   *out++ = all.sliding() * per_contact;
   *out++ = all.overlaps() * per_contact;
   *out++ = largest_overlap;
@@ -141,6 +151,7 @@ void ComputeStressContact::answer() {
   }
   const double kappa = stiffness_ * std::pow(per_pressure, 2.0 / 3.0);
   *out++ = kappa;
+  *out++ = with_walls;
   require_all_elements(out);
   if (!unasked())
     soft_.watch(lmp, pressure > 0.0 && kappa < hard_grains,

@@ -95,7 +95,7 @@ void ContactCompute::read_walls(Arguments &arguments) {
 const ContactLaw &ContactCompute::law() const { return PairGranInsitu::required_by(lmp, name_.c_str())->law(); }
 
 void ContactCompute::require_known_losses() const {
-  const std::string why = law().why_no_losses();
+  const std::string why = walls_ == Walls::only ? "" : law().why_no_losses();
   if (!why.empty()) Arguments(lmp, name_).fail(why);
   if (walls_ == Walls::no) return;
   for (const Wall &wall : walls_of(lmp)) {
@@ -104,7 +104,17 @@ void ContactCompute::require_known_losses() const {
   }
 }
 
+std::vector<const ContactLaw *> ContactCompute::laws_of_contacts() const {
+  std::vector<const ContactLaw *> laws;
+  if (walls_ != Walls::only) laws.push_back(&law());
+  if (walls_ == Walls::no) return laws;
+  for (const Wall &wall : walls_of(lmp))
+    if (wall.law) laws.push_back(wall.law);
+  return laws;
+}
+
 void ContactCompute::require_tally() const {
+  if (attached() && walls_ != Walls::no) observer_->require_complete(name_ + " " + id);
   if (attached() && tallied_ == update->ntimestep) return;
   const std::string message =
       name_ + " " + id +

@@ -68,11 +68,14 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
   virtual void answer();
 
   bool in_group(int i) const;
+  /** Of contacts between grains. */
   const ContactLaw &law() const;
+  /** Of all contacts that belong to the measure. */
+  std::vector<const ContactLaw *> laws_of_contacts() const;
   /** Errors unless the damping and friction of the contact model, and of those of walls where they are chosen, are
    *  known, because their powers are reported. In init(). */
   void require_known_losses() const;
-  /** Errors unless the current step was tallied. */
+  /** Errors unless the current step was tallied, with all its contacts. */
   void require_tally() const;
   /** False where an answer that nobody asked for may end the run. */
   virtual bool answers_after_run() const { return true; }

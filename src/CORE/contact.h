@@ -90,11 +90,12 @@ struct Contact {
   bool sliding = false;
   double slip = 0.0;  // length cut from the spring, >= 0
 
-  std::optional<ContactMotion> motion;  // when a sink needs it (ContactSink::needs_motion)
-  // With `ledger on` only
-  std::optional<ContactPast> past;        // of contacts that touched in the previous evaluation
-  std::optional<ContactSpring> spring;    // of a law that has one
+  // When a sink needs it (ContactSink::needs_motion)
+  std::optional<ContactMotion> motion;
   std::optional<ContactRolling> rolling;  // of a law with a rolling model
+  // With `ledger on` only
+  std::optional<ContactPast> past;      // of contacts that touched in the previous evaluation
+  std::optional<ContactSpring> spring;  // of a law that has one
 
   bool with_wall() const { return std::holds_alternative<PartnerWall>(partner); }
   /** Of a contact with a wall. */

@@ -22,6 +22,16 @@ inline double friction_loss(const Contact &c) {
   return c.sliding && !c.motion->damped ? -c.friction_force.dot(c.motion->tangential_velocity) : 0.0;
 }
 
+/** Power lost to tangential damping at this instant, of a contact that was not cut. */
+inline double tangential_damping_loss(const Contact &c) {
+  return c.motion->damped ? c.motion->tangential_damping * c.motion->tangential_velocity.squaredNorm() : 0.0;
+}
+
+/** F_n |u_t| of a contact that slides: what wears a surface by Archard's law. */
+inline double archard_rate(const Contact &c) {
+  return c.sliding && !c.motion->damped ? std::max(c.normal_force, 0.0) * c.motion->tangential_velocity.norm() : 0.0;
+}
+
 }
 
 #endif

@@ -11,8 +11,9 @@ namespace grainscope {
 /** Sums over contacts that make up the contact stress, Bilotto et al. 2025, Eq. (2); plain doubles, so that ranks add
  *  them up. */
 struct StressSums {
-  // For b = x, y, z: F_x r_b, F_y r_b, F_z r_b and the same with F_t; then contacts, sliding contacts, overlaps.
-  std::array<double, 21> sums{};
+  // For b = x, y, z: F_x r_b, F_y r_b, F_z r_b and the same with F_t; then contacts between grains, contacts with
+  // walls, and of both together those that slide, and overlaps.
+  std::array<double, 22> sums{};
   double largest_overlap = 0.0;
 
   void add(const Contact &c) {
@@ -20,16 +21,18 @@ struct StressSums {
     forces << c.force, c.tangential_force;
     const Eigen::Vector3d r = c.weight * c.branch;
     Moments(sums.data()).noalias() += forces * r.transpose();
-    sums[18] += c.weight;
-    sums[19] += c.sliding ? c.weight : 0.0;
-    sums[20] += c.weight * c.overlap;
+    sums[c.with_wall() ? 19 : 18] += c.weight;
+    sums[20] += c.sliding ? c.weight : 0.0;
+    sums[21] += c.weight * c.overlap;
     largest_overlap = std::max(largest_overlap, c.overlap);
   }
   void reset() { *this = StressSums(); }
-  std::array<double, 21> &numbers() { return sums; }
-  double contacts() const { return sums[18]; }
-  double sliding() const { return sums[19]; }
-  double overlaps() const { return sums[20]; }
+  std::array<double, 22> &numbers() { return sums; }
+  double contacts_of_grains() const { return sums[18]; }
+  double contacts_with_walls() const { return sums[19]; }
+  double contacts() const { return contacts_of_grains() + contacts_with_walls(); }
+  double sliding() const { return sums[20]; }
+  double overlaps() const { return sums[21]; }
   /** -1/volume sum F_a r_b: tension positive. */
   Eigen::Matrix3d total(double volume) const { return ConstMoments(sums.data()).topRows<3>() / -volume; }
   Eigen::Matrix3d tangential(double volume) const { return ConstMoments(sums.data()).bottomRows<3>() / -volume; }

@@ -111,18 +111,17 @@ void FixPressStrain::init() {
   const grainscope::PressStrainRequirements requirements(lmp, this, my.settings);
   requirements.require_controllable_box(my.box);
   requirements.require_group(my.momentum_group.c_str(), my.momentum_groupbit);
-  PairGranInsitu *pair = PairGranInsitu::required_by(lmp, "fix press/strain");
-  my.observer = &pair->observer();
+  my.observer = &PairGranInsitu::required_by(lmp, "fix press/strain")->observer();
   my.observer->add(this);
-  if (my.settings.control.automatic && !pair->law().knows_stiffness())
-    press_strain_error(lmp, std::string("'gain auto' knows the stiffness of the normal models ") +
-                                grainscope::ContactLaw::elastic_models() + " only: give a number");
   my.settings.evaluate_rate(lmp);
   my.box.set_rates(my.velocity, my.settings.rate.value);
   plan_flip();
 }
 
-void FixPressStrain::setup(int) { evaluate_variables(); }
+void FixPressStrain::setup(int) {
+  grainscope::PressStrainRequirements(lmp, this, impl_->settings).require_known_stiffness();
+  evaluate_variables();
+}
 
 /** Every step, so that the computes that a variable uses can be announced for the next one. */
 void FixPressStrain::evaluate_variables() {
@@ -221,6 +220,7 @@ void FixPressStrain::take_input() {
 double FixPressStrain::pressure_now() {
   Impl &my = *impl_;
   if (my.pressure_step == update->ntimestep || !attached()) return my.pressure;
+  my.observer->require_complete("fix press/strain");
   my.pressure_step = update->ntimestep;
   my.pressure = my.now.pressure * force->nktv2p / my.observer->box().volume;
   MPI_Allreduce(MPI_IN_PLACE, &my.pressure, 1, MPI_DOUBLE, MPI_SUM, world);

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cstring>
 #include <iostream>
+#include <sstream>
 
 using namespace LAMMPS_NS;
 using grainscope::ContactLaw;
@@ -63,6 +64,16 @@ LAMMPS *take_over(LAMMPS *lmp) {
   return lmp;
 }
 
+/** What follows `primitive type N` in the words of a command. */
+std::vector<std::string> primitive_of(const std::string &words) {
+  std::istringstream all(words);
+  std::vector<std::string> found;
+  for (std::string word; found.size() < 7 && all >> word;)
+    if (word == "primitive" || !found.empty()) found.push_back(word);
+  found.erase(found.begin(), found.begin() + std::min<std::size_t>(found.size(), 3));
+  return found;
+}
+
 /** The words of the command behind the style, for messages and for what they say of the models. */
 std::string words_of(int narg, char **arg) {
   std::string words;
@@ -79,35 +90,16 @@ struct SavedWall {
 }
 
 struct FixWallGranInsitu::Impl : grainscope::WallContacts {
-  Impl(LAMMPS *lmp, FixWallGranInsitu *fix) : fix(fix), velocities(lmp) {}
-  FixWallGranInsitu *fix;
+  explicit Impl(LAMMPS *lmp) : velocities(lmp) {}
   std::string words;
   std::vector<std::string> columns;  // of the contact history
   int past_column = -1;              // first of the ledger's, or -1
-  double exponent = 0.0;
   double **friction = nullptr;
-  int first = 0;  // number of its first wall
   PairGranInsitu *pair = nullptr;
   std::unique_ptr<ContactReader> contacts;
   grainscope::MeshVelocities velocities;  // with `setup neutral`
   bool restarted = false;                 // they are of a restart file
 
-  ContactReader *reader() override { return contacts.get(); }
-  void set_exponent(double value) override { exponent = value; }
-  grainscope::PartnerWall partner(const ContactReader::Surfaces &s) const override {
-    grainscope::PartnerWall wall;
-    wall.wall = first;
-    if (!fix->is_mesh_wall()) return wall;
-    FixMeshSurface **const meshes = fix->mesh_list();
-    wall.wall += std::find(meshes, meshes + fix->n_meshes(), s.fix_mesh) - meshes;
-    wall.triangle = s.mesh->id(s.j);
-    return wall;
-  }
-  std::vector<TriMesh *> meshes() const {
-    std::vector<TriMesh *> meshes;
-    for (int k = 0; k < fix->n_meshes(); k++) meshes.push_back(fix->mesh_list()[k]->triMesh());
-    return meshes;
-  }
   int column_of(const std::string &name) const {
     const auto at = std::find(columns.begin(), columns.end(), name);
     return at == columns.end() ? -1 : at - columns.begin();
@@ -115,7 +107,7 @@ struct FixWallGranInsitu::Impl : grainscope::WallContacts {
 };
 
 FixWallGranInsitu::FixWallGranInsitu(LAMMPS *lmp, int narg, char **arg)
-    : FixWallGran(take_over(lmp), narg, arg), impl_(new Impl(lmp, this)) {
+    : FixWallGran(take_over(lmp), narg, arg), impl_(new Impl(lmp)) {
   impl_->words = words_of(narg, arg);
   const std::unique_ptr<Deferred> deferred(dynamic_cast<Deferred *>(impl));
   impl = nullptr;  // until there is another: making it may end the run
@@ -135,6 +127,12 @@ grainscope::WallContacts &FixWallGranInsitu::wall_contacts() { return *impl_; }
 int FixWallGranInsitu::add_history_value(std::string name, std::string newtonflag) {
   impl_->columns.push_back(name);
   return FixWallGran::add_history_value(name, newtonflag);
+}
+
+std::vector<TriMesh *> FixWallGranInsitu::meshes() {
+  std::vector<TriMesh *> meshes;
+  for (int k = 0; k < n_meshes(); k++) meshes.push_back(mesh_list()[k]->triMesh());
+  return meshes;
 }
 
 void FixWallGranInsitu::init() {
@@ -161,12 +159,13 @@ void FixWallGranInsitu::init() {
   impl_->contacts->set_law(law);
   impl_->pair->observer().add_wall();
   restart_global = impl_->pair->evaluation_memory() && is_moving();
-  if (restart_global && !impl_->restarted) impl_->velocities.keep(impl_->meshes());
+  if (restart_global && !impl_->restarted) impl_->velocities.keep(meshes());
   impl_->restarted = false;
   std::vector<grainscope::Wall> before;
   for (int k = 0; k < modify->nfix && modify->fix[k] != this; k++)
     if (FixWallGranInsitu *wall = dynamic_cast<FixWallGranInsitu *>(modify->fix[k])) wall->add_to(before);
-  impl_->first = before.size();
+  impl_->first.wall = before.size();
+  impl_->meshes.assign(mesh_list(), mesh_list() + n_meshes());
 }
 
 /** The forces of the first evaluation; where it repeats the last of the run before, with its places and velocities,
@@ -175,7 +174,7 @@ void FixWallGranInsitu::setup(int vflag) {
   const std::shared_ptr<grainscope::EvaluationMemory> memory = impl_->pair ? impl_->pair->evaluation_memory() : nullptr;
   if (!memory || !memory->repeats()) return FixWallGran::setup(vflag);
   memory->swap();
-  impl_->velocities.restore(impl_->meshes());
+  impl_->velocities.restore(meshes());
   {
     const grainscope::KeptWallHistory kept(*this, fix_history_primitive_, atom->nlocal);
     FixWallGran::setup(vflag);
@@ -187,12 +186,14 @@ void FixWallGranInsitu::post_force(int vflag) {
   if (!impl_->contacts) return FixWallGran::post_force(vflag);
   grainscope::ContactObserver &observer = impl_->pair->observer();
   observer.begin_wall();
+  if (observer.active()) impl_->reader = impl_->contacts.get();
   FixWallGran::post_force(vflag);
+  impl_->reader = nullptr;
   observer.end();
 }
 
 void FixWallGranInsitu::write_restart(FILE *file) {
-  impl_->velocities.keep(impl_->meshes());
+  impl_->velocities.keep(meshes());
   const std::vector<double> &numbers = impl_->velocities.numbers();
   const SavedWall saved{static_cast<double>(numbers.size())};
   if (comm->me == 0) grainscope::write_state(file, saved, numbers.data(), numbers.size() * sizeof(double));
@@ -208,9 +209,9 @@ void FixWallGranInsitu::restart(char *buffer) {
 
 void FixWallGranInsitu::add_to(std::vector<grainscope::Wall> &walls) {
   const ContactLaw *const law = impl_->contacts ? &impl_->contacts->law() : nullptr;
-  if (!is_mesh_wall()) walls.push_back({id, this, nullptr, law, fix_history_primitive_});
+  if (!is_mesh_wall()) walls.push_back({id, this, nullptr, law, primitive_of(impl_->words), fix_history_primitive_});
   for (int k = 0; is_mesh_wall() && k < n_meshes(); k++)
-    walls.push_back({mesh_list()[k]->id, this, mesh_list()[k], law, nullptr});
+    walls.push_back({mesh_list()[k]->id, this, mesh_list()[k], law, {}, nullptr});
 }
 
 std::vector<grainscope::Wall> grainscope::walls_of(LAMMPS *lmp) {

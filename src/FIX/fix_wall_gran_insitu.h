@@ -23,6 +23,7 @@ struct Wall {
   LAMMPS_NS::FixWallGran *fix;
   LAMMPS_NS::FixMeshSurface *mesh;      // null for a primitive wall
   const ContactLaw *law;                // of the run that was set up last; null without pair_style gran/insitu
+  std::vector<std::string> primitive;   // of a primitive wall, as in the command: zplane 0.0
   LAMMPS_NS::FixPropertyAtom *history;  // of a primitive wall's contacts, if it has one
 };
 
@@ -53,6 +54,8 @@ class FixWallGranInsitu : public FixWallGran, public grainscope::WallContactsOwn
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
+
+  std::vector<TriMesh *> meshes();
 };
 
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "press_strain_requirements.h"
 #include "arguments.h"
+#include "contact_law.h"
+#include "fix_wall_gran_insitu.h"
+#include "pair_gran_insitu.h"
 #include "press_strain_settings.h"
 #include "domain.h"
 #include "fix_wall_gran.h"
@@ -67,6 +70,20 @@ void PressStrainRequirements::require_no_wall_on_axis(Fix *fix) const {
   if (wall->primitiveWall() && pushes_along(wall->primitiveWall(), settings_.axis))
     press_strain_error(lmp, std::string("cannot move box edges along '") + axis + "': fix " + fix->id +
                                 " is a wall on that axis");
+}
+
+void PressStrainRequirements::require_known_stiffness() const {
+  if (!settings_.control.automatic) return;
+  const auto require = [this](const ContactLaw &law, const std::string &got) {
+    if (!law.knows_stiffness())
+      press_strain_error(lmp, std::string("'gain auto' knows the stiffness of the normal models ") +
+                                  ContactLaw::elastic_models() + " only: give a number, or change the models of " +
+                                  got);
+  };
+  const LAMMPS_NS::PairGranInsitu *pair = LAMMPS_NS::PairGranInsitu::required_by(lmp, "fix press/strain");
+  require(pair->law(), "pair_style gran/insitu, got '" + pair->law().models + "'");
+  for (const Wall &wall : walls_of(lmp))
+    if (wall.law) require(*wall.law, "wall '" + wall.name + "', got '" + wall.law->models + "'");
 }
 
 void PressStrainRequirements::require_group(const char *name, int groupbit) const {

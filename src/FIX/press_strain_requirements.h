@@ -24,6 +24,8 @@ class PressStrainRequirements : private LAMMPS_NS::Pointers {
   void require_controllable_box(const ShearedBox &box) const;
   /** The host lets a group be deleted that no fix is registered for, and this fix is for `all`. */
   void require_group(const char *name, int groupbit) const;
+  /** The normal models of grains and walls, where they decide the gain; when all of them are initialised. */
+  void require_known_stiffness() const;
 
  private:
   const LAMMPS_NS::Fix *fix_;

@@ -23,6 +23,17 @@ std::string Arguments::keyword(const std::vector<std::string> &keywords, const s
   return got;
 }
 
+std::vector<std::string> Arguments::words_before(const std::vector<std::string> &keywords, const std::string &wanted) {
+  std::vector<std::string> found;
+  const auto at_keyword = [&] {
+    return !done() && std::find(keywords.begin(), keywords.end(), words_[at_]) != keywords.end();
+  };
+  if (at_keyword()) fail("expected " + wanted + " after '" + words_[at_ - 1] + "', got '" + words_[at_] + "'");
+  do found.push_back(word(wanted));
+  while (!done() && !at_keyword());
+  return found;
+}
+
 void Arguments::require_none() {
   if (!done()) fail("takes no keywords, got '" + words_[at_] + "'");
 }

@@ -30,6 +30,8 @@ class Arguments {
   /** The next keyword (or, for messages, the next `kind` of word), one of `keywords`; an error when it was read
    *  before. */
   std::string keyword(const std::vector<std::string> &keywords, const std::string &kind = "keyword");
+  /** The words up to the next of `keywords`, at least one. */
+  std::vector<std::string> words_before(const std::vector<std::string> &keywords, const std::string &wanted);
   /** For a style without keywords: an error when there is a word. */
   void require_none();
   /** The value that follows `keyword`, as one of `choices`. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact_observer.h"
 #include "atom.h"
+#include "error.h"
 #include "update.h"
 #include <algorithm>
 
@@ -74,6 +75,13 @@ void ContactObserver::end() {
   active_ = false;
   if (to_come_ > 0) return;
   for (ContactSink *sink : listening_) sink->end_contacts();
+}
+
+void ContactObserver::require_complete(const std::string &who) const {
+  if (to_come_ <= 0) return;
+  error->all(FLERR, (who + ": asked at the start of a run before all fixes wall/gran have evaluated their contacts. "
+                           "Define the fix that asks, such as fix ave/time, after them")
+                        .c_str());
 }
 
 void ContactObserver::end_run() const {

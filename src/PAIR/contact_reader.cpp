@@ -159,11 +159,13 @@ inline __attribute__((always_inline)) void ContactReader::read(const Surfaces &s
   c.friction_force = law_.liquid_bridges ? friction_force(s, friction, c) : c.tangential_force;
   c.sliding = friction.cut || friction.beyond;
   c.slip = friction.slip;
-  if (observer_.needs_motion()) read_motion(s, friction, c);
+  if (observer_.needs_motion()) {
+    read_motion(s, friction, c);
+    if (law_.rolls) read_rolling(s, force_on_i, c);
+  }
   if (!law_.keeps_past()) return;
   read_past(s, c);
   if (law_.tangential == TangentialLaw::spring) read_spring(s, friction, c);
-  if (law_.rolls) read_rolling(s, force_on_i, c);
   write_past(s, c);
 }
 
@@ -181,8 +183,9 @@ void ContactReader::after_wall(const Surfaces &s, const Forces &force_on_i, cons
   Contact &c = observer_.next();
   c.partner.emplace<PartnerWall>(PartnerWall{wall.wall, wall.triangle, Map<const Vector3d>(s.v_j)});
   c.weight = 1.0;
-  c.branch = Map<const Vector3d>(observer_.positions()[s.i]) - contact_point(s);
   read(s, force_on_i, c);
+  c.branch = c.motion ? Vector3d(-c.motion->arm)
+                      : Vector3d(Map<const Vector3d>(observer_.positions()[s.i]) - contact_point(s));
 }
 
 }

@@ -3,10 +3,12 @@
 #include "bin_index.h"
 #include "box_state.h"
 #include "symmetry_axis.h"
+#include "wall_contacts_owner.h"
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "fix.h"
 #include "modify.h"
 #include "neighbor.h"
 #include <algorithm>
@@ -66,6 +68,21 @@ void PairChecks::warn_of_stale_springs() {
         FLERR,
         "spheres at contact distance factor 1.0 keep the tangential spring of a contact that has opened, until the "
         "next neighbour list: add the line 'neigh_modify contact_distance_factor 1.05'");
+}
+
+void PairChecks::warn_of_unseen_walls() {
+  std::string walls;
+  for (int k = 0; k < modify->nfix; k++) {
+    LAMMPS_NS::Fix *const fix = modify->fix[k];
+    if (strncmp(fix->style, "wall/", 5) || dynamic_cast<WallContactsOwner *>(fix)) continue;
+    walls += (walls.empty() ? "fix " : ", fix ") + std::string(fix->id) + " (" + fix->style + ")";
+  }
+  const bool news = !walls.empty() && walls != warned_of_walls_;
+  warned_of_walls_ = walls;
+  if (!news || comm->me != 0) return;
+  error->warning(FLERR, ("pair_style gran/insitu: contacts with the walls of " + walls +
+                         " are not seen by any measure, only those of fix wall/gran")
+                            .c_str());
 }
 
 void PairChecks::warn_of_sphere_model(const std::string &model) {

@@ -20,10 +20,13 @@ class PairChecks : private LAMMPS_NS::Pointers {
   void require_box_large_enough() const;
   /** Once, where spheres keep the tangential springs of contacts that have opened. */
   void warn_of_stale_springs();
+  /** Of walls whose contacts no measure sees: once, and again when there are others. */
+  void warn_of_unseen_walls();
   /** Once, where `model`, which takes its geometry from spheres, is given other grains; "" for no such model. */
   void warn_of_sphere_model(const std::string &model);
 
  private:
+  std::string warned_of_walls_;  // by their IDs
   bool warned_of_stale_springs_ = false;
   bool warned_of_sphere_model_ = false;
 };

@@ -180,6 +180,7 @@ void PairGranInsitu::init_style() {
   if (impl_->neutral) impl_->memory = grainscope::run_fixes::make_setup_memory(lmp);
   const bool resets = dynamic_cast<grainscope::ResetsOpenedSprings *>(impl_->loop.get());
   if (law().tangential == TangentialLaw::spring && !resets) impl_->checks.warn_of_stale_springs();
+  impl_->checks.warn_of_unseen_walls();
   watch_time_step();
 }
 

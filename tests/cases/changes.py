@@ -26,7 +26,7 @@ F_PRESS = outputs("press/strain").of("press")
 
 SPHERES, SPHEROIDS = dense_packing(atom_style="sphere"), dense_packing(1.5)
 LOOSE = replace(dense_packing(atom_style="sphere", overlap=-0.15), triclinic=False)
-STRESS = Watched("stress", "stress/contact", True, 35)
+STRESS = Watched("stress", "stress/contact", True, 36)
 FLUCTUATIONS = fluctuations("xy")
 PRESS = "fix press all press/strain axis y target 2e5 shear xy rate 0.05 every 7e-6"
 ALL = "1:1000000"
@@ -126,8 +126,8 @@ def asking(packing, press=True):
     """Everything, in a flow under fix press/strain; the ledger too."""
     computes = [
         *(replace(w, command=w.command.replace(" strain v_strain", "")) if press else w for w in everything(packing)),
-        Watched("stress", "stress/contact", True, 35),
-        Watched("power", "dissipation", True, 5),
+        Watched("stress", "stress/contact", True, 36),
+        Watched("power", "dissipation", True, 10),
         Watched("books", "energy/ledger", True, 20),
         Watched("running", "velocity/correlation average running bins 6", True, 5, (6, 4)),
     ]

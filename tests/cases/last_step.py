@@ -22,10 +22,10 @@ C_LOSS = outputs("dissipation").of("loss")
 C_STRESS = outputs("stress/contact").of("stress")
 
 RATE = 0.05
-STRESS = Watched("stress", "stress/contact", True, 35)
-DISSIPATION = Watched("loss", "dissipation", True, 5)
-INSTANTANEOUS = Watched("now", "dissipation mode instantaneous", True, 5)
-LEDGER_LOSS = Watched("booked", "dissipation mode ledger", True, 5)
+STRESS = Watched("stress", "stress/contact", True, 36)
+DISSIPATION = Watched("loss", "dissipation", True, 10)
+INSTANTANEOUS = Watched("now", "dissipation mode instantaneous", True, 10)
+LEDGER_LOSS = Watched("booked", "dissipation mode ledger", True, 10)
 LEDGER = Watched("energy", "energy/ledger", True, 4)
 SEEN = [STRESS, DISSIPATION, INSTANTANEOUS, FABRIC, SURFACE, DIRECTION]
 PACKING = dense_packing(1.5)

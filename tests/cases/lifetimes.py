@@ -26,6 +26,8 @@ COMPUTES = [
     "contact/local",
     "contact/local id force",
     "contact/solver",
+    "wall/contact impacts yes",
+    "wall/triangle wear yes",
     "property/atom shapex quatw blockiness2 volume",
     *(w.command for w in everything(dense_packing(1.5))),
 ]
@@ -33,6 +35,8 @@ FIXES = [
     "nve/spheroid",
     "press/strain axis y target 2e4 shear xy rate 0.02 every 1e-3",
     "press/strain axis z target v_held every/step 5",
+    "wall/gran model hertz tangential history surface ellipsoid primitive type 1 zplane -2.0 "
+    "allow_special_domain_periodic yes",
 ]
 MADE_BY_OTHERS = {"grain/record", "ledger/record", "run/guard", "setup/memory"}
 PAIRS = [
@@ -73,6 +77,7 @@ def asked(kind, style):
         "contact/grain": ("compute sum all reduce sum c_it[1]", "c_sum"),
         "stress/atom": ("compute sum all reduce sum c_it[1]", "c_sum"),
         "coord/atom": ("compute sum all reduce sum c_it", "c_sum"),
+        "wall/triangle": ("compute sum all reduce sum c_it[1]", "c_sum"),
         "contact/local": ("compute sum all reduce sum c_it[1]", "c_sum"),
         "property/atom": ("compute sum all reduce sum c_it[1]", "c_sum"),
         "contact/direction": ("", "c_it[1][1]"),

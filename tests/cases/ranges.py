@@ -6,7 +6,7 @@ import re
 from case import main, require, require_same_snapshots
 from columns import outputs
 from deck import Deck, Material, dump_grains, rayleigh_time, shear, thermo
-from packing import dense_packing
+from packing import Grain, Packing, dense_packing
 from run import run
 
 C_F = outputs("fluctuation").of("f")
@@ -55,6 +55,19 @@ def time_step_in_short_runs(ranks):
     deck = soft(0.25, 0.1, 400, ["run 400", "run 400"], "tangential_damping off")
     line = said(deck, TIME_STEP, ranks)
     require("tangential" not in line, line)
+
+
+def time_step_at_walls(ranks):
+    """A ball that nobody moves, held between two walls."""
+    packing = Packing((8.0,) * 3, [Grain((0.0, 0.0, 0.98))], atom_style="sphere", origin=(-4.0,) * 3, triclinic=False)
+    deck = Deck(packing, boundary="f f f", material=Material(restitution=(0.1,)))
+    wall = f"wall/gran {deck.model()} primitive type 1 zplane"
+    deck.body = ["unfix integrate", f"fix floor all {wall} 0.0", f"fix ceiling all {wall} 1.96", "run 1100"]
+    line = said(replace(deck, timestep=0.4 * rayleigh_time()), TIME_STEP, ranks)
+    number, safe = (float(x) for x in re.search(r"over the mass is (\S+), limit.*below (\S+), or", line).groups())
+    require(number > 4.0 and 0.0 < safe < 0.4 * rayleigh_time(), f"the numbers are {number}, {safe}")
+    quiet = run(replace(deck, timestep=0.95 * safe), ranks).output
+    require(TIME_STEP not in quiet, "the step that was said to be safe was warned of")
 
 
 def time_step_unseen(ranks):
@@ -151,6 +164,7 @@ def profile(ranks):
 CASES = {
     "time-step": time_step,
     "time-step-in-short-runs": time_step_in_short_runs,
+    "time-step-at-walls": time_step_at_walls,
     "time-step-unseen": time_step_unseen,
     "quiet": quiet,
     "kappa": kappa,

@@ -23,10 +23,10 @@ F_PRESS = outputs("press/strain").of("press")
 
 RATE, TARGET = 0.02, 2e4
 MORE = [
-    Watched("stress", "stress/contact", True, 35),
-    Watched("power", "dissipation", True, 5),
-    Watched("step", "dissipation mode step", True, 5),
-    Watched("booked", "dissipation mode ledger", True, 5),
+    Watched("stress", "stress/contact", True, 36),
+    Watched("power", "dissipation", True, 10),
+    Watched("step", "dissipation mode step", True, 10),
+    Watched("booked", "dissipation mode ledger", True, 10),
     Watched("order", "nematic", True, 20),
     Watched("e", "energy/ledger", True, 37),
     Watched("solver", "contact/solver", True, 6),

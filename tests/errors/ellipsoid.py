@@ -123,7 +123,7 @@ CASES = {
     ),
     "wall-of-spheres": refusal(
         lambda: Deck(
-            dense_packing(atom_style="sphere"),
+            replace(dense_packing(atom_style="sphere"), triclinic=False),
             boundary="p p f",
             body=[
                 "fix floor all wall/gran model hertz tangential history surface ellipsoid primitive type 1 zplane -5",

@@ -9,6 +9,7 @@ from run import run
 
 PLANE = Keyword("plane", choice("xy", "xz", "yz"))
 COMPONENT = Keyword("component", choice("vx", "vy", "vz", "wx", "wy", "wz"))
+WALLS = Keyword("walls", choice("no", "yes", "only"))
 FLOW = [
     Keyword("flow", Kind("box, rate, fit or layers", ("box", "fit"), ("q", "", "nan", "1e999", "BOX", "5"))),
     Keyword("flow rate", number("a shear rate", ("0", "-1e300", "1e300"), ())),
@@ -54,6 +55,8 @@ COLUMNS = (
     "sliding",
     "slip",
     "mobilisation",
+    "wall",
+    "triangle",
 )
 
 
@@ -123,22 +126,74 @@ PRESS = Style(
         ),
     ],
 )
+NO_WALLS = "there are none, define it after fix wall/gran"
+NAMES_OF_WALLS = [
+    ("compute c all wall/contact walls", "expected names of walls after 'walls', got the end of the command"),
+    ("compute c all wall/contact walls about 0 0 0", "expected names of walls after 'walls', got 'about'"),
+    ("compute c all wall/contact walls floor walls lid", "'walls' is given twice"),
+    (
+        "compute c all wall/contact walls floor",
+        f"'walls' must name walls (a fix wall/gran primitive, or a mesh of one), got 'floor': {NO_WALLS}",
+    ),
+]
 STYLES = [
-    compute("stress/contact"),
+    compute("stress/contact", WALLS),
     compute("nematic"),
-    compute("contact/grain"),
+    compute("contact/grain", WALLS),
     compute("contact/solver"),
     compute("energy/ledger"),
-    compute("dissipation", Keyword("mode", choice("instantaneous", "step", "ledger"))),
-    compute("fabric", PLANE, flags=("branch", "force/normal", "force/tangential")),
+    compute(
+        "wall/contact",
+        Keyword("about 0 0", number("three coordinates", ("0", "-1e300"), ()), "about"),
+        Keyword("losses", choice("yes", "no")),
+        Keyword("impacts", choice("yes", "no")),
+        order=("walls", "about", "area", "losses", "impacts"),
+        more=NAMES_OF_WALLS
+        + [
+            (
+                "compute c all wall/contact about",
+                "expected three coordinates after 'about', got the end of the command",
+            ),
+            ("compute c all wall/contact about 0 nan 0", "'about' must be three coordinates, got 'nan'"),
+            (
+                "compute c all wall/contact area",
+                "expected the name of a wall and its area after 'area', got the end of the command",
+            ),
+            (
+                "compute c all wall/contact area about 0 0 0",
+                "expected the name of a wall and its area after 'area', got 'about'",
+            ),
+            (
+                "compute c all wall/contact area lid 2",
+                f"'area' must name walls (a fix wall/gran primitive, or a mesh of one), got 'lid': {NO_WALLS}",
+            ),
+            ("compute c all wall/contact area lid 2 area lid 2", "'area' is given twice"),
+        ],
+    ),
+    compute(
+        "wall/triangle",
+        Keyword("wear", choice("yes", "no")),
+        order=("walls", "wear"),
+        more=[
+            ("compute c all wall/triangle walls", "expected names of meshes after 'walls', got the end of the command"),
+            ("compute c all wall/triangle walls wear yes", "expected names of meshes after 'walls', got 'wear'"),
+            (
+                "compute c all wall/triangle walls floor",
+                f"'walls' must name meshes of a fix wall/gran, got 'floor': {NO_WALLS}",
+            ),
+        ],
+    ),
+    compute("dissipation", Keyword("mode", choice("instantaneous", "step", "ledger")), WALLS),
+    compute("fabric", PLANE, WALLS, flags=("branch", "force/normal", "force/tangential")),
     compute(
         "contact/surface",
         Keyword("bins", whole(1, 1000)),
         Keyword("angle", choice("polar", "parametric")),
         Keyword("axis", choice("auto", "x", "y", "z")),
+        WALLS,
     ),
-    compute("contact/direction", PLANE, Keyword("bins", even(2, 10000))),
-    compute("contact/local", flags=COLUMNS, sort="column"),
+    compute("contact/direction", PLANE, Keyword("bins", even(2, 10000)), WALLS),
+    compute("contact/local", WALLS, flags=COLUMNS, sort="column", order=(*COLUMNS, "walls")),
     compute("fluctuation", PLANE, Keyword("layers", whole(1, 10000)), Keyword("diameter", LENGTH), *FLOW),
     compute("layering", Keyword("axis", choice("x", "y", "z")), Keyword("layers", even(2, 1000))),
     compute(

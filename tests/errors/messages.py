@@ -215,9 +215,9 @@ def exception(ranks):
     require_once(ended, BEFORE + "\n", screen=True, log=True)
 
 
-STRESS = "compute stress (stress/contact) gives a scalar and a vector of 35"
+STRESS = "compute stress (stress/contact) gives a scalar and a vector of 36"
 MEMORY = "compute memory (velocity/memory) gives a scalar, a vector of 4 and an array of 5 rows and 4 columns"
-GRAIN = "compute grain (contact/grain) gives 6 columns per grain"
+GRAIN = "compute grain (contact/grain) gives 7 columns per grain"
 ROWS = "compute rows (contact/local) gives 3 columns per local row"
 COMPUTES = [
     "compute stress all stress/contact",
@@ -254,7 +254,7 @@ def beyond_the_end(ranks):
     for place in PLACES.values():
         require_refused(lines_with(place, "c_stress[99]"), ranks, "out-of-range", f"c_stress[99]: {STRESS}")
     for place in GRAIN_PLACES.values():
-        require_refused(lines_with(place, "c_grain[7]"), ranks, f"c_grain[7]: {GRAIN}")
+        require_refused(lines_with(place, "c_grain[8]"), ranks, f"c_grain[8]: {GRAIN}")
     for place in LOCAL_PLACES.values():
         require_refused(lines_with(place, "c_rows[4]"), ranks, "out-of-range", f"c_rows[4]: {ROWS}")
     require_refused(lines_with(SLICE, "c_memory[5]"), ranks, f"c_memory[5]: {MEMORY}")
@@ -283,8 +283,8 @@ def of_a_fix(ranks):
 
 def only_the_wrong_one(ranks):
     """Of several references the one that is wrong."""
-    deck = body(*COMPUTES, "thermo_style custom step c_stress[1] c_memory[2] c_stress[36]")
-    output = require_refused(deck, ranks, f"c_stress[36]: {STRESS}").output
+    deck = body(*COMPUTES, "thermo_style custom step c_stress[1] c_memory[2] c_stress[37]")
+    output = require_refused(deck, ranks, f"c_stress[37]: {STRESS}").output
     require("c_memory[2]:" not in output and "c_stress[1]:" not in output, "a right one is described too")
 
 

@@ -16,10 +16,10 @@ def line(**changes):
     return "fix press all press/strain " + " ".join(f"{k} {v}" for k, v in words.items() if v is not None)
 
 
-def refused(*words, before=(), triclinic=True, boundary="p p p", **changes):
+def refused(*words, before=(), triclinic=True, boundary="p p p", normal="hertz", **changes):
     def deck():
         packing = replace(dense_packing(atom_style="sphere"), triclinic=triclinic)
-        return Deck(packing, boundary=boundary, body=[*before, line(**changes), "run 1"])
+        return Deck(packing, boundary=boundary, normal=normal, body=[*before, line(**changes), "run 1"])
 
     return refusal(deck, *words)
 
@@ -29,7 +29,21 @@ WALL = (
     "allow_special_domain_periodic yes"
 )
 TUBE = WALL.format("y").replace("floor", "tube").replace("yplane 0.0", "xcylinder 9.0 0.0 0.0")
+HYSTERESIS = [
+    f"fix {name} all property/global coefficient{name} peratomtypepair 1 {value}"
+    for name, value in (("MaxElasticStiffness", 5.0), ("AdhesionStiffness", 0.5), ("PlasticityDepth", 0.3))
+]
+KNOWN = "'gain auto' knows the stiffness of the normal models hertz, hooke, hertz/stiffness and hooke/stiffness only"
 CASES = {
+    "gain-auto-unknown-model": refused(
+        f"{KNOWN}: give a number, or change the models of pair_style gran/insitu, got 'model hooke/hysteresis",
+        before=HYSTERESIS,
+        normal="hooke/hysteresis",
+    ),
+    "gain-auto-unknown-model-of-a-wall": refused(
+        f"{KNOWN}: give a number, or change the models of wall 'floor', got 'model hooke/hysteresis",
+        before=[*HYSTERESIS, WALL.format("z").replace("hertz", "hooke/hysteresis")],
+    ),
     "target-no-such-variable": refused(
         "'target' must name an equal-style variable, got 'v_nothing'", target="v_nothing"
     ),

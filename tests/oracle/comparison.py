@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from oracle import contacts, fabric, surface
+from oracle.state import chosen_rows
 
 TINY = 1e-300
 # Tangential forces and their powers this much smaller than normal ones are what rounding leaves of zero.
@@ -97,10 +98,10 @@ def of_bins(label, found, expected, names, counts, steady, sums, least=0.0):
         yield compare(f"{label} {name}, all bins", np.sum(found[:, column] * weight_found), total, size)
 
 
-def of_surface(found, vector, moment, angle="polar", axis="auto", doubt=0.0):
-    bins, rows, grains = len(found), moment.rows, moment.grains
+def of_surface(found, vector, moment, angle="polar", axis="auto", doubt=0.0, walls="no"):
+    bins, rows, grains = len(found), chosen_rows(moment.rows, walls), moment.grains
     expected, expected_vector = surface.surface_table(
-        rows, grains, moment.force_box.volume, moment.chosen, bins, angle, axis
+        moment.rows, grains, moment.force_box.volume, moment.chosen, bins, angle, axis, walls
     )
     edges = np.arange(bins + 1) * 0.5 * np.pi / bins
     edges[[0, -1]] = -1.0, 4.0  # folded: nothing leaves there
@@ -168,3 +169,4 @@ def of_grains(found, rows, grains, chosen):
     yield compare("grain P_t", found[:, 3], expected[:, 3], max(magnitude(expected[:, 3]), rubbing(rows)))
     yield compare("grain mobilisation", found[:, 4], expected[:, 4], max(magnitude(expected[:, 4]), SMALL))
     yield compare("grain theta", found[:, 5], expected[:, 5], 1.0)
+    yield compare("grain contacts with walls", found[:, 6], expected[:, 6], 1.0, True)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from oracle.measures import axis_of, line_angle, rotation
-from oracle.surface import powers
+from oracle.surface import powers, share
 
 UPRIGHT = 1e-9
 
@@ -50,12 +50,15 @@ def theta_of(grains, k):
 
 
 def grain_table(rows, grains, chosen):
-    """grains x 6 of compute contact/grain; `rows` are the group's."""
-    table = np.zeros((len(grains.ids), 6))
+    """grains x 7 of compute contact/grain; `rows` are the group's."""
+    table = np.zeros((len(grains.ids), 7))
     normal, friction = powers(rows)
-    for k, pair in enumerate(grains.index(rows["id"])):
-        for i in pair:
-            table[i, :5] += (1.0, rows["sliding"][k], 0.5 * normal[k], 0.5 * friction[k], rows["mobilisation"][k])
+    part = share(rows)
+    for k, (one, other) in enumerate(rows["id"]):
+        for i in grains.index([one, other] if other else [one]):
+            power = (part[k] * normal[k], part[k] * friction[k])
+            table[i, :5] += (1.0, rows["sliding"][k], *power, rows["mobilisation"][k])
+            table[i, 6] += other == 0
     table[:, 4] /= np.maximum(table[:, 0], 1.0)
     table[:, 5] = [theta_of(grains, k) if chosen[k] else 0.0 for k in range(len(grains.ids))]
     return table

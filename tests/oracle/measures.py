@@ -5,6 +5,8 @@ import math
 
 import numpy as np
 
+from oracle.state import chosen_rows
+
 SIX = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 
 
@@ -30,12 +32,13 @@ def kinetic_stress(grains, box, chosen):
 
 
 def stress_vector(rows, grains, box, chosen, softest, flattest):
-    """All 35 entries of compute stress/contact."""
+    """All 36 entries of compute stress/contact."""
     total = contact_stress(rows, box.volume)
     tangential = contact_stress(rows, box.volume, "ft")
     pressure = -total[1, 1]
     per_pressure = 1.0 / pressure if pressure > 0.0 else 0.0
     contacts, count = len(rows["overlap"]), int(np.sum(chosen))
+    with_walls = len(chosen_rows(rows, "only")["overlap"])
     return np.array(
         [
             *six(total),
@@ -47,12 +50,13 @@ def stress_vector(rows, grains, box, chosen, softest, flattest):
             total[0, 1] * per_pressure,
             (total[0, 0] - total[1, 1]) * per_pressure,
             (total[1, 1] - total[2, 2]) * per_pressure,
-            contacts,
-            2.0 * contacts / count if count else 0.0,
+            contacts - with_walls,
+            (2.0 * contacts - with_walls) / count if count else 0.0,
             rows["sliding"].mean() if contacts else 0.0,
             rows["overlap"].mean() if contacts else 0.0,
             rows["overlap"].max() if contacts else 0.0,
             flattest * (softest * per_pressure) ** (2.0 / 3.0),
+            with_walls,
         ]
     )
 
@@ -70,10 +74,24 @@ def friction_of_step(rows, dt):
     return np.sum(np.linalg.norm(rows["ft"], axis=1) * rows["slip"]) / dt
 
 
+def normal_damping(rows):
+    return rows["fn_damping"][:, None] * rows["normal"]
+
+
+def wall_loss_of_step(rows, grains, velocities, force):
+    """As loss_of_step, of contacts with walls that move by `velocities` at the contact points."""
+    i = grains.index(rows["id"][:, 0])
+    u = grains.v[i] + np.cross(grains.omega[i], rows["point"] - grains.x[i]) - velocities
+    return -np.sum(np.einsum("ca,ca->c", force, u))
+
+
 def normal_loss_of_step(rows, grains, box):
-    """Minus the power of the damping forces with the velocities at the end of the step: per grain force . v and torque
+    return loss_of_step(rows, grains, box, normal_damping(rows))
+
+
+def loss_of_step(rows, grains, box, force):
+    """Minus the power of damping forces with the velocities at the end of the step: per grain force . v and torque
     . omega, and for contacts across a face the velocity of the partner's image."""
-    force = rows["fn_damping"][:, None] * rows["normal"]
     i, j = grains.index(rows["id"][:, 0]), grains.index(rows["id"][:, 1])
     lever_i = rows["point"] - grains.x[i]
     lever_j = lever_i + rows["branch"]

@@ -100,11 +100,19 @@ def grains_of(columns):
 
 
 def rows_of(columns, compute):
-    """A dump of all columns of compute contact/local, by name; one-number columns as vectors."""
-    table = np.stack([columns[word] for word in outputs("contact/local").of(compute).all("local")], axis=1)
+    """A dump of the usual columns of compute contact/local, by name; one-number columns as vectors. id_j is 0 for a
+    wall."""
+    table = np.stack([columns[word] for word in outputs("contact/local").of(compute).all("local")[:ROW_WIDTH]], axis=1)
     rows, first = {}, 0
     for name, width in ROW_COLUMNS.items():
         rows[name] = table[:, first] if width == 1 else table[:, first : first + width]
         first += width
     order = np.lexsort((*rows["image"].T, rows["id"][:, 1], rows["id"][:, 0]))
     return {name: values[order] for name, values in rows.items()}
+
+
+def chosen_rows(rows, walls):
+    """The rows that the keyword `walls` chooses: no, yes or only."""
+    with_wall = rows["id"][:, 1] == 0
+    kept = {"no": ~with_wall, "yes": np.ones(len(with_wall), dtype=bool), "only": with_wall}[walls]
+    return {name: values[kept] for name, values in rows.items()}

@@ -6,6 +6,7 @@ import math
 import numpy as np
 
 from oracle.measures import axis_of, contact_stress, rotation
+from oracle.state import chosen_rows
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(48)
 AROUND = 2.0 * math.pi * np.arange(256) / 256
@@ -72,11 +73,17 @@ def bin_of(psi, bins):
 
 
 def ends(rows, grains):
-    """Each contact seen from both its grains: (row, index of the grain, contact point from its centre)."""
+    """Each contact seen from its grains: (row, index of the grain, contact point from its centre)."""
     for k, (i, j) in enumerate(grains.index(rows["id"])):
         point = rows["point"][k] - grains.x[i]
         yield k, i, point
-        yield k, j, point + rows["branch"][k]
+        if rows["id"][k, 1]:
+            yield k, j, point + rows["branch"][k]
+
+
+def share(rows):
+    """Of a contact's power that each of its grains has."""
+    return np.where(rows["id"][:, 1] == 0, 1.0, 0.5)
 
 
 def powers(rows):
@@ -85,8 +92,9 @@ def powers(rows):
     return normal, -np.einsum("ca,ca->c", rows["ft"], rows["ut"]) * (rows["slip"] > 0)
 
 
-def surface_table(rows, grains, volume, chosen, bins=10, angle="polar", axis="auto"):
-    """(array bins x 17, vector P, mean area, grains) of compute contact/surface; `rows` are the group's."""
+def surface_table(all_rows, grains, volume, chosen, bins=10, angle="polar", axis="auto", walls="no"):
+    """(array bins x 17, vector P, mean area, grains) of compute contact/surface; `all_rows` are the group's."""
+    rows = chosen_rows(all_rows, walls)
     table, members = np.zeros((bins, 17)), np.flatnonzero(chosen)
     table[:, 0] = (np.arange(bins) + 0.5) * 0.5 * math.pi / bins
     if not len(members):
@@ -95,7 +103,7 @@ def surface_table(rows, grains, volume, chosen, bins=10, angle="polar", axis="au
     shares = areas(grains.shape[members[0]], index, bins, angle)
     own = {i: shares.sum() * (grains.shape[i][0] / grains.shape[members[0]][0]) ** 2 for i in members}
     mean_area = float(np.mean([own[i] for i in members]))
-    pressure = -contact_stress(rows, volume)[1, 1] if len(rows["fn"]) else 0.0
+    pressure = -contact_stress(all_rows, volume)[1, 1] if len(all_rows["fn"]) else 0.0
     scale = 1.0 / pressure if pressure > 0.0 else 0.0
     normal, friction = powers(rows)
     sums = np.zeros((bins, 7))  # contacts, F_n/(P A), |F_t|/(P A), mobilisation, sliding, P_n, P_t
@@ -107,8 +115,8 @@ def surface_table(rows, grains, volume, chosen, bins=10, angle="polar", axis="au
             np.linalg.norm(rows["ft"][k]) * scale / own[i],
             rows["mobilisation"][k],
             rows["sliding"][k],
-            0.5 * normal[k],
-            0.5 * friction[k],
+            share(rows)[k] * normal[k],
+            share(rows)[k] * friction[k],
         )
     fill(table, sums, shares / shares.sum() * mean_area, mean_area)
     return table, np.array([pressure, mean_area, len(members)])

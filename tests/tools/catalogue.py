@@ -11,7 +11,7 @@ DIRECT = Watched("direct", "velocity/correlation bins 6", True, 5, (6, 4))
 MESH = Watched("mesh", "velocity/correlation bins 6 method mesh range 4.037", True, 5, (6, 4))
 DISPLACEMENT = Watched("moved", "displacement/shear strain v_strain", True, 8)
 MEMORY = Watched("memory", "velocity/memory strain v_strain every 1e-4 lags 3", True, 3, (4, 4))
-GRAIN = Watched("grain", "contact/grain", peratom=6)
+GRAIN = Watched("grain", "contact/grain", peratom=7)
 
 # Entries of a vector that have one unit, and so one scale.
 BLOCKS = {

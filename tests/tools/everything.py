@@ -27,10 +27,10 @@ from watch import Watched, grain_columns
 F_PRESS = outputs("press/strain").of("press")
 
 RATE = 0.05
-STRESS = Watched("stress", "stress/contact", True, 35)
-INSTANT = Watched("instant", "dissipation mode instantaneous", True, 5)
-STEP = Watched("stepwise", "dissipation mode step", True, 5)
-EXACT = Watched("exact", "dissipation mode ledger", True, 5)
+STRESS = Watched("stress", "stress/contact", True, 36)
+INSTANT = Watched("instant", "dissipation mode instantaneous", True, 10)
+STEP = Watched("stepwise", "dissipation mode step", True, 10)
+EXACT = Watched("exact", "dissipation mode ledger", True, 10)
 NEMATIC = Watched("order", "nematic", True, 20)
 LEDGER = Watched("energy", "energy/ledger", True, 37)
 

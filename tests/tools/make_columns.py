@@ -21,8 +21,11 @@ COMMANDS = {
     "contact/direction": "",
     "contact/surface": "",
     "contact/grain": "",
-    "contact/local": "",
+    "contact/local": "id image point normal branch overlap force fn fn_damping ft un ut sliding slip mobilisation "
+    "wall triangle",
     "contact/solver": "",
+    "wall/contact": "impacts yes",
+    "wall/triangle": "wear yes",
     "displacement/shear": "strain v_strain",
     "dissipation": "",
     "energy/ledger": "",

@@ -78,4 +78,5 @@ TEST(contact, with_a_wall_has_no_other_grain) {
   EXPECT_FALSE(c.with_own_grain());
   EXPECT_FALSE(c.ghost());
   EXPECT_THROW(c.j(), std::bad_variant_access);
+  EXPECT_EQ(c.wall().wall, 2);
 }

@@ -40,6 +40,16 @@ TEST(grain_power, two_owners_give_the_power_once_with_the_velocity_of_the_image)
   EXPECT_NEAR(power.power(v, omega), relative_power(image), 1e-15);
 }
 
+TEST(grain_power, at_a_wall_is_against_the_velocity_of_the_wall) {
+  const Vector3d wall(0.7, 0.0, -0.2);
+  grainscope::GrainPower power;
+  power.reset(2);
+  grainscope::Contact c = make_contact();
+  c.partner = grainscope::PartnerWall();
+  power.add(c, force, lever_i, lever_j, wall);
+  EXPECT_NEAR(power.power(v, omega), force.dot(Vector3d(v0) + Vector3d(w0).cross(lever_i) - wall), 1e-15);
+}
+
 TEST(grain_power, reset_forgets) {
   grainscope::GrainPower power;
   power.reset(2);

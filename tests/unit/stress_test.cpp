@@ -32,4 +32,21 @@ TEST(stress, two_owners_of_a_contact_count_it_once) {
   EXPECT_DOUBLE_EQ(twice.largest_overlap, 0.01);
 }
 
+TEST(stress, contacts_with_walls_are_counted_apart_and_summed_together) {
+  StressSums sums;
+  sums.add(make_contact());
+  grainscope::Contact wall = make_contact();
+  wall.partner = grainscope::PartnerWall();
+  wall.branch = Eigen::Vector3d(1.0, 0.0, 0.0);  // to the contact point, half as far
+  wall.overlap = 0.03;
+  wall.sliding = false;
+  sums.add(wall);
+  EXPECT_DOUBLE_EQ(sums.contacts_of_grains(), 1.0);
+  EXPECT_DOUBLE_EQ(sums.contacts_with_walls(), 1.0);
+  EXPECT_DOUBLE_EQ(sums.contacts(), 2.0);
+  EXPECT_DOUBLE_EQ(sums.sliding(), 1.0);
+  EXPECT_DOUBLE_EQ(sums.overlaps(), 0.04);
+  EXPECT_DOUBLE_EQ(sums.total(4.0)(0, 0), -7.5);  // -(10 x 2 + 10 x 1)/4
+}
+
 TEST(stress, empty_is_zero) { EXPECT_TRUE(StressSums().total(1.0).isZero(0.0)); }

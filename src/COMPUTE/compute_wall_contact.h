@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifdef COMPUTE_CLASS
+
+ComputeStyle(wall/contact,ComputeWallContact)
+
+#else
+
+#ifndef LMP_COMPUTE_WALL_CONTACT_H
+#define LMP_COMPUTE_WALL_CONTACT_H
+
+#include "contact_compute.h"
+#include "outputs.h"
+#include <memory>
+
+namespace LAMMPS_NS {
+
+/** What grains of the group do at walls, a row for each wall and the sum of the rows: contacts, force and torque on the
+ *  wall, tractions, the power that it gives to the grains, losses, and, with `impacts yes`, the grains that began to
+ *  touch it since the compute was defined. Zero for an empty group. */
+class ComputeWallContact : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
+ public:
+  ComputeWallContact(class LAMMPS *lmp, int &iarg, int narg, char **arg);
+  ~ComputeWallContact() override;
+  void init() override;
+  bool wants_contacts() override;
+  void begin_contacts() override;
+  void add_contacts(grainscope::ContactSpan contacts) override;
+  void end_contacts() override;
+  double memory_usage() override;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+
+  void answer() override;
+  void require_losses() const;
+  void warn_of_unknown_areas();
+};
+
+}
+
+#endif
+#endif
