@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_wall_gran_insitu.h"
+#include "bin_index.h"
 #include "contact_observer.h"
 #include "evaluation_memory.h"
 #include "kept_wall_history.h"
@@ -97,6 +98,7 @@ struct FixWallGranInsitu::Impl : grainscope::WallContacts {
   double **friction = nullptr;
   PairGranInsitu *pair = nullptr;
   std::unique_ptr<ContactReader> contacts;
+  std::shared_ptr<void> takes_part;       // in the evaluations of the pair style
   grainscope::MeshVelocities velocities;  // with `setup neutral`
   bool restarted = false;                 // they are of a restart file
 
@@ -138,6 +140,8 @@ std::vector<TriMesh *> FixWallGranInsitu::meshes() {
 void FixWallGranInsitu::init() {
   FixWallGran::init();
   impl_->contacts.reset();
+  impl_->takes_part.reset();
+  restart_global = 0;
   impl_->pair = dynamic_cast<PairGranInsitu *>(force->pair);
   if (!impl_->pair) return;
   ContactLaw law = grainscope::law_of_models(
@@ -157,8 +161,8 @@ void FixWallGranInsitu::init() {
   }
   impl_->contacts.reset(new ContactReader(impl_->pair->observer()));
   impl_->contacts->set_law(law);
-  impl_->pair->observer().add_wall();
-  restart_global = impl_->pair->evaluation_memory() && is_moving();
+  impl_->takes_part = impl_->pair->observer().add_wall();
+  restart_global = impl_->pair->evaluation_memory() && is_mesh_wall() && is_moving();
   if (restart_global && !impl_->restarted) impl_->velocities.keep(meshes());
   impl_->restarted = false;
   std::vector<grainscope::Wall> before;
@@ -201,7 +205,13 @@ void FixWallGranInsitu::write_restart(FILE *file) {
 
 void FixWallGranInsitu::restart(char *buffer) {
   const SavedWall saved = grainscope::read_state<SavedWall>(lmp, *this, style, buffer);
-  std::vector<double> numbers(static_cast<std::size_t>(saved.numbers));
+  const long long n = grainscope::whole_count(saved.numbers, 1e9);
+  if (n < 0 || n % grainscope::MeshVelocities::width != 0)
+    error->all(FLERR,
+               ("fix " + std::string(id) + " (wall/gran): the restart file holds no number of mesh velocities, but " +
+                std::to_string(saved.numbers))
+                   .c_str());
+  std::vector<double> numbers(static_cast<std::size_t>(n));
   memcpy(numbers.data(), grainscope::state_block::tail(buffer), numbers.size() * sizeof(double));
   impl_->velocities.set_numbers(numbers.data(), numbers.size());
   impl_->restarted = true;
