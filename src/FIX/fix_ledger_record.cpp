@@ -293,6 +293,7 @@ void FixLedgerRecord::book_leaving_before_run() {
 }
 
 void FixLedgerRecord::pre_initial_integrate() {
+  impl_->pair->observer().require_walls();
   if (!impl_->ledger.pending() && impl_->dt != update->dt)
     fail("the time step changed from " + grainscope::Arguments::text(impl_->dt) + " to " +
          grainscope::Arguments::text(update->dt) +

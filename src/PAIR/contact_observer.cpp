@@ -25,6 +25,7 @@ void ContactObserver::remove_all() {
   sinks_.clear();
   listening_.clear();
   walls_ = std::make_shared<int>();
+  set_up_ = 0;
 }
 
 bool ContactObserver::begin(bool springs_move, bool repeats) {
@@ -36,13 +37,14 @@ bool ContactObserver::begin(bool springs_move, bool repeats) {
   for (ContactSink *sink : sinks_)
     if (sink->wants_contacts()) listening_.push_back(sink);
   active_ = wanted_ = !listening_.empty() || keeps_past_;
-  to_come_ = static_cast<int>(walls_.use_count()) - 1;
+  to_come_ = walls_there();
   stamp_before_ = repeats ? -1.0 : stamp_;
   if (!repeats) {
     stamp_ = lmp->update->ntimestep + (runs_ % 1023 + 1) / 1024.0;  // never 0, which is what a new neighbour has
     if (!springs_move) stamp_ = -stamp_;
   }
   if (active_) {
+    require_walls();
     box_ = BoxState(lmp);
     x_ = lmp->atom->x;
     n_local_ = lmp->atom->nlocal;
@@ -82,6 +84,15 @@ void ContactObserver::require_complete(const std::string &who) const {
   error->all(FLERR, (who + ": asked at the start of a run before all fixes wall/gran have evaluated their contacts. "
                            "Define the fix that asks, such as fix ave/time, after them")
                         .c_str());
+}
+
+int ContactObserver::walls_there() const { return static_cast<int>(walls_.use_count()) - 1; }
+
+void ContactObserver::require_walls() const {
+  if (walls_there() < set_up_)
+    error->all(FLERR,
+               "pair_style gran/insitu: a fix wall/gran was removed since the run was set up, and contacts are to "
+               "be measured: do not say 'pre no'");
 }
 
 void ContactObserver::end_run() const {

@@ -26,7 +26,12 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   void remove_all();
 
   /** A fix for walls takes part, from now until remove_all(), or while it holds what it gets. */
-  std::shared_ptr<void> add_wall() { return walls_; }
+  std::shared_ptr<void> add_wall() {
+    set_up_++;
+    return walls_;
+  }
+  /** Errors when one of them is gone: a run without set-up would look at what it had. Collective. */
+  void require_walls() const;
 
   /** Contacts are to be read in every evaluation, because they remember it (`ledger on`). */
   void set_keeps_past(bool keeps) { keeps_past_ = keeps; }
@@ -87,7 +92,8 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   Contact *next_ = batch_.data();  // the first that is not filled in
   bool active_ = false;
   std::shared_ptr<void> walls_ = std::make_shared<int>();  // each fix for walls holds it, too
-  int to_come_ = 0;                                        // fixes for walls in this evaluation
+  int set_up_ = 0;                                         // fixes for walls when the run was set up
+  int to_come_ = 0;                                        // those of this evaluation that are not through
   bool wanted_ = false;                                    // the evaluation, by a sink or for what contacts remember
   bool motion_ = false;
   bool keeps_past_ = false;
@@ -103,6 +109,7 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   std::vector<double> image_shifts_;
 
   void hand_over();
+  int walls_there() const;
 };
 
 }

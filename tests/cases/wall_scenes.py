@@ -232,6 +232,41 @@ def asked_before_walls(ranks):
     require_refused(deck, ranks, f"fix press/strain: {ASKED}")
 
 
+def walls_that_change(ranks):
+    """A wall that is given again under its ID replaces the other; one that is gone is missed where nothing is set up
+    and contacts are measured."""
+    deck = open_box([Grain((0.0, 0.0, 0.99))])
+    wall = floor(deck, "plane")[-1]
+    measured = ["compute stress all stress/contact", *thermo(1, C_STRESS["N_w"])]
+    deck.body = [wall, *measured, "run 1", wall, "run 1"]
+    for part in run(deck, ranks).thermo():
+        require_equal(part[C_STRESS["N_w"]][-1], 1.0, "contacts with the wall that is there")
+    removed = f"unfix {wall.split()[1]}"
+    deck.body = [wall, "run 1", removed, "run 1 pre no"]
+    run(deck, ranks)
+    deck.body = [wall, *measured, "run 1", removed, "run 1 pre no"]
+    require_refused(
+        deck,
+        ranks,
+        "pair_style gran/insitu: a fix wall/gran was removed since the run was set up, and contacts are to be "
+        "measured: do not say 'pre no'",
+    )
+    deck.body = [wall, *measured, "run 1", removed, "run 1"]
+    require_equal(run(deck, ranks).thermo()[-1][C_STRESS["N_w"]][-1], 0.0, "contacts with the wall that is gone")
+
+
+def ledger_asked_before_walls(ranks):
+    """As other measures, the ledger does not answer before walls have been evaluated."""
+    deck = open_box([Grain((0.0, 0.0, 0.99))])
+    deck.extra = "ledger on"
+    plain = replace(deck, extra="")
+    asks = ["compute ledger all energy/ledger", "fix mean all ave/time 1 1 1 c_ledger file mean.txt"]
+    deck.body = [*asks, *floor(plain, "plane"), "run 1"]
+    require_refused(deck, ranks, f"compute ledger (energy/ledger): {ASKED}")
+    deck.body = [*floor(plain, "plane"), *asks, "run 1"]
+    run(deck, ranks)
+
+
 UNSEEN = "WARNING: pair_style gran/insitu: contacts with the walls of"
 
 
@@ -254,6 +289,8 @@ CASES = {
     "rattlers": rattlers,
     "press-between-sides": press_between_sides,
     "asked-before-walls": asked_before_walls,
+    "ledger-asked-before-walls": ledger_asked_before_walls,
+    "change": walls_that_change,
     "unseen-walls": unseen_walls,
 }
 
