@@ -268,9 +268,9 @@ add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} LONG_RANKS 2 4 CASES same-spheres)
 add_cases(energy/ledger-walls cases/ledger_walls.py LABEL case STYLES ${ledger} wall/gran CASES
   bounce-plane bounce-plane-spheres bounce-long bounce-hooke bounce-no-history bounce-damped bounce-rolling shear moving
-  pulls frozen seen-from-outside restarted-neutral)
+  pulls frozen restarted-neutral)
 add_cases(energy/ledger-walls cases/ledger_walls.py LABEL case STYLES ${ledger} wall/gran RANKS 1 LONG_RANKS 2 4 CASES
-  bounce-mesh plate conveyor drum hopper-spheres drops-out between-runs in-a-box-that-shears
+  seen-from-outside bounce-mesh plate conveyor drum hopper-spheres drops-out between-runs in-a-box-that-shears
   other-laws drained)
 add_cases(energy/ledger-walls cases/ledger_walls.py LABEL case STYLES ${ledger} wall/gran RANKS 1 2 LONG_RANKS 4 CASES
   hopper-spheroids torn-apart rained restarted)

@@ -47,3 +47,13 @@ foreach(compare strncmp strcmp)
   mend(modify_liggghts.cpp "if(${compare}(fix[ifix]->style,style" "if(fix[ifix] && ${compare}(fix[ifix]->style,style"
        "a fix wall/gran that is given again ends the program with a segmentation fault")
 endforeach()
+
+# A sphere just above an edge between two triangles of a plane: which of them comes first may change with the ranks.
+mend(fix_contact_history_mesh_I.h "    if(haveContact(iP,idTri,history,intersect))
+      return true;" "    if(faceflag && coplanarContactAlready(iP,idTri))
+      return false;
+    if(haveContact(iP,idTri,history,intersect))
+      return true;"
+     "a sphere on an edge between two triangles of a plane is pushed by both after the ranks have exchanged them")
+mend(fix_contact_history_mesh_I.h "if(idPartnerTri >= 0 && idPartnerTri != idTri && mesh_->map(idPartnerTri, 0) >= 0"
+     "if(idPartnerTri >= 0 && keepflag_[iP][i] && idPartnerTri != idTri && mesh_->map(idPartnerTri, 0) >= 0" "likewise")
