@@ -510,7 +510,7 @@ add_cases(stress/contact-at-walls cases/wall_analytic.py LABEL case
   STYLES stress/contact wall/gran dissipation energy/ledger
   RANKS 1 LONG_RANKS 2
   CASES bouncing-ball-0.1 bouncing-ball-0.3 bouncing-ball-0.5 bouncing-ball-0.7 bouncing-ball-0.9 sliding-block-30
-  sliding-block-60 spinning-ball-rolls thrown-ball-rolls backspin full-box plates spheroid-lies-ellipsoid
+  sliding-block-60 slipping-ball-45 slipping-ball-60 spinning-ball-rolls thrown-ball-rolls backspin full-box plates spheroid-lies-ellipsoid
   spheroid-lies-superquadric spheroid-stands-ellipsoid spheroid-stands-superquadric block-in-a-drum)
 
 # Format of the files, and what the tools that look for faults say of them

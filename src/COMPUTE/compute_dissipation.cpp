@@ -150,10 +150,14 @@ void ComputeDissipation::answer_by_ledger() {
   using E = grainscope::EnergyLedger;
   const auto last = FixLedgerRecord::find(lmp, id)->account().last;
   LossSums sums = impl_->sums.total(*this);
-  if (walls_ != Walls::only) {
-    sums.of_grains()[LossSums::normal_damping] = last[E::D_n] / update->dt;
-    sums.of_grains()[LossSums::friction] = last[E::D_t] / update->dt;
-    sums.of_grains()[LossSums::tangential_damping] = last[E::D_damp] / update->dt;
-  }
+  // The ledger's losses are those of all contacts, walls included.
+  const auto put_powers = [&](double *of, double all, double walls) {
+    of[LossSums::normal_damping] = all * last[E::D_n] + walls * last[E::D_n_w];
+    of[LossSums::friction] = all * last[E::D_t] + walls * last[E::D_t_w];
+    of[LossSums::tangential_damping] = all * last[E::D_damp] + walls * last[E::D_damp_w];
+  };
+  const double per_time = 1.0 / update->dt;
+  if (walls_ != Walls::only) put_powers(sums.of_grains(), per_time, -per_time);
+  if (walls_ != Walls::no) put_powers(sums.of_walls(), 0.0, per_time);
   put(sums.all.data());
 }
