@@ -115,7 +115,7 @@ add_cases(wall/gran-rows cases/wall_measures.py LABEL case STYLES wall/gran cont
   numbers-of-planes numbers-of-triangles)
 add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES ${wall_measures} RANKS 1 LONG_RANKS 2 CASES
   column-on-a-plane column-on-a-mesh bounce-on-a-plane-e-0.1 bounce-on-a-plane-e-0.9 bounce-on-a-mesh-e-0.1
-  bounce-on-a-mesh-e-0.9 dragged rattlers)
+  bounce-on-a-mesh-e-0.9 booked dragged rattlers)
 add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran stress/contact press/strain gran/insitu
   RANKS 1 2 LONG_RANKS 4 CASES press-between-sides)
 add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran stress/contact press/strain gran/insitu
@@ -266,10 +266,10 @@ add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} LONG_RANKS 2 4 CASES same-spheres)
 add_cases(energy/ledger-walls cases/ledger_walls.py LABEL case STYLES ${ledger} wall/gran CASES
   bounce-plane bounce-plane-spheres bounce-long bounce-hooke bounce-no-history bounce-damped bounce-rolling shear moving
-  pulls frozen)
+  pulls frozen seen-from-outside restarted-neutral)
 add_cases(energy/ledger-walls cases/ledger_walls.py LABEL case STYLES ${ledger} wall/gran RANKS 1 LONG_RANKS 2 4 CASES
-  bounce-mesh plate conveyor drum hopper-spheres drops-out seen-from-outside between-runs in-a-box-that-shears
-  other-laws restarted-neutral drained)
+  bounce-mesh plate conveyor drum hopper-spheres drops-out between-runs in-a-box-that-shears
+  other-laws drained)
 add_cases(energy/ledger-walls cases/ledger_walls.py LABEL case STYLES ${ledger} wall/gran RANKS 1 2 LONG_RANKS 4 CASES
   hopper-spheroids torn-apart rained restarted)
 set(ledger_flows ${ledger} wall/gran wall/contact)

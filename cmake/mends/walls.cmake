@@ -23,7 +23,7 @@ mend(fix_wall_gran.cpp "                    deltan = mesh->resolveTriSuperquadri
      "                    deltan = mesh->resolveTriSuperquadricContact(iTri, delta, sidata.contact_point, particle, bary);
                     double face_normal[3];
                     mesh->surfaceNorm(iTri, face_normal);
-                    barysign = deltan <= 0 && fabs(vectorDot3D(delta, face_normal)) == vectorMag3DSquared(face_normal) ? 7 : -1;"
+                    barysign = deltan <= 0 && fabs(vectorDot3D(delta, face_normal)) > 1. - 1e-12 ? 7 : -1;"
      "likewise, on an edge itself; and springs are lost from one triangle of a plane to the next")
 
 # The lever of a superquadric on a wall.
@@ -41,3 +41,9 @@ mend(fix_wall_gran_base.h "      wg->add_contactforce_stress_wall(ip, i_forces, 
 mend(mesh_module_stress.h "virtual void setup(int vflag) {}"
      "virtual void setup(int vflag) {}\n    virtual void setup_pre_force(int vflag) { pre_force(vflag); }"
      "force and torque on a mesh are doubled when a run begins after another")
+
+# A fix that is given again under its ID has no place in the list while the new one is made, which counts those of its kind.
+foreach(compare strncmp strcmp)
+  mend(modify_liggghts.cpp "if(${compare}(fix[ifix]->style,style" "if(fix[ifix] && ${compare}(fix[ifix]->style,style"
+       "a fix wall/gran that is given again ends the program with a segmentation fault")
+endforeach()

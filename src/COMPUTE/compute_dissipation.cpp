@@ -150,14 +150,15 @@ void ComputeDissipation::answer_by_ledger() {
   using E = grainscope::EnergyLedger;
   const auto last = FixLedgerRecord::find(lmp, id)->account().last;
   LossSums sums = impl_->sums.total(*this);
-  // The ledger's losses are those of all contacts, walls included.
-  const auto put_powers = [&](double *of, double all, double walls) {
-    of[LossSums::normal_damping] = all * last[E::D_n] + walls * last[E::D_n_w];
-    of[LossSums::friction] = all * last[E::D_t] + walls * last[E::D_t_w];
-    of[LossSums::tangential_damping] = all * last[E::D_damp] + walls * last[E::D_damp_w];
-  };
-  const double per_time = 1.0 / update->dt;
-  if (walls_ != Walls::only) put_powers(sums.of_grains(), per_time, -per_time);
-  if (walls_ != Walls::no) put_powers(sums.of_walls(), 0.0, per_time);
+  const struct {
+    int loss;
+    E::Entry all, of_walls;
+  } losses[] = {{LossSums::normal_damping, E::D_n, E::D_n_w},
+                {LossSums::friction, E::D_t, E::D_t_w},
+                {LossSums::tangential_damping, E::D_damp, E::D_damp_w}};
+  for (const auto &one : losses) {
+    if (walls_ != Walls::only) sums.of_grains()[one.loss] = (last[one.all] - last[one.of_walls]) / update->dt;
+    if (walls_ != Walls::no) sums.of_walls()[one.loss] = last[one.of_walls] / update->dt;
+  }
   put(sums.all.data());
 }

@@ -82,7 +82,7 @@ struct FixLedgerRecord::Impl {
   bool may_pass = false;    // grains, in a step
   bool laws_known = false;  // those of walls
   std::string name;         // of the compute, for messages
-  bool stepping = false;  // from the beginning of a step to its end
+  bool stepping = false;    // from the beginning of a step to its end
   double dt = 0.0;
 
   /** The state of all ranks together: the first one keeps it. */
@@ -323,6 +323,7 @@ grainscope::LedgerAccount FixLedgerRecord::account() const {
   using E = EnergyLedger;
   grainscope::LedgerAccount sum;
   if (!impl_->pair) fail("was not set up: do not use 'pre no' in the first run with it");
+  impl_->pair->observer().require_complete(impl_->name);
   std::unique_ptr<E> ahead;  // as the first step of the run will begin
   const bool begins = impl_->ledger.pending() && !impl_->stepping;
   if (begins) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_wall_gran_insitu.h"
+#include "bin_index.h"
 #include "contact_observer.h"
 #include "evaluation_memory.h"
 #include "kept_wall_history.h"
@@ -90,35 +91,17 @@ struct SavedWall {
 }
 
 struct FixWallGranInsitu::Impl : grainscope::WallContacts {
-  Impl(LAMMPS *lmp, FixWallGranInsitu *fix) : fix(fix), velocities(lmp) {}
-  FixWallGranInsitu *fix;
+  explicit Impl(LAMMPS *lmp) : velocities(lmp) {}
   std::string words;
   std::vector<std::string> columns;  // of the contact history
   int past_column = -1;              // first of the ledger's, or -1
-  double exponent = 0.0;
   double **friction = nullptr;
-  int first = 0;  // number of its first wall
   PairGranInsitu *pair = nullptr;
   std::unique_ptr<ContactReader> contacts;
+  std::shared_ptr<void> takes_part;       // in the evaluations of the pair style
   grainscope::MeshVelocities velocities;  // with `setup neutral`
   bool restarted = false;                 // they are of a restart file
 
-  ContactReader *reader() override { return contacts.get(); }
-  void set_exponent(double value) override { exponent = value; }
-  grainscope::PartnerWall partner(const ContactReader::Surfaces &s) const override {
-    grainscope::PartnerWall wall;
-    wall.wall = first;
-    if (!fix->is_mesh_wall()) return wall;
-    FixMeshSurface **const meshes = fix->mesh_list();
-    wall.wall += std::find(meshes, meshes + fix->n_meshes(), s.fix_mesh) - meshes;
-    wall.triangle = s.mesh->id(s.j);
-    return wall;
-  }
-  std::vector<TriMesh *> meshes() const {
-    std::vector<TriMesh *> meshes;
-    for (int k = 0; k < fix->n_meshes(); k++) meshes.push_back(fix->mesh_list()[k]->triMesh());
-    return meshes;
-  }
   int column_of(const std::string &name) const {
     const auto at = std::find(columns.begin(), columns.end(), name);
     return at == columns.end() ? -1 : at - columns.begin();
@@ -126,7 +109,7 @@ struct FixWallGranInsitu::Impl : grainscope::WallContacts {
 };
 
 FixWallGranInsitu::FixWallGranInsitu(LAMMPS *lmp, int narg, char **arg)
-    : FixWallGran(take_over(lmp), narg, arg), impl_(new Impl(lmp, this)) {
+    : FixWallGran(take_over(lmp), narg, arg), impl_(new Impl(lmp)) {
   impl_->words = words_of(narg, arg);
   const std::unique_ptr<Deferred> deferred(dynamic_cast<Deferred *>(impl));
   impl = nullptr;  // until there is another: making it may end the run
@@ -148,9 +131,17 @@ int FixWallGranInsitu::add_history_value(std::string name, std::string newtonfla
   return FixWallGran::add_history_value(name, newtonflag);
 }
 
+std::vector<TriMesh *> FixWallGranInsitu::meshes() {
+  std::vector<TriMesh *> meshes;
+  for (int k = 0; k < n_meshes(); k++) meshes.push_back(mesh_list()[k]->triMesh());
+  return meshes;
+}
+
 void FixWallGranInsitu::init() {
   FixWallGran::init();
   impl_->contacts.reset();
+  impl_->takes_part.reset();
+  restart_global = 0;
   impl_->pair = dynamic_cast<PairGranInsitu *>(force->pair);
   if (!impl_->pair) return;
   ContactLaw law = grainscope::law_of_models(
@@ -170,14 +161,15 @@ void FixWallGranInsitu::init() {
   }
   impl_->contacts.reset(new ContactReader(impl_->pair->observer()));
   impl_->contacts->set_law(law);
-  impl_->pair->observer().add_wall();
-  restart_global = impl_->pair->evaluation_memory() && is_moving();
-  if (restart_global && !impl_->restarted) impl_->velocities.keep(impl_->meshes());
+  impl_->takes_part = impl_->pair->observer().add_wall();
+  restart_global = impl_->pair->evaluation_memory() && is_mesh_wall() && is_moving();
+  if (restart_global && !impl_->restarted) impl_->velocities.keep(meshes());
   impl_->restarted = false;
   std::vector<grainscope::Wall> before;
   for (int k = 0; k < modify->nfix && modify->fix[k] != this; k++)
     if (FixWallGranInsitu *wall = dynamic_cast<FixWallGranInsitu *>(modify->fix[k])) wall->add_to(before);
-  impl_->first = before.size();
+  impl_->first.wall = before.size();
+  impl_->meshes.assign(mesh_list(), mesh_list() + n_meshes());
 }
 
 /** The forces of the first evaluation; where it repeats the last of the run before, with its places and velocities,
@@ -186,7 +178,7 @@ void FixWallGranInsitu::setup(int vflag) {
   const std::shared_ptr<grainscope::EvaluationMemory> memory = impl_->pair ? impl_->pair->evaluation_memory() : nullptr;
   if (!memory || !memory->repeats()) return FixWallGran::setup(vflag);
   memory->swap();
-  impl_->velocities.restore(impl_->meshes());
+  impl_->velocities.restore(meshes());
   {
     const grainscope::KeptWallHistory kept(*this, fix_history_primitive_, atom->nlocal);
     FixWallGran::setup(vflag);
@@ -198,12 +190,14 @@ void FixWallGranInsitu::post_force(int vflag) {
   if (!impl_->contacts) return FixWallGran::post_force(vflag);
   grainscope::ContactObserver &observer = impl_->pair->observer();
   observer.begin_wall();
+  if (observer.active()) impl_->reader = impl_->contacts.get();
   FixWallGran::post_force(vflag);
+  impl_->reader = nullptr;
   observer.end();
 }
 
 void FixWallGranInsitu::write_restart(FILE *file) {
-  impl_->velocities.keep(impl_->meshes());
+  impl_->velocities.keep(meshes());
   const std::vector<double> &numbers = impl_->velocities.numbers();
   const SavedWall saved{static_cast<double>(numbers.size())};
   if (comm->me == 0) grainscope::write_state(file, saved, numbers.data(), numbers.size() * sizeof(double));
@@ -211,7 +205,13 @@ void FixWallGranInsitu::write_restart(FILE *file) {
 
 void FixWallGranInsitu::restart(char *buffer) {
   const SavedWall saved = grainscope::read_state<SavedWall>(lmp, *this, style, buffer);
-  std::vector<double> numbers(static_cast<std::size_t>(saved.numbers));
+  const long long n = grainscope::whole_count(saved.numbers, 1e9);
+  if (n < 0 || n % grainscope::MeshVelocities::width != 0)
+    error->all(FLERR,
+               ("fix " + std::string(id) + " (wall/gran): the restart file holds no number of mesh velocities, but " +
+                std::to_string(saved.numbers))
+                   .c_str());
+  std::vector<double> numbers(static_cast<std::size_t>(n));
   memcpy(numbers.data(), grainscope::state_block::tail(buffer), numbers.size() * sizeof(double));
   impl_->velocities.set_numbers(numbers.data(), numbers.size());
   impl_->restarted = true;

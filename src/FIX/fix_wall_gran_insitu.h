@@ -54,6 +54,8 @@ class FixWallGranInsitu : public FixWallGran, public grainscope::WallContactsOwn
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
+
+  std::vector<TriMesh *> meshes();
 };
 
 }

@@ -47,7 +47,7 @@ std::vector<const ContactLaw *> LedgerRequirements::require_known_walls() const 
   std::vector<const ContactLaw *> laws;
   for (const Wall &wall : walls_of(lmp)) {
     const std::string why = wall.law->why_no_energy();
-    if (!why.empty()) fail("wall " + wall.name + ": " + why);
+    if (!why.empty()) fail("wall '" + wall.name + "': " + why);
     laws.push_back(wall.law);
   }
   return laws;

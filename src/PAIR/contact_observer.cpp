@@ -24,7 +24,7 @@ void ContactObserver::remove_all() {
   for (ContactSink *sink : sinks_) sink->set_source(nullptr);
   sinks_.clear();
   listening_.clear();
-  walls_ = 0;
+  walls_ = std::make_shared<int>();
 }
 
 bool ContactObserver::begin(bool springs_move, bool repeats) {
@@ -36,7 +36,7 @@ bool ContactObserver::begin(bool springs_move, bool repeats) {
   for (ContactSink *sink : sinks_)
     if (sink->wants_contacts()) listening_.push_back(sink);
   active_ = wanted_ = !listening_.empty() || keeps_past_;
-  to_come_ = walls_;
+  to_come_ = static_cast<int>(walls_.use_count()) - 1;
   stamp_before_ = repeats ? -1.0 : stamp_;
   if (!repeats) {
     stamp_ = lmp->update->ntimestep + (runs_ % 1023 + 1) / 1024.0;  // never 0, which is what a new neighbour has

@@ -7,6 +7,7 @@
 #include "contact_sink.h"
 #include "pointers.h"
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,8 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   void remove(ContactSink *sink) override;
   void remove_all();
 
-  /** A fix for walls takes part, from now until remove_all(). */
-  void add_wall() { walls_++; }
+  /** A fix for walls takes part, from now until remove_all(), or while it holds what it gets. */
+  std::shared_ptr<void> add_wall() { return walls_; }
 
   /** Contacts are to be read in every evaluation, because they remember it (`ledger on`). */
   void set_keeps_past(bool keeps) { keeps_past_ = keeps; }
@@ -85,8 +86,9 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   std::array<Contact, 32> batch_;  // 16 kB: they stay in the first cache
   Contact *next_ = batch_.data();  // the first that is not filled in
   bool active_ = false;
-  int walls_ = 0, to_come_ = 0;  // fixes for walls; of this evaluation
-  bool wanted_ = false;          // the evaluation, by a sink or for what contacts remember
+  std::shared_ptr<void> walls_ = std::make_shared<int>();  // each fix for walls holds it, too
+  int to_come_ = 0;                                        // fixes for walls in this evaluation
+  bool wanted_ = false;                                    // the evaluation, by a sink or for what contacts remember
   bool motion_ = false;
   bool keeps_past_ = false;
   bool springs_move_ = true;

@@ -183,8 +183,9 @@ void ContactReader::after_wall(const Surfaces &s, const Forces &force_on_i, cons
   Contact &c = observer_.next();
   c.partner.emplace<PartnerWall>(PartnerWall{wall.wall, wall.triangle, Map<const Vector3d>(s.v_j)});
   c.weight = 1.0;
-  c.branch = Map<const Vector3d>(observer_.positions()[s.i]) - contact_point(s);
   read(s, force_on_i, c);
+  c.branch = c.motion ? Vector3d(-c.motion->arm)
+                      : Vector3d(Map<const Vector3d>(observer_.positions()[s.i]) - contact_point(s));
 }
 
 }

@@ -26,29 +26,27 @@ class ObservedWall : public Model {
 
   void connectToProperties(PropertyRegistry &registry) {
     Model::connectToProperties(registry);
-    if (wall_) wall_->set_exponent(Model::stressStrainExponent());
+    wall_.exponent = Model::stressStrainExponent();
   }
 
   void surfacesIntersect(Surfaces &s, Forces &i, Forces &j) {
-    if (ContactReader *reader = active_reader()) reader->before(s);
+    if (wall_.reader) wall_.reader->before(s);
     Model::surfacesIntersect(s, i, j);
   }
 
   void endSurfacesIntersect(Surfaces &s, LAMMPS_NS::TriMesh *mesh, Forces &i, Forces &j) {
     Model::endSurfacesIntersect(s, mesh, i, j);
-    if (ContactReader *reader = active_reader()) reader->after_wall(s, i, wall_->partner(s));
+    if (wall_.reader) wall_.reader->after_wall(s, i, wall_.partner(s));
   }
 
  private:
-  WallContacts *wall_;  // null where nobody is to see them
+  WallContacts &wall_;
 
-  static WallContacts *contacts_of(LIGGGHTS::IContactHistorySetup *setup) {
+  /** Of a fix that is none of ours, nobody sees the contacts. */
+  static WallContacts &contacts_of(LIGGGHTS::IContactHistorySetup *setup) {
+    static WallContacts unseen;
     WallContactsOwner *owner = dynamic_cast<WallContactsOwner *>(setup);
-    return owner ? &owner->wall_contacts() : nullptr;
-  }
-  ContactReader *active_reader() const {
-    ContactReader *reader = wall_ ? wall_->reader() : nullptr;
-    return reader && reader->observer().active() ? reader : nullptr;
+    return owner ? owner->wall_contacts() : unseen;
   }
 };
 

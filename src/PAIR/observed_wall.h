@@ -4,21 +4,28 @@
 
 #include "contact_reader.h"
 #include "granular_wall.h"
+#include "tri_mesh.h"
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 namespace grainscope {
 
-/** What a fix wall/gran shows of itself to the contact model that it runs. */
-class WallContacts {
- public:
-  virtual ~WallContacts() = default;
-  /** Null where nobody observes: no pair_style gran/insitu. */
-  virtual ContactReader *reader() = 0;
-  /** Which wall this is; its velocity is left at zero. */
-  virtual PartnerWall partner(const ContactReader::Surfaces &s) const = 0;
-  /** The exponent of the elastic normal force, known to the model alone. */
-  virtual void set_exponent(double exponent) = 0;
+/** Between a fix wall/gran and the contact model that it runs. */
+struct WallContacts {
+  ContactReader *reader = nullptr;                        // while contacts are to be read; else null
+  PartnerWall first;                                      // the wall, or that of the first mesh
+  std::vector<const LAMMPS_NS::FixMeshSurface *> meshes;  // in order; none of a primitive wall
+  double exponent = 0.0;  // of the elastic normal force; known to the model alone, which sets it
+
+  /** Which wall a contact is with; its velocity is left at zero. */
+  PartnerWall partner(const ContactReader::Surfaces &s) const {
+    PartnerWall wall = first;
+    if (meshes.empty()) return wall;
+    wall.wall += static_cast<int>(std::find(meshes.begin(), meshes.end(), s.fix_mesh) - meshes.begin());
+    wall.triangle = s.mesh->id(s.j);
+    return wall;
+  }
 };
 
 /** The host's wall for the contact-model combination `hash`, with an observer around its model: compiled for every

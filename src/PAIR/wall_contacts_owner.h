@@ -4,7 +4,7 @@
 
 namespace grainscope {
 
-class WallContacts;
+struct WallContacts;
 
 /** A fix wall/gran whose contacts are to be seen. */
 class WallContactsOwner {

@@ -367,6 +367,24 @@ def hopper(style):
     return case
 
 
+def drained(ranks):
+    """Spheres that pass a gate are deleted there, within the box."""
+    grains = spheroids(12, 2.6, 2.0, shape=(0.5, 0.5, 0.5), speed=0.3)
+    deck = scene(grains, half=6.0, atom_style="sphere", timestep=0.1 * rayleigh_time(0.5))
+    scenery = [
+        FALL,
+        "fix gate all mesh/surface file gate.stl type 1",
+        "fix count all massflow/mesh mesh gate vec_side 0. 0. -1. count once delete_atoms yes",
+        wall(deck, "primitive type 1 zcylinder 2.7 0. 0.", "side"),
+    ]
+    result = run_with(body(deck, scenery, 1500, 50, columns=["atoms"]), ranks, [("gate", floor(half=4.0))])
+    table = result.thermo()[0]
+    for row in range(len(table["step"])):
+        require_closes(account(table, row), f"row {row}")
+    a = account(table)
+    require(table["atoms"][-1] < 6 and a["W_out"] > 0.5 * a["W_gravity"], "nobody passed the gate")
+
+
 def drops_out(ranks):
     """One grain falls out of the box: what gravity has given it, it takes along."""
     deck = scene([ball(0.0, (0.3, 0.0, 0.0), (0.1, 0.2, 0.3), (1.0, 1.0, 1.5))], timestep=2e-3)
@@ -395,7 +413,7 @@ def rained(ranks):
         FALL,
         wall(deck, PLANE),
         "region above block -5 5 -5 5 4 8 units box",
-        f"fix small all particletemplate/sphere 15485863 atom_type 1 density constant 1000 radius constant {radius}",
+        "fix small all particletemplate/sphere 15485863 atom_type 1 density constant 1000 " f"radius constant {radius}",
         "fix kinds all particledistribution/discrete 15485867 1 small 1.0",
         "fix insert all insert/rate/region seed 32452843 distributiontemplate kinds nparticles 30 particlerate 50 "
         f"insert_every 200 vel constant 0 0 {-speed} overlapcheck yes all_in yes region above",
@@ -411,8 +429,8 @@ def rained(ranks):
 
 
 def between_runs(ranks):
-    """Between two runs grains are deleted, and join the group: what they have leaves and comes with them, and the ledger
-    goes on."""
+    """Between two runs grains are deleted, and join the group: what they have leaves and comes with them, and the
+    ledger goes on."""
     deck = scene(spheroids(20, 2.9, 0.5), half=6.0, timestep=0.1 * rayleigh_time(0.5))
     scenery = [FALL, wall(deck, PLANE), wall(deck, "primitive type 1 zcylinder 3.0 0. 0.", "side")]
     one_run = "run 1000"
@@ -571,7 +589,8 @@ def restarted(hole, *words):
 
 
 def torn_apart(ranks):
-    """Two spheres leave one after the other, pressed together: what is stored in their contact leaves with the first."""
+    """Two spheres leave one after the other, pressed together: what is stored in their contact leaves with the
+    first."""
     grains = [Grain((0.0, 0.0, -9.0)), Grain((0.0, 0.0, -7.05))]
     grains = [replace(g, velocity=(0.0, 0.0, -40.0), omega=(0.0, 1.0 * k, 0.0)) for k, g in enumerate(grains)]
     deck = scene(grains, half=5.0, atom_style="sphere", timestep=1e-4)
@@ -610,6 +629,7 @@ CASES = {
     "hopper-spheroids": hopper("superquadric"),
     "hopper-spheres": hopper("sphere"),
     "drops-out": drops_out,
+    "drained": drained,
     "torn-apart": torn_apart,
     "seen-from-outside": seen_from_outside,
     "rained": rained,

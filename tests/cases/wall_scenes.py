@@ -102,6 +102,37 @@ def bounce(kind, restitution):
     return case
 
 
+def booked(ranks):
+    """`mode ledger` of a ball that bounces while two others collide: each loss among its own."""
+    grains = [
+        Grain((0.0, 0.0, 1.001), velocity=(0, 0, -1.0)),
+        Grain((3.0, 0.0, 4.0), velocity=(0, 0, -1.0)),
+        Grain((3.0, 0.0, 1.999), velocity=(0, 0, 1.0)),
+    ]
+    deck = open_box(grains, extra="tangential_damping off")
+    deck = replace(deck, timestep=0.2 * deck.dt())
+    walls = floor(deck, "plane")
+    kinds = {kind: outputs("dissipation").of(kind).vector() for kind in ("step", "all", "no", "only")}
+    deck.body = [
+        *walls,
+        "compute step all dissipation",
+        *(
+            f"compute {w} all dissipation mode ledger walls {k}"
+            for w, k in (("all", "yes"), ("no", "no"), ("only", "only"))
+        ),
+        *thermo(1, *(q for words in kinds.values() for q in words)),
+        "run 800",
+    ]
+    table = run(replace(deck, extra="ledger on tangential_damping off"), ranks).thermo()[0]
+    found = {kind: np.array([table[q][1:].sum() for q in words]) for kind, words in kinds.items()}
+    require(found["step"][0] > 0.0 and found["step"][5] > 0.0, "no collision of each kind")
+    for k in (0, 5):
+        # two ways to pair the same forces with velocities, alike in the limit of a short step
+        require_close(found["all"][k], found["step"][k], 1e-3, f"entry {k}")
+    require_equal(found["no"], [*found["all"][:5], *[0.0] * 5], "walls no")
+    require_equal(found["only"], [*[0.0] * 5, *found["all"][5:]], "walls only")
+
+
 def dragged(ranks):
     """A ball that may not turn lies on a floor that slides away under it: the floor does mu m g V, all of it lost to
     friction while the ball slides."""
@@ -218,6 +249,7 @@ CASES = {
     "column-on-a-plane": column("plane"),
     "column-on-a-mesh": column("mesh"),
     **{f"bounce-on-a-{kind}-e-{e}": bounce(kind, e) for kind in ("plane", "mesh") for e in (0.1, 0.9)},
+    "booked": booked,
     "dragged": dragged,
     "rattlers": rattlers,
     "press-between-sides": press_between_sides,

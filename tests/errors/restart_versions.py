@@ -91,21 +91,22 @@ def not_by_an_input_script(ranks):
         require_refused(replace(deck, body=body), ranks, f"fix {style}: is made by {words}, not by an input script")
 
 
-OTHER = "was written by another version of grainscope: it holds {} of its state, and this program reads version 1"
+OTHER = "was written by another version of grainscope: it holds {} of its state, and this program reads version {}"
 CASES = {
     "same-file-is-read": same_file_is_read,
     "former-seal": former_seal_refused,
     "not-by-an-input-script": not_by_an_input_script,
 }
 for one in FIXES:
-    CASES[f"{one}-version"] = refused(one, 8, 9, OTHER.format("version 9"))
-    CASES[f"{one}-size"] = refused(one, 12, 4, OTHER.format("4 bytes"))
+    version = 2 if one == "ledger/record" else 1
+    CASES[f"{one}-version"] = refused(one, 8, 9, OTHER.format("version 9", version))
+    CASES[f"{one}-size"] = refused(one, 12, 4, OTHER.format("4 bytes", version))
     CASES[f"{one}-without-a-version"] = refused(
         one,
         0,
         0,
         "holds its state without a version, as earlier versions of grainscope wrote it, and this program "
-        "reads version 1",
+        f"reads version {version}",
     )
 
 if __name__ == "__main__":
