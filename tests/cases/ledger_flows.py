@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The energy ledger over flows of many grains under gravity, as examples/silo and examples/drum have them: it closes
 while grains leave, and says of the walls what wall/contact and dissipation say."""
+import math
 import os
 from pathlib import Path
 import shutil
@@ -9,17 +10,21 @@ import tempfile
 from case import main, require, require_close
 from run import run
 from run_example import arguments, table
+from shear_output import read_grains
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 # Of what was lost: sums of 1e5 steps and 1e4 contacts, whose terms are up to ten times what they add up to.
 ROUNDING = 1e-12
 
 
-def tables(example, ranks, names, variables):
+def run_of(example, ranks, variables):
     folder = Path(tempfile.mkdtemp(dir=os.environ.get("GRAINSCOPE_SCRATCH"))) / example
     shutil.copytree(EXAMPLES / example, folder)
     deck = (folder / f"in.{example}").read_text()
-    result = run(deck, ranks, folder=folder, arguments=list(arguments(variables)))
+    return run(deck, ranks, folder=folder, arguments=list(arguments(variables)))
+
+
+def tables(result, *names):
     return [table(result.file(f"{name}.txt")) for name in names]
 
 
@@ -35,17 +40,22 @@ def require_closes(energy, supplies):
 
 def silo(**variables):
     def case(ranks):
-        energy, flow = tables("silo", ranks, ("energy", "discharge"), variables)
+        result = run_of("silo", ranks, variables)
+        energy, flow = tables(result, "energy", "discharge")
         require_closes(energy, {"W_gravity": 1.0, "W_wall": 1.0, "W_out": -1.0})
         require(energy["W_out"][-1] > 0.0 and flow["mass"][-1] < flow["mass"][0], "no grain left")
         require(energy["D_n"][-1] > energy["D_n_w"][-1] > 0.0 and energy["D_t_w"][-1] > 0.0, "nothing was lost")
+        # What pictures are made of. Dumps have six digits.
+        radii = read_grains(result.file("silo.dump")).semi_axes[:, 0]
+        mass = 2500.0 * 4.0 / 3.0 * math.pi * (radii**3).sum()
+        require_close(mass, result.thermo()[-1]["v_mass"][-1], 1e-5, "mass by the radii of the last dump")
 
     return case
 
 
 def drum(dt=5e-5, **variables):
     def case(ranks):
-        energy, power = tables("drum", ranks, ("energy", "power"), variables)
+        energy, power = tables(run_of("drum", ranks, variables), "energy", "power")
         require_closes(energy, {"W_gravity": 1.0, "W_wall": 1.0})
         time = dt * (power["step"][1] - power["step"][0])
         work, lost, lost_w = (time * power[name].sum() for name in ("power", "lost", "lost_w"))
