@@ -274,6 +274,10 @@ add_cases(energy/ledger-walls cases/ledger_walls.py LABEL case STYLES ${ledger} 
   other-laws drained)
 add_cases(energy/ledger-walls cases/ledger_walls.py LABEL case STYLES ${ledger} wall/gran RANKS 1 2 LONG_RANKS 4 CASES
   hopper-spheroids torn-apart rained restarted)
+set(ledger_flows ${ledger} wall/gran wall/contact)
+add_cases(energy/ledger-flows cases/ledger_flows.py LABEL case STYLES ${ledger_flows} RANKS 1 LONG_RANKS 2 4 CASES
+  small-silo small-drum)
+add_cases(energy/ledger-flows cases/ledger_flows.py LABEL long STYLES ${ledger_flows} CASES silo drum)
 
 # read_restart, setup neutral, run/guard: runs that are split, killed, stopped, damaged
 add_cases(setup/memory-split cases/restarts.py LABEL case STYLES setup/memory gran/insitu RANKS 1 2 CASES
@@ -512,8 +516,8 @@ add_cases(stress/contact-at-walls cases/wall_analytic.py LABEL case
   STYLES stress/contact wall/gran dissipation energy/ledger
   RANKS 1 LONG_RANKS 2
   CASES bouncing-ball-0.1 bouncing-ball-0.3 bouncing-ball-0.5 bouncing-ball-0.7 bouncing-ball-0.9 sliding-block-30
-  sliding-block-60 spinning-ball-rolls thrown-ball-rolls backspin full-box plates spheroid-lies-ellipsoid
-  spheroid-lies-superquadric spheroid-stands-ellipsoid spheroid-stands-superquadric block-in-a-drum)
+  sliding-block-60 slipping-ball-45 slipping-ball-60 spinning-ball-rolls thrown-ball-rolls backspin full-box plates
+  spheroid-lies-ellipsoid spheroid-lies-superquadric spheroid-stands-ellipsoid spheroid-stands-superquadric block-in-a-drum)
 
 # Format of the files, and what the tools that look for faults say of them
 add_cases(suite-style cases/style.py LABEL case STYLES suite style CASES clang-format black flake8 citation)

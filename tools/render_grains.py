@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 """Picture of the grains of a dump by POV-Ray: true ellipsoids in the sheared box, coloured by how far each is turned
 out of the flow (the x axis). The angle is that of the long axis of a prolate grain, of the flat plane of an oblate
-one."""
+one. Spheres are grey."""
 import argparse
+from dataclasses import replace
 from pathlib import Path
 import subprocess
 import sys
@@ -44,6 +45,26 @@ def angle_to_flow(grains):
     along_flow = np.abs(np.take_along_axis(grains.rotations[:, 0, :], axis[:, None], axis=1)[:, 0])
     angle = np.degrees(np.arccos(np.clip(along_flow, 0.0, 1.0)))
     return np.where(oblate, 90.0 - angle, angle)
+
+
+def with_z_upwards(grains):
+    """Turned so that z points up, along the y of the picture, and y to the back."""
+    turn = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
+    a, b, c = grains.edges @ turn.T
+    return replace(
+        grains,
+        positions=grains.positions @ turn.T,
+        rotations=turn @ grains.rotations,
+        origin=turn @ (grains.origin + grains.edges[1]),
+        edges=np.array([a, c, -b]),
+    )
+
+
+def in_the_smallest_box(grains):
+    """In a box that just holds them."""
+    reach = grains.semi_axes.max(axis=1, keepdims=True)
+    low, high = (grains.positions - reach).min(axis=0), (grains.positions + reach).max(axis=0)
+    return replace(grains, origin=low, edges=np.diag(high - low))
 
 
 def wrapped(grains):
@@ -119,11 +140,11 @@ def describe_arrows(arrows, radius):
     return "\n".join(lines)
 
 
-def describe_scene(grains, colours, aspect):
+def describe_scene(grains, colours, aspect, bare=False):
     """The scene around a box centred at the origin: camera in front (+z), above and to the right, a white floor, a soft
     light."""
     size = np.linalg.norm(np.diag(grains.edges))
-    arrows = flow_arrows(grains)
+    arrows = [] if bare else flow_arrows(grains)
     seen = np.array(list(box_corners(grains).values()) + [end for arrow in arrows for end in arrow])
     direction = np.array([0.30, 0.27, 0.91]) / np.linalg.norm([0.30, 0.27, 0.91])
     angle, margin = 24, 1.12
@@ -136,7 +157,7 @@ def describe_scene(grains, colours, aspect):
         across=3.8 * size,
         fill_light=vector(size * np.array([2.5, 1.0, 2.5])),
         floor=seen[:, 1].min() - 0.02 * size,
-        box=describe_box(grains, 0.003 * size),
+        box="" if bare else describe_box(grains, 0.003 * size),
         arrows=describe_arrows(arrows, 0.005 * size),
         grains=describe_grains(grains, colours),
     )
@@ -168,7 +189,7 @@ def run_povray(scene, width, height, threads):
         return plt.imread(Path(folder, "scene.png"))[..., :3]
 
 
-def save_with_legend(pixels, colormap, path):
+def save_with_legend(pixels, colormap, path, label):
     """The picture with a colour bar at its lower edge."""
     height, width = pixels.shape[:2]
     figure = plt.figure(figsize=(width / 100, height / 100), dpi=100)
@@ -180,18 +201,23 @@ def save_with_legend(pixels, colormap, path):
         bar.ax.set_xticklabels(["0°", "30°", "60°", "90°"])
         bar.outline.set_visible(False)
         bar.ax.tick_params(length=0, labelsize=0.011 * width)
-        bar.set_label("angle to the flow", fontsize=0.012 * width)
+        bar.set_label(label, fontsize=0.012 * width)
     figure.savefig(path, dpi=100)
     plt.close(figure)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("dump", help="text dump with columns id x y z quat1-4 shapex-z (the last snapshot is drawn)")
+    parser.add_argument(
+        "dump",
+        help="text dump with columns id x y z quat1-4 shapex-z, of spheres x y z radius (the last snapshot is drawn)",
+    )
     parser.add_argument("--output", default="grains.png", metavar="FILE", help="the picture (default: grains.png)")
     parser.add_argument("--width", type=int, default=1600, help="in pixels; the height is 3/4 of it (default: 1600)")
     parser.add_argument("--colormap", default="viridis_r", help="a matplotlib colormap (default: viridis_r)")
     parser.add_argument("--threads", type=int, default=2, help="for POV-Ray (default: 2)")
+    parser.add_argument("--up", choices=("y", "z"), default="y", help="what is up in the picture (default: y)")
+    parser.add_argument("--bare", action="store_true", help="the grains alone, without box and arrows of the flow")
     parser.add_argument("--scene", metavar="FILE", help="also keep the POV-Ray scene here")
     arguments = parser.parse_args()
     if arguments.width < 100:
@@ -201,14 +227,18 @@ def main():
     try:
         grains = read_grains(arguments.dump)
         angles = angle_to_flow(grains)
+        if arguments.up == "z":
+            grains = with_z_upwards(grains)
+        if arguments.bare:
+            grains = in_the_smallest_box(grains)
         colormap = None if angles is None else plt.get_cmap(arguments.colormap)
         colours = np.full((len(grains.positions), 3), 0.75) if angles is None else colormap(angles / 90.0)
-        scene = describe_scene(grains, colours, 4 / 3)
+        scene = describe_scene(grains, colours, 4 / 3, arguments.bare)
         if arguments.scene:
             Path(arguments.scene).write_text(scene)
-        save_with_legend(
-            run_povray(scene, arguments.width, arguments.width * 3 // 4, arguments.threads), colormap, arguments.output
-        )
+        pixels = run_povray(scene, arguments.width, arguments.width * 3 // 4, arguments.threads)
+        label = "angle to x" if arguments.bare else "angle to the flow"
+        save_with_legend(pixels, colormap, arguments.output, label)
     except (InputError, OSError) as error:
         sys.exit(f"render_grains.py: {error}")
     print(arguments.output)

@@ -208,7 +208,8 @@ def rotation_matrices(quaternions):
 
 
 def read_grains(path):
-    """The last snapshot of a text dump with columns id x y z quat1-4 shapex-z, in a triclinic or orthogonal box."""
+    """The last snapshot of a text dump with columns id x y z quat1-4 shapex-z, of spheres x y z radius, in a triclinic
+    or orthogonal box."""
     try:
         text = Path(path).read_text()
     except OSError as error:
@@ -218,7 +219,8 @@ def read_grains(path):
     if not match:
         raise InputError(f"{path}: not a LIGGGHTS text dump")
     names = match[3].split()
-    wanted = "x y z quat1 quat2 quat3 quat4 shapex shapey shapez".split()
+    spheres = "radius" in names
+    wanted = ("x y z radius" if spheres else "x y z quat1 quat2 quat3 quat4 shapex shapey shapez").split()
     missing = [name for name in wanted if name not in names]
     if missing:
         raise InputError(f"{path}: no column {', '.join(missing)}; the dump must hold {' '.join(wanted)}")
@@ -237,4 +239,8 @@ def read_grains(path):
     high[:2] -= max(0.0, xy, xz, xy + xz), max(0.0, yz)
     lx, ly, lz = high - low
     edges = np.array([[lx, 0.0, 0.0], [xy, ly, 0.0], [xz, yz, lz]])
-    return Grains(columns[:, :3], rotation_matrices(columns[:, 3:7]), columns[:, 7:], low, edges)
+    if spheres:
+        rotations, semi_axes = np.tile(np.eye(3), (len(columns), 1, 1)), np.repeat(columns[:, 3:], 3, axis=1)
+    else:
+        rotations, semi_axes = rotation_matrices(columns[:, 3:7]), columns[:, 7:]
+    return Grains(columns[:, :3], rotations, semi_axes, low, edges)

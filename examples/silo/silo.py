@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Reads what in.silo wrote in the current folder; sets the mass flow against Beverloo's law, the pressure on the side
-against Janssen's. Argument: diameter of the orifice [m]."""
+against Janssen's; tells where the energy went. Argument: diameter of the orifice [m]."""
 import math
 from pathlib import Path
 import sys
@@ -41,6 +41,9 @@ def janssen(folder):
         f"carried by the side: {drag.sum() / weight:.3f} of the weight above the cone, Janssen {carried / weight:.3f}"
     )
     rest = np.loadtxt(folder / "rest.txt")[-1]
+    print(
+        f"push on the side {rest[4]:.3f} N, Janssen {carried / friction:.3f} N; drag {rest[2]:.3f} N, {carried:.3f} N"
+    )
     print(f"side and bottom carry {(rest[2] + rest[3]) / rest[1]:.4f} of the weight")
     return bulk
 
@@ -55,6 +58,16 @@ def beverloo(folder, bulk, orifice):
     print(f"mass flow {rate:.4f} +- {error:.4f} kg/s: C = {rate / scale:.3f} +- {error / scale:.3f} with k = 1.4")
 
 
+def energies(folder):
+    path = folder / "energy.txt"
+    names, last = path.read_text().splitlines()[1].split()[2:], np.loadtxt(path)[-1, 1:]
+    energy = dict(zip(names, last))
+    print(f"work of gravity {1e3 * energy['W_gravity']:.3f} mJ; of this, in %:")
+    print(", ".join(f"{name} {100.0 * energy[name] / energy['W_gravity']:.2f}" for name in names[1:-3]))
+    print(f"imbalance {energy['imbalance']:.1e}")
+
+
 if __name__ == "__main__":
     here = Path.cwd()
     beverloo(here, janssen(here), float(sys.argv[1] if len(sys.argv) > 1 else 0.020))
+    energies(here)
