@@ -225,7 +225,7 @@ add_cases(wall/gran-mended cases/walls_mended.py LABEL case STYLES wall/gran RAN
   cylinder-turns-z-inside cylinder-turns-z-inside-narrow cylinder-turns-z-outside
   floor-diagonal-superquadric floor-beside-the-diagonal-superquadric floor-far-superquadric floor-diagonal-ellipsoid
   floor-beside-the-diagonal-ellipsoid floor-far-ellipsoid edge-superquadric edge-ellipsoid)
-add_cases(wall/gran-mended cases/walls_mended.py LABEL case STYLES wall/gran CASES
+add_cases(wall/gran-mended cases/walls_mended.py LABEL case STYLES wall/gran RANKS 1 2 CASES
   torque-large torque-small torque-ellipsoid second-run)
 add_cases(surface/ellipsoid-contact cases/ellipsoid_contacts.py LABEL case STYLES surface/ellipsoid CASES
   poles-meet poles-meet-gaussian poles-meet-mean equators-meet-gaussian equators-meet-mean flat-faces-meet-gaussian
