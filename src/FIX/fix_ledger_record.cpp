@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_ledger_record.h"
 #include "arguments.h"
-#include "box_state.h"
 #include "contact_observer.h"
-#include "grain_shape.h"
 #include "ledger_account.h"
 #include "ledger_grains.h"
-#include "ledger_gravity.h"
+#include "ledger_motion.h"
 #include "ledger_requirements.h"
 #include "pair_gran_insitu.h"
 #include "restart_state.h"
-#include "spheroid_rotation.h"
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
@@ -27,8 +24,6 @@ using namespace LAMMPS_NS;
 using Eigen::Map;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using grainscope::BoxState;
-using grainscope::Contact;
 using grainscope::ContactObserver;
 using grainscope::EnergyLedger;
 using grainscope::LedgerGrains;
@@ -65,18 +60,12 @@ struct FirstBeforeExchange : Modify {
   }
 };
 
-grainscope::LedgerFrame frame_of(LAMMPS *lmp) {
-  const BoxState box(lmp);
-  return {box.velocity_gradient, box.centre, box.edges.diagonal(), box.edge_velocities.diagonal()};
-}
-
 }
 
 struct FixLedgerRecord::Impl {
   EnergyLedger ledger;
   PairGranInsitu *pair = nullptr;
-  grainscope::LedgerGravity gravity;
-  grainscope::LedgerRequirements::Movers movers;
+  std::unique_ptr<grainscope::LedgerMotion> motion;  // of the run that was set up last
   // The grains as they were before some may leave and come: in a step that builds neighbour lists, after a run.
   std::unique_ptr<LedgerGrains> before_exchange, after_run;
   bool may_pass = false;    // grains, in a step
@@ -84,6 +73,11 @@ struct FixLedgerRecord::Impl {
   std::string name;         // of the compute, for messages
   bool stepping = false;    // from the beginning of a step to its end
   double dt = 0.0;
+
+  void start_step(EnergyLedger &booked, LAMMPS *lmp, int groupbit);
+  void book_passage_in_step(LAMMPS *lmp, int groupbit);
+  void book_passage_between_steps(EnergyLedger &booked, bool evaluated, LAMMPS *lmp, int groupbit);
+  void book_leaving_before_run(MPI_Comm world);
 
   /** The state of all ranks together: the first one keeps it. */
   void take(const SavedLedger &saved, bool first) {
@@ -93,6 +87,48 @@ struct FixLedgerRecord::Impl {
     ledger.restore(state, saved.frame());
   }
 };
+
+void FixLedgerRecord::Impl::book_passage_in_step(LAMMPS *lmp, int groupbit) {
+  const std::unique_ptr<LedgerGrains> before = std::move(before_exchange), now = motion->grains_in_step(ledger);
+  const grainscope::PassedGrains passed(*before, *now, lmp->world);
+  if (passed.left.empty() && passed.came.empty()) return;
+  now->read_contacts(lmp, *pair, groupbit);
+  ledger.pass_in_step(before->taken_by(passed.left, true), now->taken_by(passed.came, true));
+}
+
+/** `evaluated`: forces were evaluated since, so that contacts are those of the grains that there are now. With 'pre no'
+ *  they are seen to be others at the end of the coming step. */
+void FixLedgerRecord::Impl::book_passage_between_steps(EnergyLedger &booked, bool evaluated, LAMMPS *lmp,
+                                                       int groupbit) {
+  LedgerGrains &before = *after_run;
+  const std::unique_ptr<LedgerGrains> now = motion->grains_between_steps(booked);
+  const grainscope::PassedGrains passed(before, *now, lmp->world);
+  if (passed.left.empty() && passed.came.empty()) return;
+  now->read_contacts(lmp, *pair, groupbit);
+  EnergyLedger::Passage out = before.taken_by(passed.left, !evaluated), in = now->taken_by(passed.came, !evaluated);
+  if (evaluated) return booked.pass_between_steps(out, in);
+  EnergyLedger::Passage out_moving, in_moving;
+  std::swap(out_moving.kinetic, out.kinetic);
+  std::swap(in_moving.kinetic, in.kinetic);
+  booked.pass_between_steps(out_moving, in_moving);
+  booked.pass_in_step(out, in);
+}
+
+/** Writing a restart file deals grains out to the ranks, where those beyond an open face are lost: a run that reads the
+ *  file knows nothing of them. */
+void FixLedgerRecord::Impl::book_leaving_before_run(MPI_Comm world) {
+  if (!after_run) return;
+  const std::unique_ptr<LedgerGrains> now = motion->grains_between_steps(ledger);
+  const std::vector<int> left = grainscope::PassedGrains(*after_run, *now, world).left;
+  ledger.pass_between_steps(after_run->taken_by(left, false), EnergyLedger::Passage());
+  after_run->forget(left);
+}
+
+void FixLedgerRecord::Impl::start_step(EnergyLedger &booked, LAMMPS *lmp, int groupbit) {
+  const bool evaluated = booked.pending();
+  motion->start_step(booked);
+  if (after_run) book_passage_between_steps(booked, evaluated, lmp, groupbit);
+}
 
 FixLedgerRecord::FixLedgerRecord(LAMMPS *lmp, int narg, char **arg)
     : InternalFix(lmp, narg, arg, "the computes that need it"), impl_(new Impl) {
@@ -116,10 +152,9 @@ void FixLedgerRecord::init() {
   ContactObserver &observer = impl_->pair->observer();
   const grainscope::LedgerRequirements requirements(lmp, groupbit, impl_->name);
   requirements.require_known_contacts(*impl_->pair);
-  impl_->movers = requirements.require_moved_by_verlet();
+  impl_->motion.reset(new grainscope::LedgerMotion(lmp, groupbit, requirements.require_moved_by_verlet()));
   requirements.require_flowing_box();
   impl_->laws_known = false;
-  impl_->gravity = grainscope::LedgerGravity(lmp);
   impl_->may_pass = grains_may_pass();
   impl_->before_exchange.reset();
   FirstBeforeExchange::make(modify, this);
@@ -154,142 +189,17 @@ void FixLedgerRecord::add_contacts(grainscope::ContactSpan contacts) {
   impl_->ledger.add(contacts, {atom->mask, groupbit, atom->tag}, update->dt, impl_->pair->observer().springs_move());
 }
 
-EnergyLedger::Grain FixLedgerRecord::shown(int i) const {
-  static const double none[3] = {0.0, 0.0, 0.0};
-  const bool held = impl_->movers.hold(atom->mask[i]);
-  return {i, atom->rmass[i], atom->x[i], atom->v[i], held ? none : atom->f[i], held ? none : atom->torque[i]};
-}
-
-Vector3d FixLedgerRecord::weight(int i) const {
-  const int mask = atom->mask[i];
-  if (impl_->movers.hold(mask)) return Vector3d::Zero();
-  return atom->rmass[i] * impl_->gravity.acceleration(mask);
-}
-
-/** Of a sphere, whose angular momentum the host does not keep. */
-double FixLedgerRecord::moment_of_inertia(int i) const {
-  return (domain->dimension == 2 ? 0.5 : 0.4) * atom->rmass[i] * atom->radius[i] * atom->radius[i];
-}
-
-/** Where it is kept, or made for a sphere in `place`. */
-inline const double *FixLedgerRecord::momentum(int i, double place[3]) const {
-  if (atom->superquadric_flag) return atom->angmom[i];
-  for (int k = 0; k < 3; k++) place[k] = moment_of_inertia(i) * atom->omega[i][k];
-  return place;
-}
-
-/** Angular momentum now, and angular velocity after the kick of the coming half step. Spheroids: from the angular
- *  momentum, which the integrators keep; the host's `velocity setAngular` leaves omega at odds with it. */
-void FixLedgerRecord::coming_spin(const EnergyLedger::Grain &grain, double momentum[3], double omega_after[3]) const {
-  const int i = grain.index;
-  const double half = 0.5 * update->dt, *torque = grain.torque;
-  double kicked[3];
-  if (!atom->superquadric_flag) {
-    const double inertia = moment_of_inertia(i);
-    for (int k = 0; k < 3; k++) {
-      momentum[k] = inertia * atom->omega[i][k];
-      omega_after[k] = atom->omega[i][k] + half / inertia * torque[k];
-    }
-    return;
-  }
-  for (int k = 0; k < 3; k++) {
-    momentum[k] = atom->angmom[i][k];
-    kicked[k] = momentum[k] + half * torque[k];
-  }
-  const double *inertia = atom->inertia[i];
-  if (grainscope::is_symmetric_top(inertia))
-    return grainscope::angular_velocity(inertia, kicked, atom->quaternion[i], omega_after);
-  const Matrix3d r = grainscope::orientation(*atom, i).toRotationMatrix();
-  Map<Vector3d>(omega_after + 0) =
-      r * (r.transpose() * Map<const Vector3d>(kicked)).cwiseQuotient(Map<const Vector3d>(inertia));
-}
-
-void FixLedgerRecord::start_step(EnergyLedger &ledger) const {
-  const bool pulled = !impl_->gravity.none();
-  const bool evaluated = ledger.pending();
-  impl_->gravity.update();
-  ledger.begin_start_of_step(frame_of(lmp));
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
-    const EnergyLedger::Grain grain = shown(i);
-    double momentum[3], omega_after[3];
-    coming_spin(grain, momentum, omega_after);
-    ledger.start_of_step(grain, omega_after, momentum, update->dt);
-    if (pulled) ledger.start_with_weight(grain, weight(i), update->dt);
-  }
-  ledger.book_start(update->dt);
-  if (impl_->after_run) book_passage_between_steps(ledger, evaluated);
-}
-
-/** In the middle of a step: with the velocities of the half step, before or after grains were dealt out. */
-std::unique_ptr<LedgerGrains> FixLedgerRecord::grains_in_step() const {
-  std::unique_ptr<LedgerGrains> grains(new LedgerGrains);
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
-    double place[3];
-    grains->add(atom->tag[i], impl_->ledger.kinetic_in_step(shown(i), atom->omega[i], momentum(i, place)));
-  }
-  return grains;
-}
-
-std::unique_ptr<LedgerGrains> FixLedgerRecord::grains_between_steps(const EnergyLedger &ledger) const {
-  std::unique_ptr<LedgerGrains> grains(new LedgerGrains);
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
-    const EnergyLedger::Grain grain = shown(i);
-    double momentum[3], omega_after[3];
-    coming_spin(grain, momentum, omega_after);
-    grains->add(atom->tag[i], ledger.kinetic_between_steps(grain, omega_after, momentum, update->dt));
-  }
-  return grains;
-}
-
 void FixLedgerRecord::pre_exchange() {
   if (!impl_->may_pass) return;
-  impl_->before_exchange = grains_in_step();
+  impl_->before_exchange = impl_->motion->grains_in_step(impl_->ledger);
   impl_->before_exchange->read_contacts(lmp, *impl_->pair, groupbit);
-}
-
-void FixLedgerRecord::book_passage_in_step() {
-  const std::unique_ptr<LedgerGrains> before = std::move(impl_->before_exchange), now = grains_in_step();
-  const grainscope::PassedGrains passed(*before, *now, world);
-  if (passed.left.empty() && passed.came.empty()) return;
-  now->read_contacts(lmp, *impl_->pair, groupbit);
-  impl_->ledger.pass_in_step(before->taken_by(passed.left, true), now->taken_by(passed.came, true));
 }
 
 /** After a run there is no half step under way. */
 void FixLedgerRecord::end_run() {
   if (impl_->stepping || !impl_->ledger.started()) return;
-  impl_->after_run = grains_between_steps(impl_->ledger);
+  impl_->after_run = impl_->motion->grains_between_steps(impl_->ledger);
   impl_->after_run->read_contacts(lmp, *impl_->pair, groupbit);
-}
-
-/** `evaluated`: forces were evaluated since, so that contacts are those of the grains that there are now. With 'pre no'
- *  they are seen to be others at the end of the coming step. */
-void FixLedgerRecord::book_passage_between_steps(EnergyLedger &ledger, bool evaluated) const {
-  LedgerGrains &before = *impl_->after_run;
-  const std::unique_ptr<LedgerGrains> now = grains_between_steps(ledger);
-  const grainscope::PassedGrains passed(before, *now, world);
-  if (passed.left.empty() && passed.came.empty()) return;
-  now->read_contacts(lmp, *impl_->pair, groupbit);
-  EnergyLedger::Passage out = before.taken_by(passed.left, !evaluated), in = now->taken_by(passed.came, !evaluated);
-  if (evaluated) return ledger.pass_between_steps(out, in);
-  EnergyLedger::Passage out_moving, in_moving;
-  std::swap(out_moving.kinetic, out.kinetic);
-  std::swap(in_moving.kinetic, in.kinetic);
-  ledger.pass_between_steps(out_moving, in_moving);
-  ledger.pass_in_step(out, in);
-}
-
-/** Writing a restart file deals grains out to the ranks, where those beyond an open face are lost: a run that reads the
- *  file knows nothing of them. */
-void FixLedgerRecord::book_leaving_before_run() {
-  if (!impl_->after_run) return;
-  const std::unique_ptr<LedgerGrains> now = grains_between_steps(impl_->ledger);
-  const std::vector<int> left = grainscope::PassedGrains(*impl_->after_run, *now, world).left;
-  impl_->ledger.pass_between_steps(impl_->after_run->taken_by(left, false), EnergyLedger::Passage());
-  impl_->after_run->forget(left);
 }
 
 void FixLedgerRecord::pre_initial_integrate() {
@@ -299,68 +209,27 @@ void FixLedgerRecord::pre_initial_integrate() {
          grainscope::Arguments::text(update->dt) +
          " without a new set-up of the run: the forces of one belong to the half steps of the other");
   impl_->dt = update->dt;
-  start_step(impl_->ledger);
+  impl_->start_step(impl_->ledger, lmp, groupbit);
   impl_->after_run.reset();
   impl_->stepping = true;
 }
 
 void FixLedgerRecord::pre_final_integrate() {
-  const bool pulled = !impl_->gravity.none();
-  impl_->gravity.update();
-  if (impl_->before_exchange) book_passage_in_step();
-  impl_->ledger.begin_end_of_step();
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
-    const EnergyLedger::Grain grain = shown(i);
-    double place[3];
-    impl_->ledger.end_of_step(grain, atom->omega[i], momentum(i, place), update->dt);
-    if (pulled) impl_->ledger.end_with_weight(grain, weight(i));
-  }
-  impl_->ledger.book_step(update->dt);
+  if (impl_->before_exchange) impl_->book_passage_in_step(lmp, groupbit);
+  impl_->motion->end_step(impl_->ledger);
   impl_->stepping = false;
 }
 
 grainscope::LedgerAccount FixLedgerRecord::account() const {
-  using E = EnergyLedger;
-  grainscope::LedgerAccount sum;
   if (!impl_->pair) fail("was not set up: do not use 'pre no' in the first run with it");
   impl_->pair->observer().require_complete(impl_->name);
-  std::unique_ptr<E> ahead;  // as the first step of the run will begin
+  std::unique_ptr<EnergyLedger> ahead;  // as the first step of the run will begin
   const bool begins = impl_->ledger.pending() && !impl_->stepping;
   if (begins) {
-    ahead.reset(new E(impl_->ledger));
-    start_step(*ahead);
+    ahead.reset(new EnergyLedger(impl_->ledger));
+    impl_->start_step(*ahead, lmp, groupbit);
   }
-  const E &ledger = ahead ? *ahead : impl_->ledger;
-  double values[2 * E::entries + 2 * E::stores + 1], *at = values;
-  const auto put = [&at](const auto &numbers) {
-    for (double one : numbers) *at++ = one;
-  };
-  put(ledger.totals());
-  put(ledger.last());
-  put(ledger.stored());
-  put(ledger.stored_before());
-  *at++ = ledger.start_energy();
-  MPI_Allreduce(MPI_IN_PLACE, values, at - values, MPI_DOUBLE, MPI_SUM, world);
-  at = values;
-  const auto take = [&at](auto &numbers) {
-    for (double &one : numbers) one = *at++;
-  };
-  take(sum.totals);
-  take(sum.last);
-  take(sum.stored);
-  take(sum.change);
-  for (int k = 0; k < E::stores; k++) sum.change[k] = sum.stored[k] - sum.change[k];
-  const double change = E::energy(sum.stored);
-  double last_change = E::energy(sum.change);
-  if (begins) {  // there is no last step
-    sum.last.fill(0.0);
-    sum.change.fill(0.0);
-    last_change = 0.0;
-  }
-  sum.residual = E::residual(sum.totals, change - *at);
-  sum.last_residual = E::residual(sum.last, last_change);
-  return sum;
+  return grainscope::LedgerAccount::of(ahead ? *ahead : impl_->ledger, begins, world);
 }
 
 FixLedgerRecord *FixLedgerRecord::make(LAMMPS *lmp, const char *id, int igroup, const std::string &style) {
@@ -377,7 +246,7 @@ void FixLedgerRecord::forget(LAMMPS *lmp, const char *id) { record.remove(lmp, i
 /** The run that goes on stays equal to one that is resumed: it, too, has the sums on the first rank. */
 void FixLedgerRecord::write_restart(FILE *file) {
   SavedLedger saved;
-  book_leaving_before_run();
+  impl_->book_leaving_before_run(world);
   saved.started = impl_->ledger.started();
   const EnergyLedger::State state = impl_->ledger.state();
   std::copy(state.begin(), state.end(), saved.state);

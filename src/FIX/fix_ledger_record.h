@@ -9,13 +9,11 @@ FixStyle(ledger/record,FixLedgerRecord)
 #define LMP_FIX_LEDGER_RECORD_H
 
 #include "contact_sink.h"
-#include "energy_ledger.h"
 #include "internal_fix.h"
 #include <memory>
 #include <string>
 
 namespace grainscope {
-class LedgerGrains;
 struct LedgerAccount;
 }
 
@@ -57,17 +55,6 @@ class FixLedgerRecord : public grainscope::InternalFix, public grainscope::Conta
 
   [[noreturn]] void fail(const std::string &message) const;
   bool grains_may_pass() const;
-  grainscope::EnergyLedger::Grain shown(int i) const;
-  Eigen::Vector3d weight(int i) const;
-  void start_step(grainscope::EnergyLedger &ledger) const;
-  double moment_of_inertia(int i) const;
-  const double *momentum(int i, double place[3]) const;
-  void coming_spin(const grainscope::EnergyLedger::Grain &grain, double momentum[3], double omega_after[3]) const;
-  std::unique_ptr<grainscope::LedgerGrains> grains_in_step() const;
-  std::unique_ptr<grainscope::LedgerGrains> grains_between_steps(const grainscope::EnergyLedger &ledger) const;
-  void book_passage_in_step();
-  void book_passage_between_steps(grainscope::EnergyLedger &ledger, bool evaluated) const;
-  void book_leaving_before_run();
 };
 
 }

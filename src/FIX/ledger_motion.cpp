@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ledger_motion.h"
+#include "box_state.h"
+#include "grain_shape.h"
+#include "spheroid_rotation.h"
+#include "atom.h"
+#include "domain.h"
+#include "update.h"
+#include <Eigen/Geometry>
+
+namespace grainscope {
+
+using Eigen::Map;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+LedgerFrame frame_of(LAMMPS_NS::LAMMPS *lmp) {
+  const BoxState box(lmp);
+  return {box.velocity_gradient, box.centre, box.edges.diagonal(), box.edge_velocities.diagonal()};
+}
+
+}
+
+EnergyLedger::Grain LedgerMotion::shown(int i) const {
+  static const double none[3] = {0.0, 0.0, 0.0};
+  const bool held = movers_.hold(atom->mask[i]);
+  return {i, atom->rmass[i], atom->x[i], atom->v[i], held ? none : atom->f[i], held ? none : atom->torque[i]};
+}
+
+Vector3d LedgerMotion::weight(int i) const {
+  const int mask = atom->mask[i];
+  if (movers_.hold(mask)) return Vector3d::Zero();
+  return atom->rmass[i] * gravity_.acceleration(mask);
+}
+
+/** Of a sphere, whose angular momentum the host does not keep. */
+double LedgerMotion::moment_of_inertia(int i) const {
+  return (domain->dimension == 2 ? 0.5 : 0.4) * atom->rmass[i] * atom->radius[i] * atom->radius[i];
+}
+
+/** Where it is kept, or made for a sphere in `place`. */
+inline const double *LedgerMotion::momentum(int i, double place[3]) const {
+  if (atom->superquadric_flag) return atom->angmom[i];
+  for (int k = 0; k < 3; k++) place[k] = moment_of_inertia(i) * atom->omega[i][k];
+  return place;
+}
+
+/** Angular momentum now, and angular velocity after the kick of the coming half step. Spheroids: from the angular
+ *  momentum, which the integrators keep; the host's `velocity setAngular` leaves omega at odds with it. */
+void LedgerMotion::coming_spin(const EnergyLedger::Grain &grain, double momentum[3], double omega_after[3]) const {
+  const int i = grain.index;
+  const double half = 0.5 * update->dt, *torque = grain.torque;
+  double kicked[3];
+  if (!atom->superquadric_flag) {
+    const double inertia = moment_of_inertia(i);
+    for (int k = 0; k < 3; k++) {
+      momentum[k] = inertia * atom->omega[i][k];
+      omega_after[k] = atom->omega[i][k] + half / inertia * torque[k];
+    }
+    return;
+  }
+  for (int k = 0; k < 3; k++) {
+    momentum[k] = atom->angmom[i][k];
+    kicked[k] = momentum[k] + half * torque[k];
+  }
+  const double *inertia = atom->inertia[i];
+  if (is_symmetric_top(inertia)) return angular_velocity(inertia, kicked, atom->quaternion[i], omega_after);
+  const Matrix3d r = orientation(*atom, i).toRotationMatrix();
+  Map<Vector3d>(omega_after + 0) =
+      r * (r.transpose() * Map<const Vector3d>(kicked)).cwiseQuotient(Map<const Vector3d>(inertia));
+}
+
+void LedgerMotion::start_step(EnergyLedger &ledger) const {
+  const bool pulled = !gravity_.none();
+  gravity_.update();
+  ledger.begin_start_of_step(frame_of(lmp));
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit_)) continue;
+    const EnergyLedger::Grain grain = shown(i);
+    double momentum[3], omega_after[3];
+    coming_spin(grain, momentum, omega_after);
+    ledger.start_of_step(grain, omega_after, momentum, update->dt);
+    if (pulled) ledger.start_with_weight(grain, weight(i), update->dt);
+  }
+  ledger.book_start(update->dt);
+}
+
+void LedgerMotion::end_step(EnergyLedger &ledger) const {
+  const bool pulled = !gravity_.none();
+  gravity_.update();
+  ledger.begin_end_of_step();
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit_)) continue;
+    const EnergyLedger::Grain grain = shown(i);
+    double place[3];
+    ledger.end_of_step(grain, atom->omega[i], momentum(i, place), update->dt);
+    if (pulled) ledger.end_with_weight(grain, weight(i));
+  }
+  ledger.book_step(update->dt);
+}
+
+/** In the middle of a step: with the velocities of the half step, before or after grains were dealt out. */
+std::unique_ptr<LedgerGrains> LedgerMotion::grains_in_step(const EnergyLedger &ledger) const {
+  std::unique_ptr<LedgerGrains> grains(new LedgerGrains);
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit_)) continue;
+    double place[3];
+    grains->add(atom->tag[i], ledger.kinetic_in_step(shown(i), atom->omega[i], momentum(i, place)));
+  }
+  return grains;
+}
+
+std::unique_ptr<LedgerGrains> LedgerMotion::grains_between_steps(const EnergyLedger &ledger) const {
+  std::unique_ptr<LedgerGrains> grains(new LedgerGrains);
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit_)) continue;
+    const EnergyLedger::Grain grain = shown(i);
+    double momentum[3], omega_after[3];
+    coming_spin(grain, momentum, omega_after);
+    grains->add(atom->tag[i], ledger.kinetic_between_steps(grain, omega_after, momentum, update->dt));
+  }
+  return grains;
+}
+
+}
