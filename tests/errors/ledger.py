@@ -94,7 +94,7 @@ CASES = {
         "fix ledger/record: is made by the computes that need it", compute="fix r all ledger/record x"
     ),
     "wall-cohesion": refused(
-        NAME + "wall floor: does not know the energy of cohesion: only 'cohesion off', got 'model hertz tangential "
+        NAME + "wall 'floor': does not know the energy of cohesion: only 'cohesion off', got 'model hertz tangential "
         "history cohesion sjkr primitive",
         before=["fix floor all wall/gran model hertz tangential history cohesion sjkr primitive type 1 zplane 0.0"],
         packing=replace(SPHERES, triclinic=False),
