@@ -50,7 +50,7 @@ endforeach()
 
 # A sphere just above an edge between two triangles of a plane: which of them comes first may change with the ranks.
 mend(fix_contact_history_mesh_I.h "    if(haveContact(iP,idTri,history,intersect))
-      return true;" "    if(faceflag && coplanarContactAlready(iP,idTri))
+      return true;" "    if(faceflag && npartner_[iP] > 1 && coplanarContactAlready(iP,idTri))
       return false;
     if(haveContact(iP,idTri,history,intersect))
       return true;"
