@@ -119,7 +119,7 @@ add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES ${wall_measures
 add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran stress/contact press/strain gran/insitu
   RANKS 1 2 LONG_RANKS 4 CASES press-between-sides)
 add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran stress/contact press/strain gran/insitu
-  RANKS 1 2 CASES asked-before-walls change)
+  RANKS 1 2 CASES asked-before-walls change resumed-under-a-plate resumed-under-a-plate-moved-late)
 add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran energy/ledger RANKS 1 2 CASES
   ledger-asked-before-walls)
 add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran gran/insitu RANKS 1 2 CASES unseen-walls)

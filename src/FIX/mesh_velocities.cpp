@@ -13,10 +13,18 @@ using LAMMPS_NS::TriMesh;
 
 namespace {
 
+using Velocities = MultiVectorContainer<double, 3, 3>;
+
 /** Of each triangle and node, or null for a mesh that stands still. */
 double ***velocities_of(TriMesh *mesh) {
-  auto *found = mesh->prop().getElementProperty<MultiVectorContainer<double, 3, 3>>("v");
+  Velocities *found = mesh->prop().getElementProperty<Velocities>("v");
   return found ? found->begin() : nullptr;
+}
+
+/** As fix move/mesh makes them, whose set-up may come later. */
+void make_velocities(TriMesh *mesh) {
+  if (!mesh->prop().getElementProperty<Velocities>("v"))
+    mesh->prop().addElementProperty<Velocities>("v", "comm_exchange_borders", "frame_invariant", "restart_no");
 }
 
 }
@@ -44,6 +52,8 @@ void MeshVelocities::restore(const std::vector<TriMesh *> &meshes) const {
   for (std::size_t at = 0; at < numbers_.size(); at += width)
     of[{static_cast<int>(numbers_[at]), static_cast<int>(numbers_[at + 1])}] = &numbers_[at + 2];
   for (std::size_t k = 0; k < meshes.size(); k++) {
+    const auto moved = of.lower_bound({static_cast<int>(k), -1});
+    if (moved != of.end() && moved->first.first == static_cast<int>(k)) make_velocities(meshes[k]);
     double ***const v = velocities_of(meshes[k]);
     for (int i = 0; v && i < meshes[k]->sizeLocal() + meshes[k]->sizeGhost(); i++) {
       const auto found = of.find({static_cast<int>(k), meshes[k]->id(i)});

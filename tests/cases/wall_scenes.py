@@ -17,6 +17,7 @@ from run import run
 C_STRESS = outputs("stress/contact").of("stress")
 C_POWER = outputs("dissipation").of("power")
 C_GRAINS = outputs("contact/grain").of("grains")
+C_WALL = outputs("wall/contact").of("wall")
 F_PRESS = outputs("press/strain").of("press")
 MODULUS = YOUNG / (2.0 * (1.0 - POISSON**2))
 G = 9.81
@@ -255,6 +256,31 @@ def walls_that_change(ranks):
     require_equal(run(deck, ranks).thermo()[-1][C_STRESS["N_w"]][-1], 0.0, "contacts with the wall that is gone")
 
 
+def resumed_under_a_plate(late):
+    """A mesh that moves has its velocity in the first row after a restart, whether it is moved by a fix before or after
+    that of the wall."""
+
+    def case(ranks):
+        deck = open_box([Grain((0.3, 0.2, 0.99))], extra="setup neutral")
+        wall = floor(replace(deck, extra=""), "mesh")
+        move = "fix move all move/mesh mesh mesh linear 0.05 0. 0.05"
+        body = [*wall, move] if late else [wall[0], move, wall[1]]
+        body += ["compute power all dissipation mode instantaneous", "compute wall all wall/contact"]
+        body += thermo(3, C_POWER["P_n_w"], C_WALL["power"], C_WALL["force_z"])
+        deck.body = [*body, "run 3", "write_restart half.restart", "run 3"]
+        folder = meshes.folder_with(floor=FLOOR)
+        done = run(deck, ranks, folder=folder)
+        before, after = done.thermo()[0], done.thermo()[1]
+        resumed = run(deck.restarted("half.restart", [*body, "run 3"]), ranks, folder=folder).thermo()[0]
+        for name in (C_POWER["P_n_w"], C_WALL["power"], C_WALL["force_z"]):
+            last = before[name][-1]
+            require(last != 0.0, f"{name} does nothing")
+            require_close([after[name][0], resumed[name][0]], [last, last], 1e-10, f"{name} as a run begins", abs(last))
+            require_close(resumed[name][-1], after[name][-1], 1e-10, f"{name} at the end", abs(last))
+
+    return case
+
+
 def ledger_asked_before_walls(ranks):
     """As other measures, the ledger does not answer before walls have been evaluated."""
     deck = open_box([Grain((0.0, 0.0, 0.99))])
@@ -291,6 +317,8 @@ CASES = {
     "asked-before-walls": asked_before_walls,
     "ledger-asked-before-walls": ledger_asked_before_walls,
     "change": walls_that_change,
+    "resumed-under-a-plate": resumed_under_a_plate(False),
+    "resumed-under-a-plate-moved-late": resumed_under_a_plate(True),
     "unseen-walls": unseen_walls,
 }
 
