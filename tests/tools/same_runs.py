@@ -71,7 +71,7 @@ def decks():
 
 
 def written(start, program):
-    """What a deck wrote: bytes by file name; of logs, the numbers of the thermo tables."""
+    """What a deck wrote: bytes by file name; of logs and screens, the numbers of the thermo tables."""
     with tempfile.TemporaryDirectory(prefix="grainscope-") as scratch:
         os.environ["GRAINSCOPE_BINARY"] = program
         start(Path(scratch))
@@ -80,7 +80,7 @@ def written(start, program):
             if not file.is_file() or file.name.startswith("in.") or file.name in ("README.md", "expected.json"):
                 continue
             content = file.read_bytes()
-            if file.name == "log.liggghts":
+            if file.name in ("log.liggghts", "output"):
                 lines = content.decode(errors="replace").splitlines()
                 content = "\n".join(thermo_lines(lines)).encode()
             files[str(file.relative_to(scratch))] = content
