@@ -487,7 +487,7 @@ add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall
   balance mesh-stress drum)
 add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall/gran RANKS 1 2 CASES impacts)
 add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall/gran CASES
-  couple weight power-of-a-plane losses areas impacts-resumed)
+  couple weight rows-by-name power-of-a-plane losses areas impacts-resumed)
 add_cases(wall/triangle cases/wall_triangle.py LABEL case STYLES wall/triangle wall/contact RANKS 1 2 LONG_RANKS 4
   CASES rows wear)
 

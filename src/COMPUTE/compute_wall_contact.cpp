@@ -176,7 +176,9 @@ ComputeWallContact::ComputeWallContact(LAMMPS *lmp, int &iarg, int narg, char **
   grainscope::Outputs outputs;
   outputs.vector = numbers("", Extent::extensive, chosen);
   outputs.scalar = {outputs.vector[WallContactSums::normal]};
-  outputs.set_array(rows, "wall", numbers("_w", Extent::whole, chosen));
+  std::string row = "wall";
+  for (int k = 0; k < rows; k++) row += (k ? ", " : ": ") + std::to_string(k + 1) + " " + impl_->walls->names()[k];
+  outputs.set_array(rows, row, numbers("_w", Extent::whole, chosen));
   declare(this, outputs);
   if (!chosen.impacts) return;
   if (rows > most_walls)

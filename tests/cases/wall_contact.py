@@ -156,6 +156,17 @@ def weight(ranks):
     require_close(of(table, "w", "area"), [144.0], ROUNDING, "area")
 
 
+def rows_by_name(ranks):
+    """The command outputs says which wall each row is of, in the order that was asked for."""
+    packing = Packing((12.0,) * 3, [Grain((0.0, 0.0, 2.0))], origin=(-6.0,) * 3, atom_style="sphere", triclinic=False)
+    deck = Deck(packing, boundary="f f f")
+    wall = f"all wall/gran {deck.model()} primitive type 1"
+    deck.body = [f"fix floor {wall} zplane -5", f"fix lid {wall} zplane 5"]
+    deck.body += ["compute w all wall/contact walls lid floor", "outputs w", "run 0"]
+    said = run_with_meshes(deck, ranks).output
+    require("array: i from 1 to 2, one row per wall: 1 lid, 2 floor\n" in said, said)
+
+
 def power_of_a_plane(ranks):
     """A wall that moves as a whole gives force times velocity."""
     packing = cube()
@@ -356,6 +367,7 @@ CASES = {
     "couple": couple,
     "mesh-stress": mesh_stress,
     "weight": weight,
+    "rows-by-name": rows_by_name,
     "power-of-a-plane": power_of_a_plane,
     "drum": rotating,
     "impacts": impacts,
