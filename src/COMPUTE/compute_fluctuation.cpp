@@ -123,7 +123,7 @@ void ComputeFluctuation::compute_vector() {
     Map<Vector3d>(sums + 0) += dv.cwiseAbs2();
     Map<Vector3d>(sums + 3) += dw.cwiseAbs2();
     sums[6] += g.mass * dv.squaredNorm();
-    sums[7] += grainscope::rotational_energy(*atom, g.index, dw);
+    sums[7] += grainscope::rotational_energy(*atom, g.index, box.dimension, dw);
     sums[8] += grainscope::equivalent_diameter(*atom, g.index);
   }
   MPI_Allreduce(MPI_IN_PLACE, sums, 9, MPI_DOUBLE, MPI_SUM, world);

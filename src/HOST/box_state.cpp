@@ -29,7 +29,8 @@ BoxState::BoxState(LAMMPS_NS::LAMMPS *lmp) {
   if (domain->deform_vremap) edge_velocities = upper_triangular(domain->h_rate);
   velocity_gradient = edge_velocities * edges.inverse();
   centre = Eigen::Map<const Eigen::Vector3d>(domain->boxlo) + 0.5 * edges.rowwise().sum();
-  volume = h[0] * h[1] * h[2];
+  dimension = domain->dimension;
+  volume = dimension == 2 ? h[0] * h[1] : h[0] * h[1] * h[2];
   periodic = {{domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0}};
 }
 
@@ -42,6 +43,9 @@ int BoxState::layer(const Eigen::Vector3d &x, int k, int layers) const {
   return nearest_bin_index((periodic[k] ? s - std::floor(s) : s) * layers, layers);
 }
 
-double BoxState::height(int k) const { return volume / edges.col((k + 1) % 3).cross(edges.col((k + 2) % 3)).norm(); }
+double BoxState::height(int k) const {
+  const double determinant = edges(0, 0) * edges(1, 1) * edges(2, 2);
+  return determinant / edges.col((k + 1) % 3).cross(edges.col((k + 2) % 3)).norm();
+}
 
 }

@@ -10,7 +10,7 @@ class Arguments;
 struct Plane {
   int flow = 0, gradient = 1, vorticity = 2;
 
-  /** Reads what follows the keyword 'plane': xy, xz or yz. */
+  /** Reads what follows the keyword 'plane': xy, xz or yz; with `dimension 2` xy. */
   void read(Arguments &arguments);
 };
 
