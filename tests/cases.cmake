@@ -522,3 +522,26 @@ add_cases(stress/contact-at-walls cases/wall_analytic.py LABEL case
 # Format of the files, and what the tools that look for faults say of them
 add_cases(suite-style cases/style.py LABEL case STYLES suite style CASES clang-format black flake8 citation)
 add_cases(suite-style cases/style.py LABEL long STYLES suite style CASES clang-tidy)
+
+# Two dimensions: discs, whatever the box's depth is
+add_cases(every-style-two-dimensions cases/two_dimensions.py LABEL case STYLES ALL RANKS 1 2 LONG_RANKS 4
+  CASES any-depth)
+add_cases(every-style-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES ALL RANKS 2 LONG_RANKS 4
+  CASES decompositions)
+add_cases(stress/contact-two-dimensions cases/two_dimensions.py LABEL case STYLES stress/contact
+  RANKS 1 2 LONG_RANKS 4 CASES stress lattice)
+add_cases(fluctuation+layering+contact/direction-two-dimensions cases/two_dimensions.py LABEL case
+  STYLES fluctuation layering contact/direction RANKS 1 2 LONG_RANKS 4 CASES motion)
+add_cases(fabric-two-dimensions cases/two_dimensions.py LABEL case STYLES fabric RANKS 1 2 LONG_RANKS 4 CASES fabric)
+add_cases(velocity/correlation-two-dimensions cases/two_dimensions.py LABEL case STYLES velocity/correlation
+  RANKS 1 2 LONG_RANKS 4 CASES correlation)
+add_cases(energy/ledger-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES energy/ledger
+  RANKS 1 2 LONG_RANKS 4 CASES ledger)
+add_cases(press/strain-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES press/strain
+  RANKS 1 LONG_RANKS 2 4 CASES pressure)
+add_cases(displacement/shear-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES displacement/shear
+  RANKS 1 2 LONG_RANKS 4 CASES displacement)
+add_cases(wall/contact+stress/contact-two-dimensions cases/two_dimensions_runs.py LABEL case
+  STYLES wall/contact stress/contact wall/gran RANKS 1 LONG_RANKS 2 4 CASES walls ring)
+add_cases(gran/insitu-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES gran/insitu
+  RANKS 1 LONG_RANKS 2 4 CASES in-parts)

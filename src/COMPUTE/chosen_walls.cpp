@@ -95,19 +95,17 @@ std::vector<int> ChosenWalls::find(const Arguments &errors) {
 double primitive_area(const std::vector<std::string> &wall, const BoxState &box, const std::array<bool, 3> &fixed,
                       std::string &why) {
   const int axis = wall[0][0] - 'x', u = (axis + 1) % 3, v = (axis + 2) % 3;
-  Eigen::Matrix3d edges = box.edges;
-  if (box.dimension == 2) edges.col(2).setUnit(2);
   const auto unknown = [&why](const char *reason) {
     why = reason;
     return 0.0;
   };
   if (wall[0].compare(1, std::string::npos, "plane") == 0) {
     if (!fixed[u] || !fixed[v]) return unknown("the box follows the grains along it, boundary s or m");
-    if (edges(axis, u) != 0.0 || edges(axis, v) != 0.0) return unknown("it is parallel to no face of the box");
-    return edges.col(u).cross(edges.col(v)).norm();
+    if (box.edges(axis, u) != 0.0 || box.edges(axis, v) != 0.0) return unknown("it is parallel to no face of the box");
+    return box.edges.col(u).cross(box.edges.col(v)).norm();
   }
   if (!fixed[axis]) return unknown("the box follows the grains along its axis, boundary s or m");
-  if (!along_axis(edges, axis)) return unknown("its axis is along no edge of the box");
+  if (!along_axis(box.edges, axis)) return unknown("its axis is along no edge of the box");
   const double radius = std::stod(wall[1]);
   Eigen::Vector3d middle = box.centre;
   middle[u] = std::stod(wall[2]);
@@ -116,7 +114,7 @@ double primitive_area(const std::vector<std::string> &wall, const BoxState &box,
     const double inside = box.fraction(middle)[k] * box.height(k), room = std::min(inside, box.height(k) - inside);
     if (fixed[k] && room < radius * (1.0 - 1e-9)) return unknown("it reaches beyond the box");
   }
-  return 2.0 * M_PI * radius * edges(axis, axis);
+  return 2.0 * M_PI * radius * box.edges(axis, axis);
 }
 
 double mesh_area(const Wall &wall) {

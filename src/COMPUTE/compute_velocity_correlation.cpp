@@ -53,16 +53,8 @@ grainscope::Outputs declared(int bins) {
 
 bool is_positive(double x) { return x > 0.0; }
 
-/** In two dimensions it does not repeat across the plane, where all points are at one height. */
-PeriodicCell periodic_cell(const grainscope::BoxState &box) {
-  PeriodicCell cell{box.edges, box.periodic};
-  if (box.dimension == 2) cell.periodic[2] = false;
-  return cell;
-}
-
-double half_smallest_height(const PeriodicCell &cell, int dimension) {
-  const double in_plane = std::min(cell.height(0), cell.height(1));
-  return 0.5 * (dimension == 2 ? in_plane : std::min(in_plane, cell.height(2)));
+double half_smallest_height(const PeriodicCell &cell) {
+  return 0.5 * std::min({cell.height(0), cell.height(1), cell.height(2)});
 }
 
 }
@@ -225,8 +217,8 @@ void ComputeVelocityCorrelation::Impl::require_finite(LAMMPS *lmp, const PointVa
 
 ComputeVelocityCorrelation::Impl::Totals ComputeVelocityCorrelation::Impl::measure(LAMMPS *lmp, int groupbit) {
   const grainscope::BoxState box(lmp);
-  const PeriodicCell cell = periodic_cell(box);
-  const DistanceBins distances{range > 0.0 ? range : half_smallest_height(cell, box.dimension), bins};
+  const PeriodicCell cell = grainscope::periodic_cell(box);
+  const DistanceBins distances{range > 0.0 ? range : half_smallest_height(cell), bins};
   const Fluctuations motion(lmp, groupbit, box, flow);
   PointValues points;
   double smallest = std::numeric_limits<double>::infinity();

@@ -187,17 +187,20 @@ void FixWallGranInsitu::require_across_plane() {
       errors.fail("primitive", "xplane, yplane or zcylinder with 'dimension 2'", kind);
     return;
   }
-  int lean = 0;
-  for (TriMesh *mesh : meshes())
-    for (int k = 0; k < mesh->sizeLocal(); k++) {
+  for (int m = 0; m < n_meshes(); m++) {
+    TriMesh &mesh = *mesh_list()[m]->triMesh();
+    int leans = 0;
+    for (int k = 0; k < mesh.sizeLocal(); k++) {
       double normal[3];
-      mesh->surfaceNorm(k, normal);
-      if (std::fabs(normal[2]) > rounding) lean++;
+      mesh.surfaceNorm(k, normal);
+      if (std::fabs(normal[2]) > rounding) leans = 1;
     }
-  MPI_Allreduce(MPI_IN_PLACE, &lean, 1, MPI_INT, MPI_SUM, world);
-  if (lean)
-    errors.fail("with 'dimension 2' the triangles of a mesh must stand upright, along z, got " + std::to_string(lean) +
-                " that do not");
+    MPI_Allreduce(MPI_IN_PLACE, &leans, 1, MPI_INT, MPI_MAX, world);
+    if (leans)
+      errors.fail(
+          "with 'dimension 2' the triangles of a mesh must stand upright, along z, got some that lean in mesh '" +
+          std::string(mesh_list()[m]->id) + "'");
+  }
 }
 
 /** The forces of the first evaluation; where it repeats the last of the run before, with its places and velocities,

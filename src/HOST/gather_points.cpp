@@ -5,6 +5,15 @@
 
 namespace grainscope {
 
+PeriodicCell periodic_cell(const BoxState &box) {
+  PeriodicCell cell{box.edges, box.periodic};
+  if (box.dimension == 2) {  // a layer that is no flatter than it is long
+    cell.edges(2, 2) = cell.edges(0, 0);
+    cell.periodic[2] = false;
+  }
+  return cell;
+}
+
 PointValues gathered(const PointValues &local, MPI_Comm world) {
   int ranks, n = static_cast<int>(local.size());
   MPI_Comm_size(world, &ranks);

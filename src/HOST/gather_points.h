@@ -2,10 +2,14 @@
 #ifndef GRAINSCOPE_GATHER_POINTS_H
 #define GRAINSCOPE_GATHER_POINTS_H
 
+#include "box_state.h"
 #include "pair_correlation.h"
 #include <mpi.h>
 
 namespace grainscope {
+
+/** The box as the cell of points. In two dimensions it does not repeat along z, where all points are at one height. */
+PeriodicCell periodic_cell(const BoxState &box);
 
 /** The points of all ranks, on each, in the order of ranks. Collective. */
 PointValues gathered(const PointValues &local, MPI_Comm world);
