@@ -532,6 +532,8 @@ add_cases(stress/contact-two-dimensions cases/two_dimensions.py LABEL case STYLE
   RANKS 1 2 LONG_RANKS 4 CASES stress lattice)
 add_cases(fluctuation+layering+contact/direction-two-dimensions cases/two_dimensions.py LABEL case
   STYLES fluctuation layering contact/direction RANKS 1 2 LONG_RANKS 4 CASES motion)
+add_cases(dissipation+nematic+contact/grain-two-dimensions cases/two_dimensions.py LABEL case
+  STYLES dissipation nematic contact/grain contact/local RANKS 1 2 LONG_RANKS 4 CASES losses)
 add_cases(fabric-two-dimensions cases/two_dimensions.py LABEL case STYLES fabric RANKS 1 2 LONG_RANKS 4 CASES fabric)
 add_cases(velocity/correlation-two-dimensions cases/two_dimensions.py LABEL case STYLES velocity/correlation
   RANKS 1 2 LONG_RANKS 4 CASES correlation)

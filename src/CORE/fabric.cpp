@@ -12,8 +12,9 @@ Matrix3d FabricSums::tensor() const {
 }
 
 double fabric_deviator(const Matrix3d &fabric, int dimension) {
-  const double d = dimension;
-  return std::sqrt(d / (d - 1.0)) * deviatoric(fabric, dimension).norm();
+  if (dimension == 2) return std::sqrt(2.0) * deviatoric(fabric, 2).norm();
+  // in one expression, whose sum keeps its order
+  return std::sqrt(1.5) * (fabric - fabric.trace() / 3.0 * Matrix3d::Identity()).norm();
 }
 
 Matrix3d WeightedFabricSums::deviatoric_over(double scale, const Matrix3d &m) const {

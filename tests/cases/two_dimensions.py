@@ -7,12 +7,18 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_equal, require_same_snapshots
-from catalogue import DIRECT, DIRECTION, FABRIC, FLUCTUATION, LAYERING, MESH
+from catalogue import DIRECT, DIRECTION, FABRIC, FLUCTUATION, GRAIN, LAYERING, MESH
 from columns import outputs
 from deck import POISSON, YOUNG, Deck, thermo
-from everything import RATE, STRESS, Questions, differences, press
+from everything import INSTANT, NEMATIC, RATE, STEP, STRESS, Questions, differences, press
 from oracle import correlation as pairs
-from oracle.measures import six, stress_vector
+from oracle.measures import (
+    dissipation_instantaneous,
+    friction_of_step,
+    normal_loss_of_step,
+    six,
+    stress_vector,
+)
 from oracle.motion import fluctuation, layer_of, of_group
 from packing import Grain, Packing, disc_packing, tilted
 from run import run
@@ -141,6 +147,24 @@ def require_directions(found, rows, bins=12):
     require_close(found[:, names.at("density")].sum() * 2.0 * np.pi / bins, 1.0, SUMS, "integral of the density")
 
 
+def losses(ranks):
+    """Powers and contacts by the rows; of the order of axes, which discs have none of, the mean spin is left."""
+    deck = Deck(disc_packing())
+    for moment in watch(deck, [INSTANT, STEP, NEMATIC, GRAIN], deforming(RATE), ranks, every=20, steps=100):
+        rows, names = moment.rows, outputs("dissipation")
+        normal, friction = dissipation_instantaneous(rows)
+        found = moment.vector(INSTANT)
+        require_close(found[[names.at("P_n"), names.at("P_t")]], [normal, friction], SUMS, "mode instantaneous")
+        found = moment.vector(STEP)
+        require_close(found[names.at("P_n")], normal_loss_of_step(rows, moment.grains, moment.box), 1e-9, "P_n")
+        require_close(found[names.at("P_t")], friction_of_step(rows, deck.dt()), SUMS, "P_t", abs(friction) or 1.0)
+        touched = np.bincount(moment.grains.index(rows["id"].ravel()), minlength=len(moment.grains.ids))
+        require_equal(moment.peratom(GRAIN)[:, 0], touched, "contacts of grains")
+        order, expected = moment.vector(NEMATIC), np.zeros(20)
+        expected[outputs("nematic").at("omega_z")] = moment.grains.omega[:, 2].mean()
+        require_close(order, expected, SUMS, "nematic of discs")
+
+
 def fabric(ranks):
     """F, its axes in the plane first, and what follows; the weighted tensors with the coefficients of the plane."""
     names = outputs("fabric")
@@ -209,6 +233,7 @@ main(
         "stress": stress,
         "lattice": lattice,
         "motion": motion,
+        "losses": losses,
         "fabric": fabric,
         "correlation": correlation,
     }
