@@ -522,3 +522,11 @@ add_cases(stress/contact-at-walls cases/wall_analytic.py LABEL case
 # Format of the files, and what the tools that look for faults say of them
 add_cases(suite-style cases/style.py LABEL case STYLES suite style CASES clang-format black flake8 citation)
 add_cases(suite-style cases/style.py LABEL long STYLES suite style CASES clang-tidy)
+
+# What is measured: the shared keywords
+set(scoped stress/contact dissipation fabric contact/grain)
+add_cases(stress/contact+dissipation+fabric-scope cases/scopes.py LABEL case STYLES ${scoped} RANKS 1 4 CASES rows-by-types chosen-types)
+add_cases(stress/contact-scope cases/scopes.py LABEL case STYLES stress/contact RANKS 1 LONG_RANKS 4 CASES
+  planes-and-pressures volumes whole-box-warned-of)
+add_cases(nematic-scope cases/scopes.py LABEL case STYLES nematic RANKS 1 LONG_RANKS 4 CASES
+  mixtures-of-shapes angles-in-planes)
