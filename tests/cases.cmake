@@ -547,3 +547,10 @@ add_cases(wall/contact+stress/contact-two-dimensions cases/two_dimensions_runs.p
   STYLES wall/contact stress/contact wall/gran RANKS 1 LONG_RANKS 2 4 CASES walls ring)
 add_cases(gran/insitu-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES gran/insitu
   RANKS 1 LONG_RANKS 2 4 CASES in-parts)
+# What is measured: the shared keywords
+set(scoped stress/contact dissipation fabric contact/grain)
+add_cases(stress/contact+dissipation+fabric-scope cases/scopes.py LABEL case STYLES ${scoped} RANKS 1 4 CASES rows-by-types chosen-types)
+add_cases(stress/contact-scope cases/scopes.py LABEL case STYLES stress/contact RANKS 1 LONG_RANKS 4 CASES
+  planes-and-pressures volumes whole-box-warned-of)
+add_cases(nematic-scope cases/scopes.py LABEL case STYLES nematic RANKS 1 LONG_RANKS 4 CASES
+  mixtures-of-shapes angles-in-planes)

@@ -3,7 +3,6 @@
 #include "arguments.h"
 #include "contact_sums.h"
 #include "direction_sums.h"
-#include "plane.h"
 #include <algorithm>
 
 using namespace LAMMPS_NS;
@@ -36,17 +35,17 @@ struct ComputeContactDirection::Impl {
 };
 
 ComputeContactDirection::ComputeContactDirection(LAMMPS *lmp, int &iarg, int narg, char **arg)
-    : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
+    : ContactCompute(lmp, iarg, narg, arg,
+                     grainscope::Scope::types | grainscope::Scope::walls | grainscope::Scope::plane,
+                     grainscope::Walls::no),
+      impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
-  grainscope::Plane plane;
   int half = 36;  // bins from 0 to pi; the other half is their mirror image
-  walls_ = Walls::no;
   while (!arguments.done()) {
-    const std::string keyword = arguments.keyword({"plane", "bins", "walls"});
-    if (keyword == "walls") read_walls(arguments);
-    else if (keyword == "plane") plane.read(arguments);
-    else half = arguments.even_number(keyword, 2, 10000) / 2;
+    const std::string keyword = arguments.keyword(scope_.with({"bins"}));
+    if (!scope_.read(arguments, keyword)) half = arguments.even_number(keyword, 2, 10000) / 2;
   }
+  const grainscope::Plane &plane = scope_.shear_plane();
   impl_->sums = grainscope::ContactSums<DirectionSums>(DirectionSums(plane.flow, plane.gradient, half));
   sums_over(impl_->sums);
   declare(this, declared(2 * half));

@@ -28,7 +28,7 @@ grainscope::Outputs declared() {
       {"P_n", "energy/time", intensive, "power lost by normal damping, half of each contact's with a grain"},
       {"P_t", "energy/time", intensive, "power lost by friction, half of each contact's with a grain"},
       {"mobilisation", "-", intensive, "|F_t| over its friction limit, mean over its contacts"},
-      {"theta", "rad", intensive, "angle of the major axis to the flow x in the xy plane"},
+      {"theta", "rad", intensive, "angle of the major axis to the flow in the plane, xy where none is said"},
       {"N_w", "-", intensive, "contacts of the grain with walls"}};
   return outputs;
 }
@@ -42,11 +42,13 @@ struct ComputeContactGrain::Impl {
 };
 
 ComputeContactGrain::ComputeContactGrain(LAMMPS *lmp, int &iarg, int narg, char **arg)
-    : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
+    : ContactCompute(lmp, iarg, narg, arg,
+                     grainscope::Scope::types | grainscope::Scope::walls | grainscope::Scope::plane),
+      impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   while (!arguments.done()) {
-    arguments.keyword({"walls"});
-    read_walls(arguments);
+    const std::string keyword = arguments.keyword(scope_.with({}));
+    scope_.read(arguments, keyword);
   }
   declare(this, declared());
   require_count(WIDTH, outputs().per_grain, "columns");
@@ -83,8 +85,8 @@ double ComputeContactGrain::angle_to_flow(int i) const {
   if (!atom->superquadric_flag) return 0.0;
   const grainscope::SymmetryAxis axis = grainscope::symmetry_axis(atom->shape[i]);
   if (axis.shape == grainscope::Shape::sphere) return 0.0;
-  return grainscope::major_axis_angle(grainscope::orientation(*atom, i) * Eigen::Vector3d::Unit(axis.index),
-                                      axis.shape);
+  const Eigen::Vector3d p = grainscope::orientation(*atom, i) * Eigen::Vector3d::Unit(axis.index);
+  return grainscope::major_axis_angle(scope_.shear_plane().of(p), axis.shape);
 }
 
 /** Collective. Errors when grains were sorted, added or removed since their contacts were seen. */

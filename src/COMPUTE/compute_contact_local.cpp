@@ -95,17 +95,14 @@ struct ComputeContactLocal::Impl {
 };
 
 ComputeContactLocal::ComputeContactLocal(LAMMPS *lmp, int &iarg, int narg, char **arg)
-    : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
+    : ContactCompute(lmp, iarg, narg, arg, grainscope::Scope::types | grainscope::Scope::walls), impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   std::vector<std::string> names;
   for (const Column &column : columns) names.push_back(column.name);
-  names.push_back("walls");
+  names = scope_.with(names);
   while (!arguments.done()) {
     const std::string name = arguments.keyword(names, "column");
-    if (name == "walls") {
-      read_walls(arguments);
-      continue;
-    }
+    if (scope_.read(arguments, name)) continue;
     const auto same = [&name](const Column &column) { return name == column.name; };
     impl_->chosen.push_back({std::find_if(std::begin(columns), std::end(columns), same), 0});
   }

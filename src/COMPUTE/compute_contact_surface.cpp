@@ -33,10 +33,10 @@ enum { CONTACTS, NORMAL, TANGENTIAL, MOBILISATION, SLIDING, NORMAL_POWER, FRICTI
 
 grainscope::Outputs declared(int bins) {
   grainscope::Outputs outputs;
-  outputs.vector = {
-      {"P", "pressure", intensive, "sum of F_y r_y over contacts, with walls too, over the volume of the box"},
-      {"A_p", "distance^2", intensive, "area of a grain, mean over the group"},
-      {"N", "-", whole, "grains of the group"}};
+  outputs.vector = {{"P", "pressure", intensive,
+                     "pressure of all contacts of the group, those with walls too, which forces are divided by"},
+                    {"A_p", "distance^2", intensive, "area of a grain, mean over the group"},
+                    {"N", "-", whole, "grains of the group"}};
   outputs.set_array(bins, "bin of psi",
                     {{"psi", "rad", intensive, "angle of the bin's middle"},
                      {"area", "distance^2", intensive, "area A_j of the bin on a grain, mean over grains"},
@@ -116,14 +116,15 @@ struct SurfaceSums {
 
 /** The pressure that forces are divided by is that of all contacts, whichever are counted in bins. */
 struct PressureSum : grainscope::ContactCompute::Accumulator {
-  double moment = 0.0;  // sum of F_y r_y, of this rank
+  Vector3d moments = Vector3d::Zero();  // sums of F_a r_a, of this rank
 
-  void reset() override { moment = 0.0; }
+  void reset() override { moments.setZero(); }
   void add(grainscope::ContactSpan contacts, const grainscope::ContactCompute &of) override {
     grainscope::ContactCompute::Selection all = of.selection();
-    all.walls = grainscope::ContactCompute::Walls::yes;
+    all.walls = grainscope::Walls::yes;
+    all.narrow = false;
     grainscope::for_each_contact(contacts, all,
-                                 [this](const Contact &c) { moment += c.weight * c.force[1] * c.branch[1]; });
+                                 [this](const Contact &c) { moments += c.weight * c.force.cwiseProduct(c.branch); });
   }
 };
 
@@ -142,12 +143,15 @@ struct ComputeContactSurface::Impl {
 };
 
 ComputeContactSurface::ComputeContactSurface(LAMMPS *lmp, int &iarg, int narg, char **arg)
-    : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
+    : ContactCompute(lmp, iarg, narg, arg,
+                     grainscope::Scope::types | grainscope::Scope::walls | grainscope::Scope::pressure |
+                         grainscope::Scope::volume,
+                     grainscope::Walls::no),
+      impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
-  walls_ = Walls::no;
   while (!arguments.done()) {
-    const std::string keyword = arguments.keyword({"bins", "angle", "axis", "walls"});
-    if (keyword == "walls") read_walls(arguments);
+    const std::string keyword = arguments.keyword(scope_.with({"bins", "angle", "axis"}));
+    scope_.read(arguments, keyword);
     if (keyword == "bins") impl_->sums().bins = arguments.whole_number(keyword, 1, 1000);
     if (keyword == "angle")
       impl_->sums().angle = arguments.choice(keyword, {"polar", "parametric"}) == "polar" ? SurfaceAngle::polar
@@ -246,8 +250,9 @@ void ComputeContactSurface::answer() {
   observer_->require_complete(name_ + " " + id);  // the pressure needs walls, whatever the bins count
   const SurfaceSums &all = impl_->contacts.total(*this);
   require_finite(all.not_finite());
-  double pressure = impl_->pressure.moment / observer_->box().volume;
-  sum_over_ranks(&pressure, 1);
+  Vector3d stress = impl_->pressure.moments / -scope_.volume_now(observer_->box());
+  sum_over_ranks(stress.data(), 3);
+  const double pressure = scope_.pressure_of(Eigen::Matrix3d(stress.asDiagonal()), domain->dimension);
   const double per_pressure = pressure > 0.0 ? 1.0 / pressure : 0.0;
   double contacts = 0.0, power = 0.0;
   for (int k = 0; k < all.bins; k++) {

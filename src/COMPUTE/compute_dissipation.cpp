@@ -22,9 +22,10 @@ namespace {
 
 enum class Mode { instantaneous, step, ledger };
 
-constexpr auto extensive = grainscope::Extent::extensive;
+using grainscope::Extent;
+constexpr auto extensive = Extent::extensive;
 
-grainscope::Outputs declared() {
+grainscope::Outputs declared(const grainscope::TypePairs *pairs) {
   grainscope::Outputs outputs;
   outputs.scalar = {{"P_total", "energy/time", extensive, "all six powers together"}};
   outputs.vector = {
@@ -38,6 +39,12 @@ grainscope::Outputs declared() {
       {"P_t_damp_w", "energy/time", extensive, "power lost by tangential damping at walls"},
       {"N_w", "-", extensive, "contacts with walls"},
       {"N_sliding_w", "-", extensive, "sliding contacts with walls"}};
+  if (!pairs) return outputs;
+  grainscope::OutputList columns = {{"pair_a", "-", Extent::intensive, "atom type"},
+                                    {"pair_b", "-", Extent::intensive, "atom type, a wall's too, >= pair_a"}};
+  for (const grainscope::NamedOutput &one : outputs.vector)
+    columns.add({"pair_" + one.name, one.unit, one.extent, one.meaning});
+  outputs.set_array(pairs->size(), "pair of atom types", columns);
   return outputs;
 }
 
@@ -70,6 +77,42 @@ struct DampingForces : grainscope::ContactCompute::Accumulator {
     of.normal.add(c, m.normal_damping * c.normal, lever_i, lever_j, image_velocity);
     if (m.damped) of.tangential.add(c, -m.tangential_damping * m.tangential_velocity, lever_i, lever_j, image_velocity);
   }
+  /** Makes powers of sums of this rank whose friction is an energy. */
+  void to_powers(LossSums &sums) const {
+    for (auto one : {std::make_pair(&grains, sums.of_grains()), std::make_pair(&walls, sums.of_walls())}) {
+      one.second[LossSums::normal_damping] = -one.first->normal.power(atom->v, atom->omega);
+      one.second[LossSums::friction] /= observer->time_step();
+      one.second[LossSums::tangential_damping] = -one.first->tangential.power(atom->v, atom->omega);
+    }
+  }
+};
+
+/** The losses of each pair of atom types. */
+struct LossesOfTypes : grainscope::ContactCompute::Accumulator {
+  struct Row {
+    LossSums sums;
+    DampingForces damping;
+  };
+  LossesOfTypes(grainscope::TypePairs pairs, LossSums::Of of) : pairs(pairs), rows(pairs.size()) {
+    for (Row &row : rows) row.sums.of = of;
+  }
+  bool by_steps() const { return rows[0].sums.of == LossSums::Of::slip; }
+  void reset() override {
+    for (Row &row : rows) {
+      row.sums.reset();
+      if (by_steps()) row.damping.reset();
+    }
+  }
+  void add(grainscope::ContactSpan contacts, const grainscope::ContactCompute &of) override {
+    grainscope::for_each_contact(contacts, of.selection(), [this](const Contact &c) {
+      Row &row = rows[pairs.index(c.type_i, c.type_j)];
+      row.sums.add(c);
+      if (by_steps()) row.damping.add(c);
+    });
+  }
+
+  grainscope::TypePairs pairs;
+  std::vector<Row> rows;
 };
 
 }
@@ -78,28 +121,36 @@ struct ComputeDissipation::Impl {
   Mode mode = Mode::step;
   grainscope::ContactSums<LossSums> sums;
   DampingForces damping;
+  std::unique_ptr<LossesOfTypes> of_types;  // of 'rows types'
 };
 
 ComputeDissipation::ComputeDissipation(LAMMPS *lmp, int &iarg, int narg, char **arg)
-    : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
+    : ContactCompute(lmp, iarg, narg, arg,
+                     grainscope::Scope::types | grainscope::Scope::rows | grainscope::Scope::walls),
+      impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   while (!arguments.done()) {
-    const std::string keyword = arguments.keyword({"mode", "walls"});
-    if (keyword == "walls") {
-      read_walls(arguments);
-      continue;
-    }
+    const std::string keyword = arguments.keyword(scope_.with({"mode"}));
+    if (scope_.read(arguments, keyword)) continue;
     const std::string mode = arguments.choice(keyword, {"instantaneous", "step", "ledger"});
     impl_->mode = mode == "step" ? Mode::step : mode == "ledger" ? Mode::ledger : Mode::instantaneous;
   }
-  if (impl_->mode == Mode::ledger) grainscope::require_box(lmp, arguments);
+  if (impl_->mode == Mode::ledger) {
+    grainscope::require_box(lmp, arguments);
+    if (scope_.by_types() || !scope_.type_pair().any())
+      arguments.fail("'mode ledger' knows no losses by types: 'mode step' does");
+  }
   using Of = LossSums::Of;
   impl_->sums.mine().of = impl_->mode == Mode::instantaneous ? Of::powers
                           : impl_->mode == Mode::step        ? Of::slip
                                                              : Of::contacts;
   sums_over(impl_->sums);
   if (impl_->mode == Mode::step) sums_over(impl_->damping);
-  declare(this, declared());
+  if (scope_.by_types()) {
+    impl_->of_types.reset(new LossesOfTypes(type_pairs(), impl_->sums.mine().of));
+    sums_over(*impl_->of_types);
+  }
+  declare(this, declared(impl_->of_types ? &impl_->of_types->pairs : nullptr));
   require_count(2 * LossSums::WIDTH, outputs().vector, "elements");
   if (impl_->mode == Mode::ledger) FixLedgerRecord::make(lmp, id, igroup, "dissipation mode ledger");
 }
@@ -114,6 +165,8 @@ void ComputeDissipation::init() {
   impl_->damping.atom = atom;
   impl_->damping.domain = domain;
   impl_->damping.observer = observer_;
+  if (impl_->of_types)
+    for (LossesOfTypes::Row &row : impl_->of_types->rows) row.damping = impl_->damping;
   if (impl_->mode == Mode::ledger) FixLedgerRecord::find(lmp, id);
 }
 
@@ -125,17 +178,23 @@ bool ComputeDissipation::needs_images() const { return impl_->mode == Mode::step
 void ComputeDissipation::answer() {
   if (impl_->mode == Mode::ledger) return answer_by_ledger();
   LossSums sums = impl_->sums.mine();
-  const auto to_powers = [this](const DampingForces::Of &damping, double *of) {
-    of[LossSums::normal_damping] = -damping.normal.power(atom->v, atom->omega);
-    of[LossSums::friction] /= observer_->time_step();
-    of[LossSums::tangential_damping] = -damping.tangential.power(atom->v, atom->omega);
-  };
-  if (impl_->mode == Mode::step) {
-    to_powers(impl_->damping.grains, sums.of_grains());
-    to_powers(impl_->damping.walls, sums.of_walls());
-  }
+  if (impl_->mode == Mode::step) impl_->damping.to_powers(sums);
   sum_over_ranks(sums.all.data(), sums.all.size());
   put(sums.all.data());
+  if (impl_->of_types) put_rows();
+}
+
+void ComputeDissipation::put_rows() {
+  const std::vector<std::pair<int, int>> pairs = impl_->of_types->pairs.all();
+  for (std::size_t row = 0; row < pairs.size(); row++) {
+    const LossesOfTypes::Row &of_pair = impl_->of_types->rows[row];
+    LossSums sums = of_pair.sums;
+    if (impl_->of_types->by_steps()) of_pair.damping.to_powers(sums);
+    array[row][0] = pairs[row].first;
+    array[row][1] = pairs[row].second;
+    for (std::size_t k = 0; k < sums.all.size(); k++) array[row][2 + k] = sums.all[k] + 0.0;  // no negative zeros
+    sum_over_ranks(array[row] + 2, sums.all.size());
+  }
 }
 
 void ComputeDissipation::put(const double *values) {
@@ -157,8 +216,9 @@ void ComputeDissipation::answer_by_ledger() {
                 {LossSums::friction, E::D_t, E::D_t_w},
                 {LossSums::tangential_damping, E::D_damp, E::D_damp_w}};
   for (const auto &one : losses) {
-    if (walls_ != Walls::only) sums.of_grains()[one.loss] = (last[one.all] - last[one.of_walls]) / update->dt;
-    if (walls_ != Walls::no) sums.of_walls()[one.loss] = last[one.of_walls] / update->dt;
+    if (scope_.chosen_walls() != grainscope::Walls::only)
+      sums.of_grains()[one.loss] = (last[one.all] - last[one.of_walls]) / update->dt;
+    if (scope_.chosen_walls() != grainscope::Walls::no) sums.of_walls()[one.loss] = last[one.of_walls] / update->dt;
   }
   put(sums.all.data());
 }

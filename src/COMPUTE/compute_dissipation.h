@@ -39,6 +39,7 @@ class ComputeDissipation : public grainscope::ContactCompute, public grainscope:
   bool answers_after_run() const override;
   void answer_by_ledger();
   void put(const double *values);
+  void put_rows();
 };
 
 }

@@ -3,7 +3,6 @@
 #include "arguments.h"
 #include "contact_sums.h"
 #include "fabric.h"
-#include "plane.h"
 #include "principal_axes.h"
 #include "symmetric_tensor.h"
 #include "domain.h"
@@ -31,7 +30,7 @@ const double rounding = 1e-10;  // of sums whose trace is 1
 constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
 const char *const six = "xx yy zz xy xz yz";
 
-grainscope::Outputs declared(const std::vector<const Weighted *> &chosen) {
+grainscope::Outputs declared(const std::vector<const Weighted *> &chosen, const grainscope::TypePairs *pairs) {
   grainscope::Outputs outputs;
   outputs.vector.add_each(six, {"F_*", "-", intensive, "fabric, mean of n_a n_b"})
       .add_each("1 2 3", {"eigenvalue_*", "-", intensive, "eigenvalue * of the fabric, descending"});
@@ -48,6 +47,12 @@ grainscope::Outputs declared(const std::vector<const Weighted *> &chosen) {
     outputs.vector.add_each(six,
                             {std::string(one->output) + "_*", "-", intensive, std::string(one->name) + " tensor, *"});
   outputs.scalar = {deviator};
+  if (!pairs) return outputs;
+  grainscope::OutputList columns = {{"pair_a", "-", intensive, "atom type"},
+                                    {"pair_b", "-", intensive, "atom type, a wall's too, >= pair_a"}};
+  columns.add_each(six, {"pair_F_*", "-", intensive, "fabric of their contacts, *"})
+      .add({"pair_N_c", "-", whole, "their contacts"});
+  outputs.set_array(pairs->size(), "pair of atom types", columns);
   return outputs;
 }
 
@@ -66,26 +71,32 @@ struct Moments : grainscope::ContactCompute::Accumulator {
 }
 
 struct ComputeFabric::Impl {
-  grainscope::Plane plane;
   std::vector<const Weighted *> chosen;
   grainscope::ContactSums<grainscope::FabricSums> sums;
   Moments moments;
+  std::unique_ptr<grainscope::TypePairSums<grainscope::FabricSums>> of_types;  // of 'rows types'
 };
 
 ComputeFabric::ComputeFabric(LAMMPS *lmp, int &iarg, int narg, char **arg)
-    : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
+    : ContactCompute(lmp, iarg, narg, arg,
+                     grainscope::Scope::types | grainscope::Scope::rows | grainscope::Scope::walls |
+                         grainscope::Scope::plane,
+                     grainscope::Walls::no),
+      impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
-  walls_ = Walls::no;
   while (!arguments.done()) {
-    const std::string keyword = arguments.keyword({"plane", "walls", "branch", "force/normal", "force/tangential"});
-    if (keyword == "walls") read_walls(arguments);
-    if (keyword == "plane") impl_->plane.read(arguments);
+    const std::string keyword = arguments.keyword(scope_.with({"branch", "force/normal", "force/tangential"}));
+    scope_.read(arguments, keyword);
     for (const Weighted &one : weighted_tensors)
       if (keyword == one.name) impl_->chosen.push_back(&one);
   }
   sums_over(impl_->sums);
   if (!impl_->chosen.empty()) sums_over(impl_->moments);
-  declare(this, declared(impl_->chosen));
+  if (scope_.by_types()) {
+    impl_->of_types.reset(new grainscope::TypePairSums<grainscope::FabricSums>(type_pairs()));
+    sums_over(*impl_->of_types);
+  }
+  declare(this, declared(impl_->chosen, impl_->of_types ? &impl_->of_types->pairs() : nullptr));
 }
 
 ComputeFabric::~ComputeFabric() {}
@@ -95,11 +106,12 @@ void ComputeFabric::answer() {
   const Matrix3d fabric = all.tensor();
   std::fill(vector, vector + size_vector, 0.0);
   scalar = 0.0;
+  if (impl_->of_types) put_rows();
   if (all.contacts() == 0.0) return;
 
   const int dimension = domain->dimension;
   const grainscope::PrincipalAxes principal(fabric, dimension);
-  const int a = impl_->plane.flow, b = impl_->plane.gradient;
+  const int a = scope_.shear_plane().flow, b = scope_.shear_plane().gradient;
   scalar = grainscope::fabric_deviator(fabric, dimension);
   double *out = grainscope::write_components(fabric, vector);
   out = std::copy(principal.values.data(), principal.values.data() + 3, out);
@@ -120,6 +132,16 @@ void ComputeFabric::answer() {
     for (const Weighted *one : impl_->chosen) out = grainscope::write_components((weighted.*one->tensor)(), out);
   }
   require_all_elements(out);
+}
+
+void ComputeFabric::put_rows() {
+  const std::vector<std::pair<int, int>> pairs = impl_->of_types->pairs().all();
+  const std::vector<grainscope::FabricSums> rows = impl_->of_types->total(*this);
+  for (std::size_t row = 0; row < rows.size(); row++) {
+    const Matrix3d f = rows[row].tensor();
+    put_row(row, {static_cast<double>(pairs[row].first), static_cast<double>(pairs[row].second), f(0, 0), f(1, 1),
+                  f(2, 2), f(0, 1), f(0, 2), f(1, 2), rows[row].contacts()});
+  }
 }
 
 double ComputeFabric::memory_usage() {

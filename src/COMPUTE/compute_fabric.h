@@ -16,7 +16,8 @@ namespace LAMMPS_NS {
 
 /** Fabric of the true contact normals n, F_ab = 1/N_c sum n_a n_b, trace 1; a contact counts when both grains are in
  *  the group. Scalar: deviator sqrt(3/2 F':F'), in [0,1]. Vector: F and what follows from it, then the weighted
- *  tensors asked for; angles in (-pi/2, pi/2]. Zero for an empty group.
+ *  tensors asked for; angles in (-pi/2, pi/2]. Array, with 'rows types': the
+ *  fabric of the contacts of each pair of atom types. Zero for an empty group.
  *  Source: Bilotto, Trulsson & Molinari 2025, Eq. (9), doi 10.1103/tj41-6qqk; the weighted tensors: Ouadfel &
  *  Rothenburg 2001, doi 10.1016/S0167-6636(00)00057-0. */
 class ComputeFabric : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
@@ -28,6 +29,7 @@ class ComputeFabric : public grainscope::ContactCompute, public grainscope::Decl
 
  private:
   void answer() override;
+  void put_rows();
 
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -3,15 +3,38 @@
 #include "arguments.h"
 #include "grain_shape.h"
 #include "nematic.h"
+#include "scope.h"
 #include "requirements.h"
 #include "symmetric_tensor.h"
 #include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "group.h"
 #include "update.h"
+#include <algorithm>
 
 using namespace LAMMPS_NS;
 using Eigen::Vector3d;
 
 namespace {
+
+using grainscope::AxisChoice;
+using grainscope::Scope;
+using grainscope::Shape;
+using grainscope::SymmetryAxis;
+
+/** The axis that stands for a grain's orientation, and whether it is its longest, as of a prolate grain, or its
+ *  shortest, as of an oblate one; without an index where it has none of that kind. */
+SymmetryAxis chosen_axis(const double *semi_axes, AxisChoice choice) {
+  const SymmetryAxis own = grainscope::symmetry_axis(semi_axes), none = {Shape::sphere, -1};
+  if (choice == AxisChoice::symmetry) return own;
+  const Shape wanted = choice == AxisChoice::longest ? Shape::prolate : Shape::oblate;
+  if (own.shape == wanted) return own;
+  if (own.shape != Shape::triaxial) return none;
+  if (choice == AxisChoice::longest) return {Shape::prolate, own.index};
+  const int shortest = static_cast<int>(std::min_element(semi_axes, semi_axes + 3) - semi_axes);
+  return {Shape::oblate, shortest};
+}
 
 constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
 
@@ -21,8 +44,9 @@ grainscope::Outputs declared() {
   outputs.vector.add_each("xx yy zz xy xz yz", {"Q*", "-", intensive, "order tensor Q_*"})
       .add_each("x y z", {"director_*", "-", intensive, "* of the director"})
       .add({"biaxiality", "-", intensive, "middle less smallest eigenvalue of Q"})
-      .add({"theta", "rad", intensive, "mean angle theta_x of the major axes to x in the xy plane"})
-      .add({"theta_director", "rad", intensive, "theta_x of the director"})
+      .add({"theta", "rad", intensive,
+            "mean angle of the major axes to the flow in the plane, theta_x where none is said"})
+      .add({"theta_director", "rad", intensive, "the same angle of the director"})
       .add_each("x y z", {"omega_*", "1/time", intensive, "mean angular velocity *"})
       .add({"N_axis", "-", whole, "grains with an axis"})
       .add({"N_theta", "-", whole, "grains counted in theta"})
@@ -32,29 +56,45 @@ grainscope::Outputs declared() {
 
 }
 
-ComputeNematic::ComputeNematic(LAMMPS *lmp, int &iarg, int narg, char **arg) : Compute(lmp, iarg, narg, arg) {
+struct ComputeNematic::Impl {
+  explicit Impl(LAMMPS *lmp) : scope(lmp, "compute nematic", Scope::plane | Scope::axis) {}
+  Scope scope;
+  bool warned = false;
+};
+
+ComputeNematic::ComputeNematic(LAMMPS *lmp, int &iarg, int narg, char **arg)
+    : Compute(lmp, iarg, narg, arg), impl_(new Impl(lmp)) {
   grainscope::Arguments arguments(lmp, "compute nematic", iarg, narg, arg);
-  arguments.require_none();
+  while (!arguments.done()) {
+    const std::string keyword = arguments.keyword(impl_->scope.with({}));
+    impl_->scope.read(arguments, keyword);
+  }
   grainscope::require_grains(lmp, arguments);
   declare(this, declared());
 }
 
-void ComputeNematic::init() { grainscope::require_grains(lmp, grainscope::Arguments(lmp, "compute nematic")); }
+ComputeNematic::~ComputeNematic() {}
+
+void ComputeNematic::init() {
+  grainscope::require_grains(lmp, grainscope::Arguments(lmp, "compute nematic"));
+  impl_->scope.init();
+}
 
 void ComputeNematic::compute_vector() {
   invoked_vector = update->ntimestep;
-  grainscope::NematicSums sums;
+  grainscope::NematicSums sums(impl_->scope.shear_plane().flow, impl_->scope.shear_plane().gradient);
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     sums.add_spin(Eigen::Map<const Vector3d>(atom->omega[i]));
     if (!atom->superquadric_flag) continue;
-    const grainscope::SymmetryAxis axis = grainscope::symmetry_axis(atom->shape[i]);
-    if (axis.shape == grainscope::Shape::sphere) continue;
+    const grainscope::SymmetryAxis axis = chosen_axis(atom->shape[i], impl_->scope.axis_choice());
+    if (axis.index < 0) continue;
     sums.add_axis(grainscope::orientation(*atom, i) * Vector3d::Unit(axis.index), axis.shape);
   }
   MPI_Allreduce(MPI_IN_PLACE, sums.sums.data(), sums.sums.size(), MPI_DOUBLE, MPI_SUM, world);
 
   const grainscope::Nematic nematic(sums);
+  if (impl_->scope.axis_is_automatic()) warn_of_mixture(sums.oblate(), nematic.grains_with_axis);
   double *out = grainscope::write_components(nematic.q, vector);
   for (double value :
        {nematic.director[0], nematic.director[1], nematic.director[2], nematic.biaxiality, nematic.theta,
@@ -63,6 +103,19 @@ void ComputeNematic::compute_vector() {
     *out++ = value;
   require_all_elements(out);
   scalar = nematic.order;
+}
+
+/** Once: tensors of long axes and of short ones cancel each other. */
+void ComputeNematic::warn_of_mixture(double flat, double all) {
+  if (impl_->warned || flat == 0.0 || flat == all) return;
+  impl_->warned = true;
+  if (comm->me != 0) return;
+  error->warning(FLERR,
+                 ("compute nematic: group '" + std::string(group->names[igroup]) + "' mixes flat and long grains (" +
+                  grainscope::Arguments::text(flat) + " and " + grainscope::Arguments::text(all - flat) +
+                  "), whose axes stand for different things: 'axis long' or 'axis short' measures one kind, "
+                  "'axis symmetry' both together as now")
+                     .c_str());
 }
 
 double ComputeNematic::compute_scalar() {

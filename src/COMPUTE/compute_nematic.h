@@ -10,6 +10,7 @@ ComputeStyle(nematic,ComputeNematic)
 
 #include "compute.h"
 #include "outputs.h"
+#include <memory>
 
 namespace LAMMPS_NS {
 
@@ -20,9 +21,16 @@ namespace LAMMPS_NS {
 class ComputeNematic : public Compute, public grainscope::DeclaresOutputs {
  public:
   ComputeNematic(class LAMMPS *lmp, int &iarg, int narg, char **arg);
+  ~ComputeNematic() override;
   void init() override;
   double compute_scalar() override;
   void compute_vector() override;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+
+  void warn_of_mixture(double flat, double all);
 };
 
 }

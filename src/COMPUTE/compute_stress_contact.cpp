@@ -9,6 +9,7 @@
 #include "symmetric_tensor.h"
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "fix_property_global.h"
 #include "finite.h"
@@ -29,10 +30,11 @@ namespace {
 const double hard_grains = 1.1e3;
 constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
 
-grainscope::Outputs declared() {
+grainscope::Outputs declared(const grainscope::TypePairs *pairs) {
   const char *const six = "xx yy zz xy xz yz";
   grainscope::Outputs outputs;
-  const grainscope::NamedOutput pressure = {"P", "pressure", intensive, "normal pressure, -syy"};
+  const grainscope::NamedOutput pressure = {"P", "pressure", intensive,
+                                            "pressure, -syy or as the keyword pressure says"};
   outputs.scalar = {pressure};
   outputs.vector.add_each(six, {"s*", "pressure", intensive, "stress sigma_*, tension positive"})
       .add({"syx", "pressure", intensive, "stress sigma_yx, from F_y r_x"})
@@ -40,9 +42,10 @@ grainscope::Outputs declared() {
       .add_each(six, {"s*_tangential", "pressure", intensive, "part of s* from tangential forces"})
       .add_each(six, {"s*_kinetic", "pressure", intensive, "kinetic stress *, not in s*"})
       .add(pressure)
-      .add({"mu_eff", "-", intensive, "effective friction, sxy/P"})
-      .add({"N1", "-", intensive, "first normal stress difference, (sxx - syy)/P"})
-      .add({"N2", "-", intensive, "second normal stress difference, (syy - szz)/P; 0 in two dimensions"})
+      .add({"mu_eff", "-", intensive, "effective friction, sxy/P, in another plane likewise"})
+      .add({"N1", "-", intensive, "first normal stress difference, (sxx - syy)/P, in another plane likewise"})
+      .add({"N2", "-", intensive,
+            "second normal stress difference, (syy - szz)/P, in another plane likewise; 0 in two dimensions"})
       .add({"N_c", "-", whole, "contacts between grains"})
       .add({"Z", "-", intensive, "coordination number, (2 N_c + N_w)/N"})
       .add({"sliding", "-", intensive, "fraction of contacts that slide"})
@@ -50,6 +53,15 @@ grainscope::Outputs declared() {
       .add({"overlap_max", "distance", intensive, "largest overlap"})
       .add({"kappa", "-", intensive, "stiffness number, min(alpha, 1) (E/P)^(2/3); in two dimensions (E d/P)^(2/3)"})
       .add({"N_w", "-", whole, "contacts with walls"});
+  if (!pairs) return outputs;
+  grainscope::OutputList columns = {{"pair_a", "-", intensive, "atom type"},
+                                    {"pair_b", "-", intensive, "atom type, a wall's too, >= pair_a"}};
+  columns.add_each(six, {"pair_s*", "pressure", intensive, "their part of s*"})
+      .add({"pair_syx", "pressure", intensive, "their part of syx"})
+      .add({"pair_N_c", "-", whole, "their contacts between grains"})
+      .add({"pair_N_w", "-", whole, "their contacts with walls"})
+      .add({"pair_N_sliding", "-", whole, "those of both that slide"});
+  outputs.set_array(pairs->size(), "pair of atom types", columns);
   return outputs;
 }
 
@@ -57,17 +69,25 @@ grainscope::Outputs declared() {
 
 struct ComputeStressContact::Impl {
   grainscope::ContactSums<grainscope::StressSums> sums;
+  std::unique_ptr<grainscope::TypePairSums<grainscope::StressSums>> of_types;  // of 'rows types'
 };
 
 ComputeStressContact::ComputeStressContact(LAMMPS *lmp, int &iarg, int narg, char **arg)
-    : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
+    : ContactCompute(lmp, iarg, narg, arg,
+                     grainscope::Scope::types | grainscope::Scope::rows | grainscope::Scope::walls |
+                         grainscope::Scope::volume | grainscope::Scope::plane | grainscope::Scope::pressure),
+      impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   while (!arguments.done()) {
-    arguments.keyword({"walls"});
-    read_walls(arguments);
+    const std::string keyword = arguments.keyword(scope_.with({}));
+    scope_.read(arguments, keyword);
   }
   sums_over(impl_->sums);
-  declare(this, declared());
+  if (scope_.by_types()) {
+    impl_->of_types.reset(new grainscope::TypePairSums<grainscope::StressSums>(type_pairs()));
+    sums_over(*impl_->of_types);
+  }
+  declare(this, declared(impl_->of_types ? &impl_->of_types->pairs() : nullptr));
 }
 
 ComputeStressContact::~ComputeStressContact() {}
@@ -135,7 +155,7 @@ void ComputeStressContact::answer() {
   const grainscope::BoxState &box = observer_->box();
   const grainscope::Fluctuations motion(lmp, groupbit, box);
   // Forces over areas are in pressure units only where force->nktv2p is 1; cgs and si both are.
-  const double unit = force->nktv2p / box.volume;
+  const double unit = force->nktv2p / scope_.volume_now(box);
   const Eigen::Matrix3d total = all.total(1.0) * unit;
   const Eigen::Matrix3d tangential = all.tangential(1.0) * unit;
   const Eigen::Matrix3d kinetic = -motion.momentum_flux() * force->mvv2e * unit;
@@ -144,14 +164,16 @@ void ComputeStressContact::answer() {
   double *out = grainscope::write_components(total, vector);
   *out++ = total(1, 0);
   for (const Eigen::Matrix3d *part : {&normal, &tangential, &kinetic}) out = grainscope::write_components(*part, out);
-  const double pressure = -total(1, 1);
+  const grainscope::Plane &plane = scope_.shear_plane();
+  const int a = plane.flow, b = plane.gradient, v = plane.vorticity;
+  const double pressure = scope_.pressure_of(total, domain->dimension);
   const double per_pressure = pressure > 0.0 ? 1.0 / pressure : 0.0;
   const double of_grains = all.contacts_of_grains(), with_walls = all.contacts_with_walls();
   const double per_contact = all.contacts() > 0.0 ? 1.0 / all.contacts() : 0.0;
   *out++ = pressure;
-  *out++ = total(0, 1) * per_pressure;
-  *out++ = (total(0, 0) - total(1, 1)) * per_pressure;
-  *out++ = box.dimension == 2 ? 0.0 : (total(1, 1) - total(2, 2)) * per_pressure;
+  *out++ = total(a, b) * per_pressure;
+  *out++ = (total(a, a) - total(b, b)) * per_pressure;
+  *out++ = box.dimension == 2 ? 0.0 : (total(b, b) - total(v, v)) * per_pressure;
   *out++ = of_grains;
   *out++ = motion.grains() > 0.0 ? (2.0 * of_grains + with_walls) / motion.grains() : 0.0;
   *out++ = all.sliding() * per_contact;
@@ -179,4 +201,18 @@ void ComputeStressContact::answer() {
                        "at overlaps and at the material's constants")
                           .c_str());
   scalar = pressure + 0.0;
+  if (impl_->of_types) put_rows(unit);
+}
+
+/** `unit`: pressure per sum of forces times lengths. */
+void ComputeStressContact::put_rows(double unit) {
+  const std::vector<std::pair<int, int>> pairs = impl_->of_types->pairs().all();
+  const std::vector<grainscope::StressSums> rows = impl_->of_types->total(*this);
+  for (std::size_t row = 0; row < rows.size(); row++) {
+    const grainscope::StressSums &sums = rows[row];
+    const Eigen::Matrix3d s = sums.total(1.0) * unit + Eigen::Matrix3d::Zero();  // no negative zeros
+    put_row(row, {static_cast<double>(pairs[row].first), static_cast<double>(pairs[row].second), s(0, 0), s(1, 1),
+                  s(2, 2), s(0, 1), s(0, 2), s(1, 2), s(1, 0), sums.contacts_of_grains(), sums.contacts_with_walls(),
+                  sums.sliding()});
+  }
 }

@@ -152,8 +152,7 @@ struct ComputeWallContact::Impl {
 };
 
 ComputeWallContact::ComputeWallContact(LAMMPS *lmp, int &iarg, int narg, char **arg)
-    : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
-  walls_ = Walls::only;
+    : ContactCompute(lmp, iarg, narg, arg, 0, grainscope::Walls::only), impl_(new Impl) {
   Arguments arguments(lmp, name_, iarg, narg, arg);
   Choices &chosen = impl_->chosen;
   std::vector<std::string> named, areas;

@@ -64,8 +64,7 @@ struct ComputeWallTriangle::Impl {
 };
 
 ComputeWallTriangle::ComputeWallTriangle(LAMMPS *lmp, int &iarg, int narg, char **arg)
-    : ContactCompute(lmp, iarg, narg, arg), impl_(new Impl) {
-  walls_ = Walls::only;
+    : ContactCompute(lmp, iarg, narg, arg, 0, grainscope::Walls::only), impl_(new Impl) {
   Arguments arguments(lmp, name_, iarg, narg, arg);
   std::vector<std::string> named;
   while (!arguments.done()) {

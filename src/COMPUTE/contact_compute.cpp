@@ -14,15 +14,17 @@ namespace grainscope {
 
 using LAMMPS_NS::PairGranInsitu;
 
-ContactCompute::ContactCompute(LAMMPS_NS::LAMMPS *lmp, int &iarg, int narg, char **arg)
-    : Compute(lmp, iarg, narg, arg), observer_(nullptr), name_(std::string("compute ") + style), tallied_(-1),
-      unasked_(false) {
+ContactCompute::ContactCompute(LAMMPS_NS::LAMMPS *lmp, int &iarg, int narg, char **arg, unsigned keywords, Walls walls)
+    : Compute(lmp, iarg, narg, arg), observer_(nullptr), name_(std::string("compute ") + style),
+      scope_(lmp, name_, keywords), tallied_(-1), unasked_(false) {
+  scope_.choose_walls(walls);
   timeflag = 1;
 }
 
 void ContactCompute::init() {
   observer_ = &PairGranInsitu::required_by(lmp, name_.c_str())->observer();
   observer_->add(this);
+  scope_.init();
   tallied_ = -1;
 }
 
@@ -85,19 +87,23 @@ void ContactCompute::answer() { error->all(FLERR, (name_ + ": declares numbers t
 
 bool ContactCompute::in_group(int i) const { return atom->mask[i] & groupbit; }
 
-ContactCompute::Selection ContactCompute::selection() const { return {atom->mask, groupbit, walls_}; }
+TypePairs ContactCompute::type_pairs() const {
+  if (atom->ntypes < 1)
+    Arguments(lmp, name_).fail("'rows types' needs to know the atom types: define it after the box");
+  return TypePairs(atom->ntypes);
+}
 
-void ContactCompute::read_walls(Arguments &arguments) {
-  const std::string choice = arguments.choice("walls", {"no", "yes", "only"});
-  walls_ = choice == "no" ? Walls::no : choice == "yes" ? Walls::yes : Walls::only;
+ContactCompute::Selection ContactCompute::selection() const {
+  const TypePair &types = scope_.type_pair();
+  return {atom->mask, groupbit, scope_.chosen_walls(), !types.any(), types};
 }
 
 const ContactLaw &ContactCompute::law() const { return PairGranInsitu::required_by(lmp, name_.c_str())->law(); }
 
 void ContactCompute::require_known_losses() const {
-  const std::string why = walls_ == Walls::only ? "" : law().why_no_losses();
+  const std::string why = scope_.chosen_walls() == Walls::only ? "" : law().why_no_losses();
   if (!why.empty()) Arguments(lmp, name_).fail(why);
-  if (walls_ == Walls::no) return;
+  if (scope_.chosen_walls() == Walls::no) return;
   for (const Wall &wall : walls_of(lmp)) {
     const std::string of_wall = wall.law ? wall.law->why_no_losses() : "";
     if (!of_wall.empty()) Arguments(lmp, name_).fail("wall '" + wall.name + "': " + of_wall + ". Or say 'walls no'");
@@ -106,15 +112,15 @@ void ContactCompute::require_known_losses() const {
 
 std::vector<const ContactLaw *> ContactCompute::laws_of_contacts() const {
   std::vector<const ContactLaw *> laws;
-  if (walls_ != Walls::only) laws.push_back(&law());
-  if (walls_ == Walls::no) return laws;
+  if (scope_.chosen_walls() != Walls::only) laws.push_back(&law());
+  if (scope_.chosen_walls() == Walls::no) return laws;
   for (const Wall &wall : walls_of(lmp))
     if (wall.law) laws.push_back(wall.law);
   return laws;
 }
 
 void ContactCompute::require_tally() const {
-  if (attached() && walls_ != Walls::no) observer_->require_complete(name_ + " " + id);
+  if (attached() && scope_.chosen_walls() != Walls::no) observer_->require_complete(name_ + " " + id);
   if (attached() && tallied_ == update->ntimestep) return;
   const std::string message =
       name_ + " " + id +

@@ -4,6 +4,8 @@
 
 #include "compute.h"
 #include "contact_sink.h"
+#include "scope.h"
+#include "type_pairs.h"
 #include <string>
 #include <vector>
 
@@ -31,7 +33,8 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
     virtual void add(ContactSpan contacts, const ContactCompute &of) = 0;
   };
 
-  ContactCompute(LAMMPS_NS::LAMMPS *lmp, int &iarg, int narg, char **arg);
+  /** `keywords`: those of Scope that the measure understands. `walls`: what it takes of walls where nothing is said. */
+  ContactCompute(LAMMPS_NS::LAMMPS *lmp, int &iarg, int narg, char **arg, unsigned keywords, Walls walls = Walls::yes);
 
   void init() override;
   double compute_scalar() override;
@@ -42,32 +45,32 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
   void add_contacts(ContactSpan contacts) override;
   void end_run() override;
 
-  /** Contacts with walls, as the keyword `walls` chooses them. */
-  enum class Walls { no, yes, only };
-
-  /** The contacts that belong to the measure: all of their grains are in the group. */
+  /** The contacts that belong to the measure: all of their grains are in the group, and the scope has them. */
   struct Selection {
     const int *mask;
     int bit;
     Walls walls;
+    bool narrow;  // there is more to ask for
+    TypePair types;
     bool has(const Contact &c) const;
   };
   Selection selection() const;
+  const Scope &scope() const { return scope_; }
   /** Sums `values` over all ranks, in place. */
   void sum_over_ranks(double *values, int n) const;
 
  protected:
   ContactObserver *observer_;
   std::string name_;  // "compute <style>", for messages
-  Walls walls_ = Walls::yes;
+  Scope scope_;
 
-  /** The value of the keyword `walls`. */
-  void read_walls(Arguments &arguments);
   void sums_over(Accumulator &sums) { sums_.push_back(&sums); }
   /** Fills scalar, vector and array, as far as there are, for the evaluation that was tallied. Collective. */
   virtual void answer();
 
   bool in_group(int i) const;
+  /** The pairs of atom types, for 'rows types'; an error where there are no types yet. In the constructor. */
+  TypePairs type_pairs() const;
   /** Of contacts between grains. */
   const ContactLaw &law() const;
   /** Of all contacts that belong to the measure. */

@@ -4,11 +4,15 @@
 
 #include "contact.h"
 #include "contact_compute.h"
+#include "type_pairs.h"
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace grainscope {
 
 inline bool ContactCompute::Selection::has(const Contact &c) const {
+  if (narrow && !types.has(c.type_i, c.type_j)) return false;
   const PartnerGrain *other = std::get_if<PartnerGrain>(&c.partner);
   if (!other) return walls != Walls::no && (mask[c.i] & bit);
   return (mask[c.i] & mask[other->index] & bit) && walls != Walls::only;
@@ -52,6 +56,42 @@ class ContactSums : public ContactCompute::Accumulator {
  private:
   Kernel mine_, all_;
   bool reduced_ = false;
+};
+
+/** The same for each pair of atom types: together they add up to the sums over all contacts. */
+template <class Kernel>
+class TypePairSums : public ContactCompute::Accumulator {
+ public:
+  explicit TypePairSums(TypePairs pairs, const Kernel &kernel = Kernel())
+      : pairs_(pairs), rows_(pairs.size(), kernel) {}
+
+  void reset() override {
+    for (Kernel &row : rows_) row.reset();
+  }
+  void add(ContactSpan contacts, const ContactCompute &of) override {
+    for_each_contact(contacts, of.selection(),
+                     [this](const Contact &c) { rows_[pairs_.index(c.type_i, c.type_j)].add(c); });
+  }
+  const TypePairs &pairs() const { return pairs_; }
+  /** Of this rank, by the numbers of the pairs. */
+  const std::vector<Kernel> &mine() const { return rows_; }
+  /** Of all ranks. Collective. */
+  std::vector<Kernel> total(const ContactCompute &of) const {
+    std::vector<Kernel> all = rows_;
+    std::vector<double> numbers;
+    for (Kernel &row : all) numbers.insert(numbers.end(), row.numbers().begin(), row.numbers().end());
+    of.sum_over_ranks(numbers.data(), static_cast<int>(numbers.size()));
+    const double *from = numbers.data();
+    for (Kernel &row : all) {
+      std::copy_n(from, row.numbers().size(), row.numbers().begin());
+      from += row.numbers().size();
+    }
+    return all;
+  }
+
+ private:
+  TypePairs pairs_;
+  std::vector<Kernel> rows_;
 };
 
 }

@@ -68,6 +68,8 @@ struct ContactRolling {
  *  per grain they sum to f. All vectors are in the laboratory frame. */
 struct Contact {
   int i = -1;  // local index
+  // atom types of i and its partner; a wall has that of its material
+  int type_i = 0, type_j = 0;
   std::variant<PartnerGrain, PartnerWall> partner;
   const ContactLaw *law = nullptr;  // by which the two push each other; a wall may have another than grains
   // 1, or 1/2 when j is a ghost: weighted sums over ranks count each contact once

@@ -6,16 +6,17 @@
 
 namespace grainscope {
 
-void NematicSums::add_axis(const Eigen::Vector3d &p, Shape shape) {
-  add_components(sums.data(), dyad(p, p));
+void NematicSums::add_axis(const Eigen::Vector3d &axis, Shape shape) {
+  add_components(sums.data(), dyad(axis, axis));
+  const Eigen::Vector3d p = in_plane(axis);
   sums[6] += 1.0;
   if (shape == Shape::oblate) sums[10] += 1.0;
-  const double in_plane = p[0] * p[0] + p[1] * p[1];
-  if (in_plane < 1e-18) return;
+  const double square = p[0] * p[0] + p[1] * p[1];
+  if (square < 1e-18) return;
   // the major axis lies at right angles to p: 2 theta turns by pi
   const double sign = shape == Shape::oblate ? -1.0 : 1.0;
-  sums[7] += sign * (p[0] * p[0] - p[1] * p[1]) / in_plane;
-  sums[8] += sign * 2.0 * p[0] * p[1] / in_plane;
+  sums[7] += sign * (p[0] * p[0] - p[1] * p[1]) / square;
+  sums[8] += sign * 2.0 * p[0] * p[1] / square;
   sums[9] += 1.0;
 }
 
@@ -54,7 +55,7 @@ Nematic::Nematic(const NematicSums &all)
   biaxiality = eigenvalues[1] - eigenvalues[2];
 
   const bool mostly_oblate = 2.0 * s[10] > grains_with_axis;
-  director_theta = major_axis_angle(director, mostly_oblate ? Shape::oblate : Shape::prolate);
+  director_theta = major_axis_angle(all.in_plane(director), mostly_oblate ? Shape::oblate : Shape::prolate);
   if (grains_with_theta > 0.0) theta = within_half_turn(0.5 * std::atan2(s[8], s[7]));
 }
 

@@ -14,8 +14,19 @@ struct NematicSums {
   // (3), grains
   std::array<double, 15> sums{};
 
-  void add_axis(const Eigen::Vector3d &p, Shape shape);
+  /** `flow`, `gradient`: the axes of the plane that theta is in; measured from the first towards the second. */
+  explicit NematicSums(int flow = 0, int gradient = 1) : flow_(flow), gradient_(gradient) {}
+
+  void add_axis(const Eigen::Vector3d &axis, Shape shape);
   void add_spin(const Eigen::Vector3d &omega);
+  /** Grains whose axis is their shortest. */
+  double oblate() const { return sums[10]; }
+  Eigen::Vector3d in_plane(const Eigen::Vector3d &v) const {
+    return {v[flow_], v[gradient_], v[3 - flow_ - gradient_]};
+  }
+
+ private:
+  int flow_, gradient_;
 };
 
 /** Angle of the line along (x, y) with the x axis, in (-pi/2, pi/2]. */
@@ -35,7 +46,7 @@ struct Nematic {
   Eigen::Vector3d director;     // eigenvector of the largest, its largest component positive; zero without grains
   double order;                 // S2 = 3/2 largest eigenvalue
   double biaxiality;            // middle less smallest eigenvalue
-  double theta;                 // mean angle of the major axis with x in the xy plane, (-pi/2, pi/2]
+  double theta;                 // mean angle of the major axis with the flow in the plane, (-pi/2, pi/2]
   double director_theta;        // the same angle of the director
   Eigen::Vector3d spin;         // mean angular velocity
   double grains_with_axis, grains_with_theta;

@@ -10,6 +10,11 @@ class Arguments;
 struct Plane {
   int flow = 0, gradient = 1, vorticity = 2;
 
+  /** A vector by its components along flow, gradient and vorticity. */
+  template <class Vector>
+  Vector of(const Vector &v) const {
+    return {v[flow], v[gradient], v[vorticity]};
+  }
   /** Reads what follows the keyword 'plane': xy, xz or yz; with `dimension 2` xy. */
   void read(Arguments &arguments);
 };

@@ -148,6 +148,8 @@ inline __attribute__((always_inline)) void ContactReader::read(const Surfaces &s
   const double normal_force = force.dot(normal), coefficient = law_.friction_coefficient(s.itype, s.jtype);
   const Friction friction = friction_of(s, ContactLaw::friction_limit(coefficient, s.Fn));
   c.i = s.i;
+  c.type_i = s.itype;
+  c.type_j = s.jtype;
   c.law = &law_;
   c.normal = normal;
   c.overlap = s.deltan;

@@ -95,12 +95,18 @@ def lattice(ranks):
             origin=(0.0, 0.0, -0.5 * depth),
             dimension=2,
         )
-        body = ["compute s all stress/contact", *thermo(1, "c_s", *C_STRESS.vector()), "run 0"]
+        body = [
+            "compute s all stress/contact",
+            "compute mean all stress/contact pressure mean",
+            *thermo(1, "c_mean", *C_STRESS.vector()),
+            "run 0",
+        ]
         table = run(Deck(packing, body=body), ranks).thermo()[0]
         modulus = YOUNG / (2.0 * (1.0 - POISSON**2))
         force = 4.0 / 3.0 * modulus * math.sqrt(0.5) * (2.0 - step) ** 1.5
         for name in ("sxx", "syy"):
             require_close(table[C_STRESS[name]], [-force / step], 1e-9, name)
+        require_close(table["c_mean"], [force / step], 1e-9, "mean pressure, of two directions")
         require_equal(table[C_STRESS["szz"]], [0.0], "szz")
         require_close(table[C_STRESS["N_c"]], [2.0 * count**2], SUMS, "N_c")
 

@@ -10,6 +10,16 @@ from run import run
 PLANE = Keyword("plane", choice("xy", "xz", "yz"))
 COMPONENT = Keyword("component", choice("vx", "vy", "vz", "wx", "wy", "wz"))
 WALLS = Keyword("walls", choice("no", "yes", "only"))
+TYPE = Kind(
+    "two atom types, each a number or *", ("1 1", "* *", "1 *"), NOT_NUMBERS + ("0", "-1", "1.5", "1000001", "**")
+)
+TYPES = [Keyword("types", TYPE), Keyword("types 1", Kind(TYPE.requirement, ("1", "*"), TYPE.bad), "types")]
+ROWS = Keyword("rows", choice("types"))
+VOLUME = Keyword(
+    "volume", number("auto, a positive number or v_name", ("auto", "1e-300", "1e300"), ("0", "-1", "AUTO", "autos"))
+)
+PRESSURE = Keyword("pressure", choice("x", "y", "z", "mean"))
+AXIS = Keyword("axis", choice("auto", "symmetry", "long", "short"))
 FLOW = [
     Keyword("flow", Kind("box, rate, fit or layers", ("box", "fit"), ("q", "", "nan", "1e999", "BOX", "5"))),
     Keyword("flow rate", number("a shear rate", ("0", "-1e300", "1e300"), ())),
@@ -137,9 +147,9 @@ NAMES_OF_WALLS = [
     ),
 ]
 STYLES = [
-    compute("stress/contact", WALLS),
-    compute("nematic"),
-    compute("contact/grain", WALLS),
+    compute("stress/contact", *TYPES, ROWS, WALLS, VOLUME, PLANE, PRESSURE),
+    compute("nematic", PLANE, AXIS),
+    compute("contact/grain", *TYPES, WALLS, PLANE),
     compute("contact/solver"),
     compute("energy/ledger"),
     compute(
@@ -183,17 +193,28 @@ STYLES = [
             ),
         ],
     ),
-    compute("dissipation", Keyword("mode", choice("instantaneous", "step", "ledger")), WALLS),
-    compute("fabric", PLANE, WALLS, flags=("branch", "force/normal", "force/tangential")),
+    compute("dissipation", Keyword("mode", choice("instantaneous", "step", "ledger")), *TYPES, ROWS, WALLS),
+    compute(
+        "fabric",
+        *TYPES,
+        ROWS,
+        WALLS,
+        PLANE,
+        flags=("branch", "force/normal", "force/tangential"),
+        order=("branch", "force/normal", "force/tangential", "types", "rows", "walls", "plane"),
+    ),
     compute(
         "contact/surface",
         Keyword("bins", whole(1, 1000)),
         Keyword("angle", choice("polar", "parametric")),
         Keyword("axis", choice("auto", "x", "y", "z")),
+        *TYPES,
         WALLS,
+        VOLUME,
+        PRESSURE,
     ),
-    compute("contact/direction", PLANE, Keyword("bins", even(2, 10000)), WALLS),
-    compute("contact/local", WALLS, flags=COLUMNS, sort="column", order=(*COLUMNS, "walls")),
+    compute("contact/direction", Keyword("bins", even(2, 10000)), *TYPES, WALLS, PLANE),
+    compute("contact/local", *TYPES, WALLS, flags=COLUMNS, sort="column", order=(*COLUMNS, "types", "walls")),
     compute("fluctuation", PLANE, Keyword("layers", whole(1, 10000)), Keyword("diameter", LENGTH), *FLOW),
     compute("layering", Keyword("axis", choice("x", "y", "z")), Keyword("layers", even(2, 1000))),
     compute(

@@ -13,6 +13,12 @@ from run import run
 PACKING = disc_packing(rows=6)
 IN_THE_PLANE = "with 'dimension 2', got"
 KEYWORDS = (
+    ("compute c all stress/contact plane yz", f"compute stress/contact: 'plane' must be xy {IN_THE_PLANE} 'yz'"),
+    (
+        "compute c all stress/contact pressure z",
+        f"compute stress/contact: 'pressure' must be x, y or mean {IN_THE_PLANE} 'z'",
+    ),
+    ("compute c all nematic plane xz", f"compute nematic: 'plane' must be xy {IN_THE_PLANE} 'xz'"),
     ("compute c all fabric plane xz", f"compute fabric: 'plane' must be xy {IN_THE_PLANE} 'xz'"),
     ("compute c all contact/direction plane yz", f"compute contact/direction: 'plane' must be xy {IN_THE_PLANE} 'yz'"),
     ("compute c all fluctuation plane xz", f"compute fluctuation: 'plane' must be xy {IN_THE_PLANE} 'xz'"),

@@ -16,8 +16,8 @@ from run import run
 FILE = Path(__file__).resolve().parents[2] / "tools" / "columns.json"
 # With every keyword that adds outputs.
 COMMANDS = {
-    "stress/contact": "",
-    "fabric": "branch force/normal force/tangential",
+    "stress/contact": "rows types",
+    "fabric": "rows types branch force/normal force/tangential",
     "contact/direction": "",
     "contact/surface": "",
     "contact/grain": "",
@@ -27,7 +27,7 @@ COMMANDS = {
     "wall/contact": "impacts yes",
     "wall/triangle": "wear yes",
     "displacement/shear": "strain v_strain",
-    "dissipation": "",
+    "dissipation": "rows types",
     "energy/ledger": "",
     "fluctuation": "",
     "layering": "",

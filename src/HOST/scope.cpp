@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "scope.h"
+#include "arguments.h"
+#include "box_state.h"
+#include "two_dimensions.h"
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+
+namespace grainscope {
+
+namespace {
+
+struct Name {
+  unsigned keyword;
+  const char *name;
+};
+
+const Name names[] = {{Scope::types, "types"},   {Scope::rows, "rows"},   {Scope::walls, "walls"},
+                      {Scope::volume, "volume"}, {Scope::plane, "plane"}, {Scope::pressure, "pressure"},
+                      {Scope::axis, "axis"}};
+
+const int most_types = 1000000;
+const char *const volume_requirement = "auto, a positive number or v_name";
+const char *const types_requirement = "two atom types, each a number or *";
+
+}
+
+Scope::Scope(LAMMPS_NS::LAMMPS *lmp, const std::string &style, unsigned keywords)
+    : Pointers(lmp), style_(style), keywords_(keywords), volume_(lmp, style, "volume", volume_requirement) {}
+
+std::vector<std::string> Scope::with(std::vector<std::string> own) const {
+  for (const Name &one : names)
+    if (keywords_ & one.keyword) own.push_back(one.name);
+  return own;
+}
+
+bool Scope::read(Arguments &arguments, const std::string &keyword) {
+  unsigned which = 0;
+  for (const Name &one : names)
+    if (keyword == one.name) which = one.keyword & keywords_;
+  switch (which) {
+    case types: read_types(arguments); return true;
+    case rows: by_types_ = arguments.choice(keyword, {"types"}) == "types"; return true;
+    case walls: {
+      const std::string choice = arguments.choice(keyword, {"no", "yes", "only"});
+      walls_ = choice == "no" ? Walls::no : choice == "yes" ? Walls::yes : Walls::only;
+      return true;
+    }
+    case volume: read_volume(arguments); return true;
+    case plane: plane_.read(arguments); return true;
+    case pressure: {
+      const std::string choice = arguments.choice(keyword, {"x", "y", "z", "mean"});
+      require_axes_of_plane(lmp, arguments, keyword, "x, y or mean", choice);
+      pressure_ = choice == "mean" ? mean : choice[0] - 'x';
+      return true;
+    }
+    case axis: read_axis(arguments); return true;
+    default: return false;
+  }
+}
+
+void Scope::read_types(Arguments &arguments) {
+  for (int *type : {&types_.a, &types_.b}) {
+    const std::string word = arguments.word(types_requirement);
+    double number = 0.0;
+    if (word == "*") continue;
+    if (!Arguments::is_number(word, number) || !(number >= 1.0 && number <= most_types) ||
+        number != static_cast<int>(number))
+      arguments.fail("types", types_requirement, word);
+    *type = static_cast<int>(number);
+  }
+}
+
+void Scope::read_volume(Arguments &arguments) {
+  const std::string word = arguments.word(volume_requirement);
+  volume_given_ = true;
+  if (word != "auto") volume_.set(arguments, word);
+}
+
+void Scope::read_axis(Arguments &arguments) {
+  const std::string choice = arguments.choice("axis", {"auto", "symmetry", "long", "short"});
+  axis_is_automatic_ = choice == "auto";
+  axis_ = choice == "long" ? AxisChoice::longest : choice == "short" ? AxisChoice::shortest : AxisChoice::symmetry;
+}
+
+void Scope::init() {
+  for (int type : {types_.a, types_.b})
+    if (type > atom->ntypes)
+      Arguments(lmp, style_)
+          .fail("types", "at most " + std::to_string(atom->ntypes) + ", the atom types that there are",
+                std::to_string(type));
+  volume_.init();
+  if ((keywords_ & volume) && !volume_given_) warn_of_whole_box();
+}
+
+void Scope::warn_of_whole_box() {
+  if (warned_ || (domain->xperiodic && domain->yperiodic && domain->zperiodic)) return;
+  warned_ = true;
+  if (comm->me == 0)
+    error->warning(FLERR,
+                   (style_ + ": stresses are per volume of the whole box, and grains need not fill one that is not "
+                             "periodic: say 'volume V' of what they fill, or 'volume auto' where the box is meant")
+                       .c_str());
+}
+
+double Scope::volume_now(const BoxState &box) const { return volume_.given() ? volume_.now() : box.volume; }
+
+}
