@@ -554,3 +554,12 @@ add_cases(stress/contact-scope cases/scopes.py LABEL case STYLES stress/contact 
   planes-and-pressures volumes whole-box-warned-of)
 add_cases(nematic-scope cases/scopes.py LABEL case STYLES nematic RANKS 1 LONG_RANKS 4 CASES
   mixtures-of-shapes angles-in-planes)
+add_cases(stress/contact+fabric+dissipation-region cases/regions.py LABEL case
+  STYLES stress/contact fabric dissipation RANKS 1 4 LONG_RANKS 2 CASES
+  partition-of-a-sheared-box partition-between-walls)
+add_cases(stress/contact+nematic+contact/grain-region cases/regions.py LABEL case
+  STYLES stress/contact nematic contact/grain dissipation RANKS 1 4 LONG_RANKS 2 CASES places)
+add_cases(stress/contact-region cases/regions.py LABEL case STYLES stress/contact RANKS 1 LONG_RANKS 2 4 CASES
+  volumes-add-up nothing-there)
+add_cases(stress/contact+fabric-region cases/regions.py LABEL case STYLES stress/contact fabric dissipation
+  RANKS 1 2 CASES refused)

@@ -95,7 +95,9 @@ struct ComputeContactLocal::Impl {
 };
 
 ComputeContactLocal::ComputeContactLocal(LAMMPS *lmp, int &iarg, int narg, char **arg)
-    : ContactCompute(lmp, iarg, narg, arg, grainscope::Scope::types | grainscope::Scope::walls), impl_(new Impl) {
+    : ContactCompute(lmp, iarg, narg, arg,
+                     grainscope::Scope::region | grainscope::Scope::types | grainscope::Scope::walls),
+      impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   std::vector<std::string> names;
   for (const Column &column : columns) names.push_back(column.name);
@@ -133,12 +135,15 @@ bool ComputeContactLocal::is_mine(const Contact &c) const {
   return false;
 }
 
-bool ComputeContactLocal::needs_motion() const {
+bool ComputeContactLocal::reads_motion() const {
   return std::any_of(impl_->chosen.begin(), impl_->chosen.end(),
                      [](const Impl::Chosen &one) { return one.column->reads_motion; });
 }
 
-void ComputeContactLocal::begin_contacts() { impl_->values.clear(); }
+void ComputeContactLocal::begin_contacts() {
+  ContactCompute::begin_contacts();
+  impl_->values.clear();
+}
 
 void ComputeContactLocal::add_contacts(grainscope::ContactSpan contacts) {
   grainscope::for_each_contact(contacts, selection(), [this](const Contact &c) {

@@ -27,9 +27,9 @@ class ComputeContactLocal : public grainscope::ContactCompute, public grainscope
   void begin_contacts() override;
   void add_contacts(grainscope::ContactSpan contacts) override;
   bool needs_images() const override { return true; }
-  bool needs_motion() const override;
 
  private:
+  bool reads_motion() const override;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 

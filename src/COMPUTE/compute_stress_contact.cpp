@@ -26,6 +26,22 @@ using namespace LAMMPS_NS;
 
 namespace {
 
+using grainscope::StressSums;
+
+/** Of a region's stress, the part of each branch that lies in it; contacts are counted where their points are. */
+struct BranchesInRegion {
+  template <class KernelOf>
+  static void add(grainscope::ContactSpan contacts, const grainscope::ContactCompute &of, const KernelOf &kernel_of) {
+    const grainscope::RegionSolid *const region = of.scope().within();
+    if (!region) return grainscope::WholeContacts::add(contacts, of, kernel_of);
+    grainscope::for_each_contact(contacts, of.selection().everywhere(), [&](const grainscope::Contact &c) {
+      const Eigen::Vector3d to = c.motion->point - c.motion->arm;  // the centre of i
+      kernel_of(c).add_moments(c, c.weight * region->part(to - c.branch, to));
+      if (region->has(c.motion->point)) kernel_of(c).count(c);
+    });
+  }
+};
+
 // Bilotto et al. 2025, Sec. II: above it results do not depend on the stiffness.
 const double hard_grains = 1.1e3;
 constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
@@ -68,14 +84,15 @@ grainscope::Outputs declared(const grainscope::TypePairs *pairs) {
 }
 
 struct ComputeStressContact::Impl {
-  grainscope::ContactSums<grainscope::StressSums> sums;
-  std::unique_ptr<grainscope::TypePairSums<grainscope::StressSums>> of_types;  // of 'rows types'
+  grainscope::ContactSums<StressSums, BranchesInRegion> sums;
+  std::unique_ptr<grainscope::TypePairSums<StressSums, BranchesInRegion>> of_types;  // of 'rows types'
 };
 
 ComputeStressContact::ComputeStressContact(LAMMPS *lmp, int &iarg, int narg, char **arg)
     : ContactCompute(lmp, iarg, narg, arg,
-                     grainscope::Scope::types | grainscope::Scope::rows | grainscope::Scope::walls |
-                         grainscope::Scope::volume | grainscope::Scope::plane | grainscope::Scope::pressure),
+                     grainscope::Scope::region | grainscope::Scope::types | grainscope::Scope::rows |
+                         grainscope::Scope::walls | grainscope::Scope::volume | grainscope::Scope::plane |
+                         grainscope::Scope::pressure),
       impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   while (!arguments.done()) {
@@ -84,7 +101,7 @@ ComputeStressContact::ComputeStressContact(LAMMPS *lmp, int &iarg, int narg, cha
   }
   sums_over(impl_->sums);
   if (scope_.by_types()) {
-    impl_->of_types.reset(new grainscope::TypePairSums<grainscope::StressSums>(type_pairs()));
+    impl_->of_types.reset(new grainscope::TypePairSums<StressSums, BranchesInRegion>(type_pairs()));
     sums_over(*impl_->of_types);
   }
   declare(this, declared(impl_->of_types ? &impl_->of_types->pairs() : nullptr));
@@ -148,12 +165,12 @@ double ComputeStressContact::mean_diameter() const {
 }
 
 void ComputeStressContact::answer() {
-  const grainscope::StressSums &all = impl_->sums.total(*this);
+  const StressSums &all = impl_->sums.total(*this);
   double largest_overlap = impl_->sums.mine().largest_overlap;
   MPI_Allreduce(MPI_IN_PLACE, &largest_overlap, 1, MPI_DOUBLE, MPI_MAX, world);
 
   const grainscope::BoxState &box = observer_->box();
-  const grainscope::Fluctuations motion(lmp, groupbit, box);
+  const grainscope::Fluctuations motion(lmp, {groupbit, scope_.within()}, box);
   // Forces over areas are in pressure units only where force->nktv2p is 1; cgs and si both are.
   const double unit = force->nktv2p / scope_.volume_now(box);
   const Eigen::Matrix3d total = all.total(1.0) * unit;
