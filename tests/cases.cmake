@@ -545,6 +545,8 @@ add_cases(displacement/shear-two-dimensions cases/two_dimensions_runs.py LABEL c
   RANKS 1 2 LONG_RANKS 4 CASES displacement)
 add_cases(wall/contact+stress/contact-two-dimensions cases/two_dimensions_runs.py LABEL case
   STYLES wall/contact stress/contact wall/gran RANKS 1 LONG_RANKS 2 4 CASES walls ring)
+add_cases(stress/contact-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES stress/contact
+  RANKS 1 2 LONG_RANKS 4 CASES regions)
 add_cases(gran/insitu-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES gran/insitu
   RANKS 1 LONG_RANKS 2 4 CASES in-parts)
 # What is measured: the shared keywords

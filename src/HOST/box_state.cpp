@@ -32,7 +32,7 @@ BoxState::BoxState(LAMMPS_NS::LAMMPS *lmp) {
   if (domain->deform_vremap) edge_velocities = upper_triangular(domain->h_rate);
   velocity_gradient = edge_velocities * edges.inverse();
   volume = edges(0, 0) * edges(1, 1) * edges(2, 2);
-  periodic = {{domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0}};
+  periodic = {{domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0 && dimension == 3}};
 }
 
 Eigen::Vector3d BoxState::fraction(const Eigen::Vector3d &x) const {

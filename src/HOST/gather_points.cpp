@@ -7,10 +7,7 @@ namespace grainscope {
 
 PeriodicCell periodic_cell(const BoxState &box) {
   PeriodicCell cell{box.edges, box.periodic};
-  if (box.dimension == 2) {  // a layer that is no flatter than it is long
-    cell.edges(2, 2) = cell.edges(0, 0);
-    cell.periodic[2] = false;
-  }
+  if (box.dimension == 2) cell.edges(2, 2) = cell.edges(0, 0);  // a layer that is no flatter than it is long
   return cell;
 }
 

@@ -8,7 +8,7 @@
 
 namespace grainscope {
 
-/** The box as the cell of points. In two dimensions it does not repeat along z, where all points are at one height. */
+/** The box as the cell of points, which are all at one z in two dimensions. */
 PeriodicCell periodic_cell(const BoxState &box);
 
 /** The points of all ranks, on each, in the order of ranks. Collective. */

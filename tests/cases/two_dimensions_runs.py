@@ -127,6 +127,41 @@ def ring(ranks):
     require_close(table[C_WALL[1, "area_w"]], [12.0 * math.pi] * 2, 1e-15, "length of a circle")
 
 
+def regions(ranks):
+    """Parts of the plane add up to it, and a region's Omega is the area of its cut by the plane of the grains, here at
+    z = 1/2: of P per a given area to P the area is known."""
+    packing = disc_packing()
+    raised = [replace(g, position=(*g.position[:2], 0.5)) for g in packing.grains]
+    packing = replace(packing, grains=raised, origin=(0.0, 0.0, 0.0))
+    lx, ly, _ = packing.edges
+    areas = {
+        "left": 7.3 * ly,
+        "right": (lx - 7.3) * ly,
+        "pipe": 9.0 * math.pi,
+        "ball": (9.0 - 0.25) * math.pi,
+    }
+    body = [
+        "region left block INF 7.3 INF INF INF INF units box",
+        "region right block 7.3 INF INF INF INF INF units box",
+        "region pipe cylinder z 9.0 8.0 3.0 INF INF units box",
+        "region ball sphere 9.0 8.0 0.0 3.0 units box",
+        "compute s all stress/contact",
+    ]
+    quantities = [C_STRESS["sxx"], C_STRESS["P"]]
+    for name in areas:
+        for ID, volume in ((name, ""), (f"{name}_1", "volume 1")):
+            body.append(f"compute {ID} all stress/contact region {name} {volume}")
+            words = outputs("stress/contact").of(ID)
+            quantities += [words["sxx"], words["P"]]
+    deck = Deck(replace(packing, triclinic=False), body=[*body, *thermo(20, *quantities), "run 60"])
+    table = run(deck, ranks).thermo()[0]
+    for name, area in areas.items():
+        per_one, of_area = (table[outputs("stress/contact").of(ID)["P"]] for ID in (f"{name}_1", name))
+        require_close(per_one / of_area, [area] * len(of_area), SUMS, f"area of {name}")
+    left, right = (table[outputs("stress/contact").of(f"{name}_1")["sxx"]] for name in ("left", "right"))
+    require_close(left + right, table[C_STRESS["sxx"]] * lx * ly, 1e-12, "two parts of the plane")
+
+
 def decompositions(ranks):
     grids = {2: ("2 1 1", "1 2 1"), 4: ("2 2 1", "4 1 1")}[ranks]
     sweep(Start(Deck(disc_packing(), extra="ledger on")), grids)(ranks)
@@ -152,6 +187,7 @@ main(
         "displacement": displacement,
         "walls": walls,
         "ring": ring,
+        "regions": regions,
         "decompositions": decompositions,
         "in-parts": in_parts,
     }
