@@ -106,8 +106,8 @@ Vector3d Fluctuations::place(const Grain &grain) const {
 }
 
 double Fluctuations::rotational_energy(const Grain &grain, const Vector3d &w) const {
-  if (grain.body) return grain.body->rotational_energy(w);
-  return grainscope::rotational_energy(*lmp_->atom, grain.index, lmp_->domain->dimension, w);
+  return grain.body ? grain.body->rotational_energy(w)
+                    : grainscope::rotational_energy(*lmp_->atom, grain.index, lmp_->domain->dimension, w);
 }
 
 double Fluctuations::equivalent_diameter(const Grain &grain) const {
