@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "compute_packing.h"
+#include "arguments.h"
+#include "contact_network.h"
+#include "contact_observer.h"
+#include "contact_sums.h"
+#include "grain_shape.h"
+#include "stress.h"
+#include "atom.h"
+#include "domain.h"
+#include "fix.h"
+#include "force.h"
+#include "modify.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+using namespace LAMMPS_NS;
+
+namespace {
+
+constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
+
+grainscope::Outputs declared() {
+  grainscope::Outputs outputs;
+  const grainscope::NamedOutput phi = {"phi", "-", intensive, "solid fraction, V_s/Omega"};
+  outputs.scalar = {phi};
+  outputs.vector = {phi,
+                    {"d", "distance", intensive, "mean diameter of the spheres of the grains' volumes"},
+                    {"I", "-", intensive, "inertial number, rate d sqrt(rho/P)"},
+                    {"Z", "-", intensive, "coordination number, (2 N_c + N_w)/N"},
+                    {"Z_backbone", "-", intensive, "coordination number without rattlers"},
+                    {"rattlers", "-", intensive, "fraction of the grains that are rattlers"},
+                    {"N", "-", whole, "grains"},
+                    {"N_c", "-", whole, "contacts between grains"},
+                    {"N_w", "-", whole, "contacts with walls"},
+                    {"N_rattlers", "-", whole, "grains that are rattlers"},
+                    {"N_c_backbone", "-", whole, "contacts between grains that are no rattlers"},
+                    {"N_w_backbone", "-", whole, "contacts of such grains with walls"},
+                    {"P", "pressure", intensive, "pressure of the contacts"},
+                    {"rate", "1/time", intensive, "shear rate that I is made with"},
+                    {"rho", "mass/volume", intensive, "density of the grains, their mass over V_s"},
+                    {"V_s", "volume", whole, "volume of the grains"},
+                    {"Omega", "volume", whole, "volume that phi and P are per"},
+                    {"d_spread", "-", intensive, "standard deviation of the diameters over d"}};
+  return outputs;
+}
+
+/** A grain with fewer contacts is held by none of them: four in space, as of frictionless spheres; in a plane two. */
+int usual_limit(int dimension) { return dimension == 2 ? 2 : 4; }
+
+double ratio(double a, double b) { return b > 0.0 ? a / b : 0.0; }
+
+}
+
+struct ComputePacking::Impl {
+  explicit Impl(LAMMPS *lmp) : rate(lmp, "compute packing", "rate", rate_requirement) {}
+  static constexpr const char *rate_requirement = "auto, a positive number or v_name";
+
+  grainscope::ContactSums<grainscope::StressSums> stress;
+  grainscope::RattlerSearch search;
+  grainscope::NumberSource rate;  // none: the box's
+  int limit = 0;                  // contacts of a grain that is no rattler; 0: the usual
+  // Of this rank, of the last evaluation
+  double grains = 0.0, rattlers = 0.0;
+  std::array<double, 2> backbone{};
+};
+
+ComputePacking::ComputePacking(LAMMPS *lmp, int &iarg, int narg, char **arg)
+    : ContactNetworkCompute(lmp, iarg, narg, arg,
+                            grainscope::Scope::walls | grainscope::Scope::volume | grainscope::Scope::plane |
+                                grainscope::Scope::pressure),
+      impl_(new Impl(lmp)) {
+  grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
+  while (!arguments.done()) {
+    const std::string keyword = arguments.keyword(scope_.with({"rate", "rattlers"}));
+    if (scope_.read(arguments, keyword)) continue;
+    if (keyword == "rattlers") {
+      impl_->limit = arguments.whole_number(keyword, 1, 100);
+      continue;
+    }
+    const std::string word = arguments.word(Impl::rate_requirement);
+    if (word != "auto") impl_->rate.set(arguments, word);
+  }
+  sums_over(impl_->stress);
+  declare(this, declared());
+}
+
+ComputePacking::~ComputePacking() {}
+
+void ComputePacking::init() {
+  ContactNetworkCompute::init();
+  impl_->rate.init();
+  require_single_grains();
+}
+
+/** The spheres of a clump overlap: their volumes and contacts are not those of the grains. */
+void ComputePacking::require_single_grains() const {
+  for (int k = 0; k < modify->nfix; k++) {
+    const Fix *fix = modify->fix[k];
+    if (fix->rigid_flag || strstr(fix->style, "multisphere"))
+      grainscope::Arguments(lmp, name_)
+          .fail(std::string("does not know the volumes and contacts of clumps (fix ") + fix->id + ", style " +
+                fix->style + ")");
+  }
+}
+
+void ComputePacking::begin_contacts() {
+  ContactNetworkCompute::begin_contacts();
+  impl_->search.reset();
+}
+
+void ComputePacking::add_contacts(grainscope::ContactSpan contacts) {
+  ContactNetworkCompute::add_contacts(contacts);
+  grainscope::for_each_contact(contacts, selection(), [this](const grainscope::Contact &c) { impl_->search.add(c); });
+}
+
+void ComputePacking::end_contacts() {
+  Impl &my = *impl_;
+  const int limit = my.limit ? my.limit : usual_limit(domain->dimension);
+  std::vector<double> held(local_and_ghosts());
+  for (std::size_t i = 0; i < held.size(); i++) held[i] = in_group(i);
+  const auto kept = [&held, this] { return std::count(held.begin(), held.begin() + atom->nlocal, 1.0); };
+  my.grains = kept();
+  while (on_any_rank(my.search.remove(limit, atom->nlocal, held))) owners_to_ghosts(held);
+  my.rattlers = my.grains - kept();
+  my.backbone = my.search.contacts(held);
+}
+
+void ComputePacking::answer() {
+  const Impl &my = *impl_;
+  const grainscope::StressSums &sums = impl_->stress.total(*this);
+  const grainscope::BoxState &box = observer_->box();
+  const double omega = scope_.volume_now(box);
+
+  double solid = 0.0, mass = 0.0, d1 = 0.0, d2 = 0.0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!in_group(i)) continue;
+    const double d = grainscope::equivalent_diameter(*atom, i);
+    solid += grainscope::solid_volume(*atom, i, domain->dimension);
+    mass += atom->rmass[i];
+    d1 += d;
+    d2 += d * d;
+  }
+  double all[] = {my.grains, my.rattlers, my.backbone[0], my.backbone[1], solid, mass, d1, d2};
+  sum_over_ranks(all, 8);
+  const double n = all[0], rattlers = all[1];
+  solid = all[4];
+  const double d = ratio(all[6], n), rho = ratio(all[5], solid);
+  const double spread = std::sqrt(std::max(0.0, ratio(all[7], n) - d * d));
+
+  const double pressure = scope_.pressure_of(sums.total(1.0), domain->dimension) * force->nktv2p / omega + 0.0;
+  const grainscope::Plane &plane = scope_.shear_plane();
+  const double rate = my.rate.given() ? my.rate.now() : std::fabs(box.velocity_gradient(plane.flow, plane.gradient));
+  const double inertial = pressure > 0.0 ? rate * d * std::sqrt(rho * force->mvv2e * force->nktv2p / pressure) : 0.0;
+  const double of_grains = sums.contacts_of_grains(), with_walls = sums.contacts_with_walls();
+  scalar = solid / omega;
+  put_vector({scalar, d, inertial, ratio(2.0 * of_grains + with_walls, n), ratio(2.0 * all[2] + all[3], n - rattlers),
+              ratio(rattlers, n), n, of_grains, with_walls, rattlers, all[2], all[3], pressure, rate, rho, solid, omega,
+              ratio(spread, d)});
+}
