@@ -67,6 +67,8 @@ COLUMNS = (
     "mobilisation",
     "wall",
     "triangle",
+    "strong",
+    "cluster",
 )
 
 
@@ -214,6 +216,23 @@ STYLES = [
         PRESSURE,
     ),
     compute("contact/direction", Keyword("bins", even(2, 10000)), *TYPES, WALLS, PLANE),
+    compute(
+        "contact/force",
+        Keyword("bins", whole(1, 10000)),
+        Keyword("max", number("a positive number", ("1e-300", "1e300"), ("0", "-1"))),
+        Keyword("tail", number("a number, not negative", ("0", "1e300"), ("-1", "-1e-300"))),
+        *TYPES,
+        WALLS,
+    ),
+    compute(
+        "packing",
+        Keyword("rate", number("auto, a positive number or v_name", ("auto", "1e-300", "1e300"), ("0", "-1", "AUTO"))),
+        Keyword("rattlers", whole(1, 100)),
+        WALLS,
+        VOLUME,
+        PLANE,
+        PRESSURE,
+    ),
     compute("contact/local", *TYPES, WALLS, flags=COLUMNS, sort="column", order=(*COLUMNS, "types", "walls")),
     compute("fluctuation", PLANE, Keyword("layers", whole(1, 10000)), Keyword("diameter", LENGTH), *FLOW),
     compute("layering", Keyword("axis", choice("x", "y", "z")), Keyword("layers", even(2, 1000))),
