@@ -495,11 +495,11 @@ add_cases(wall/triangle cases/wall_triangle.py LABEL case STYLES wall/triangle w
 add_cases(packing cases/packing_measures.py LABEL case STYLES packing RANKS 1 2 LONG_RANKS 4 CASES
   spheres oblate chains at-walls)
 add_cases(packing cases/packing_measures.py LABEL case STYLES packing RANKS 1 LONG_RANKS 2 4 CASES
-  prolate blocky of-a-group empty-group inertial-number clumps-refused)
+  prolate blocky of-a-group in-regions empty-group inertial-number clumps-refused)
 add_cases(contact/force cases/contact_force.py LABEL case STYLES contact/force contact/local RANKS 1 2 LONG_RANKS 4
   CASES spheres prolate chains at-walls)
 add_cases(contact/force cases/contact_force.py LABEL case STYLES contact/force contact/local RANKS 1 LONG_RANKS 2 4
-  CASES oblate superquadric cohesive of-types of-a-group empty-group)
+  CASES oblate superquadric cohesive of-types in-a-region of-a-group empty-group)
 
 # Includes between the folders of src/
 add_cases(suite-floors cases/floors.py LABEL case STYLES suite CASES
@@ -541,3 +541,12 @@ add_cases(stress/contact-scope cases/scopes.py LABEL case STYLES stress/contact 
   planes-and-pressures volumes whole-box-warned-of)
 add_cases(nematic-scope cases/scopes.py LABEL case STYLES nematic RANKS 1 LONG_RANKS 4 CASES
   mixtures-of-shapes angles-in-planes)
+add_cases(stress/contact+fabric+dissipation-region cases/regions.py LABEL case
+  STYLES stress/contact fabric dissipation RANKS 1 4 LONG_RANKS 2 CASES
+  partition-of-a-sheared-box partition-between-walls)
+add_cases(stress/contact+nematic+contact/grain-region cases/regions.py LABEL case
+  STYLES stress/contact nematic contact/grain dissipation RANKS 1 4 LONG_RANKS 2 CASES places)
+add_cases(stress/contact-region cases/regions.py LABEL case STYLES stress/contact RANKS 1 LONG_RANKS 2 4 CASES
+  volumes-add-up nothing-there)
+add_cases(stress/contact+fabric-region cases/regions.py LABEL case STYLES stress/contact fabric dissipation
+  RANKS 1 2 CASES refused)

@@ -36,7 +36,8 @@ struct ComputeContactDirection::Impl {
 
 ComputeContactDirection::ComputeContactDirection(LAMMPS *lmp, int &iarg, int narg, char **arg)
     : ContactCompute(lmp, iarg, narg, arg,
-                     grainscope::Scope::types | grainscope::Scope::walls | grainscope::Scope::plane,
+                     grainscope::Scope::region | grainscope::Scope::types | grainscope::Scope::walls |
+                         grainscope::Scope::plane,
                      grainscope::Walls::no),
       impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);

@@ -24,9 +24,9 @@ class ComputeContactDirection : public grainscope::ContactCompute, public grains
  public:
   ComputeContactDirection(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeContactDirection() override;
-  bool needs_motion() const override { return false; }
 
  private:
+  bool reads_motion() const override { return false; }
   void answer() override;
 
   struct Impl;

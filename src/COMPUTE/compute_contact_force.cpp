@@ -88,7 +88,8 @@ struct ComputeContactForce::Impl {
 };
 
 ComputeContactForce::ComputeContactForce(LAMMPS *lmp, int &iarg, int narg, char **arg)
-    : ContactNetworkCompute(lmp, iarg, narg, arg, grainscope::Scope::types | grainscope::Scope::walls),
+    : ContactNetworkCompute(lmp, iarg, narg, arg,
+                            grainscope::Scope::region | grainscope::Scope::types | grainscope::Scope::walls),
       impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   int bins = 60;
@@ -107,6 +108,7 @@ ComputeContactForce::ComputeContactForce(LAMMPS *lmp, int &iarg, int narg, char 
 ComputeContactForce::~ComputeContactForce() {}
 
 void ComputeContactForce::begin_contacts() {
+  ContactNetworkCompute::begin_contacts();
   impl_->contacts.clear();
   impl_->links.clear();
   impl_->moments.reset();

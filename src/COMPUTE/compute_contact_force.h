@@ -27,10 +27,10 @@ class ComputeContactForce : public grainscope::ContactNetworkCompute, public gra
   void begin_contacts() override;
   void add_contacts(grainscope::ContactSpan contacts) override;
   void end_contacts() override;
-  bool needs_motion() const override { return false; }
   double memory_usage() override;
 
  private:
+  bool reads_motion() const override { return false; }
   void answer() override;
   void find_clusters(double mean);
 

@@ -43,7 +43,8 @@ struct ComputeContactGrain::Impl {
 
 ComputeContactGrain::ComputeContactGrain(LAMMPS *lmp, int &iarg, int narg, char **arg)
     : ContactCompute(lmp, iarg, narg, arg,
-                     grainscope::Scope::types | grainscope::Scope::walls | grainscope::Scope::plane),
+                     grainscope::Scope::region | grainscope::Scope::types | grainscope::Scope::walls |
+                         grainscope::Scope::plane),
       impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   while (!arguments.done()) {
@@ -62,6 +63,7 @@ void ComputeContactGrain::init() {
 }
 
 void ComputeContactGrain::begin_contacts() {
+  ContactCompute::begin_contacts();
   array_atom = impl_->rows.resize(atom->nmax, WIDTH);
   impl_->finished = false;
   impl_->tags.assign(atom->tag, atom->tag + atom->nlocal);

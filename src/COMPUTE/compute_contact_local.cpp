@@ -108,7 +108,8 @@ struct ComputeContactLocal::Impl {
 };
 
 ComputeContactLocal::ComputeContactLocal(LAMMPS *lmp, int &iarg, int narg, char **arg)
-    : ContactNetworkCompute(lmp, iarg, narg, arg, grainscope::Scope::types | grainscope::Scope::walls),
+    : ContactNetworkCompute(lmp, iarg, narg, arg,
+                            grainscope::Scope::region | grainscope::Scope::types | grainscope::Scope::walls),
       impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   std::vector<std::string> names;
@@ -136,12 +137,13 @@ ComputeContactLocal::ComputeContactLocal(LAMMPS *lmp, int &iarg, int narg, char 
 
 ComputeContactLocal::~ComputeContactLocal() {}
 
-bool ComputeContactLocal::needs_motion() const {
+bool ComputeContactLocal::reads_motion() const {
   return std::any_of(impl_->chosen.begin(), impl_->chosen.end(),
                      [](const Impl::Chosen &one) { return one.column->reads_motion; });
 }
 
 void ComputeContactLocal::begin_contacts() {
+  ContactNetworkCompute::begin_contacts();
   impl_->values.clear();
   impl_->normal_forces.clear();
   impl_->links.clear();

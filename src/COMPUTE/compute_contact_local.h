@@ -27,9 +27,9 @@ class ComputeContactLocal : public grainscope::ContactNetworkCompute, public gra
   void begin_contacts() override;
   void add_contacts(grainscope::ContactSpan contacts) override;
   void end_contacts() override;
-  bool needs_motion() const override;
 
  private:
+  bool reads_motion() const override;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 

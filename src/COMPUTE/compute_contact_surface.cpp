@@ -121,8 +121,12 @@ struct PressureSum : grainscope::ContactCompute::Accumulator {
     grainscope::ContactCompute::Selection all = of.selection();
     all.walls = grainscope::Walls::yes;
     all.narrow = false;
-    grainscope::for_each_contact(contacts, all,
-                                 [this](const Contact &c) { moments += c.weight * c.force.cwiseProduct(c.branch); });
+    const grainscope::RegionSolid *const region = of.scope().within();
+    grainscope::for_each_contact(contacts, all, [this, region](const Contact &c) {
+      const Vector3d to = c.motion->point - c.motion->arm;  // the centre of i
+      const double share = region ? c.weight * region->part(to - c.branch, to) : c.weight;
+      moments += share * c.force.cwiseProduct(c.branch);
+    });
   }
 };
 
@@ -142,8 +146,8 @@ struct ComputeContactSurface::Impl {
 
 ComputeContactSurface::ComputeContactSurface(LAMMPS *lmp, int &iarg, int narg, char **arg)
     : ContactCompute(lmp, iarg, narg, arg,
-                     grainscope::Scope::types | grainscope::Scope::walls | grainscope::Scope::pressure |
-                         grainscope::Scope::volume,
+                     grainscope::Scope::region | grainscope::Scope::types | grainscope::Scope::walls |
+                         grainscope::Scope::pressure | grainscope::Scope::volume,
                      grainscope::Walls::no),
       impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);

@@ -126,7 +126,8 @@ struct ComputeDissipation::Impl {
 
 ComputeDissipation::ComputeDissipation(LAMMPS *lmp, int &iarg, int narg, char **arg)
     : ContactCompute(lmp, iarg, narg, arg,
-                     grainscope::Scope::types | grainscope::Scope::rows | grainscope::Scope::walls),
+                     grainscope::Scope::region | grainscope::Scope::types | grainscope::Scope::rows |
+                         grainscope::Scope::walls),
       impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   while (!arguments.done()) {
@@ -137,8 +138,8 @@ ComputeDissipation::ComputeDissipation(LAMMPS *lmp, int &iarg, int narg, char **
   }
   if (impl_->mode == Mode::ledger) {
     grainscope::require_box(lmp, arguments);
-    if (scope_.by_types() || !scope_.type_pair().any())
-      arguments.fail("'mode ledger' knows no losses by types: 'mode step' does");
+    if (scope_.by_types() || !scope_.type_pair().any() || scope_.within())
+      arguments.fail("'mode ledger' knows no losses by types or of a region: 'mode step' does");
   }
   using Of = LossSums::Of;
   impl_->sums.mine().of = impl_->mode == Mode::instantaneous ? Of::powers

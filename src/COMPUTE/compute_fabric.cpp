@@ -77,8 +77,8 @@ struct ComputeFabric::Impl {
 
 ComputeFabric::ComputeFabric(LAMMPS *lmp, int &iarg, int narg, char **arg)
     : ContactCompute(lmp, iarg, narg, arg,
-                     grainscope::Scope::types | grainscope::Scope::rows | grainscope::Scope::walls |
-                         grainscope::Scope::plane,
+                     grainscope::Scope::region | grainscope::Scope::types | grainscope::Scope::rows |
+                         grainscope::Scope::walls | grainscope::Scope::plane,
                      grainscope::Walls::no),
       impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);

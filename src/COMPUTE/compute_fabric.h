@@ -25,9 +25,9 @@ class ComputeFabric : public grainscope::ContactCompute, public grainscope::Decl
   ComputeFabric(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeFabric() override;
   double memory_usage() override;
-  bool needs_motion() const override { return false; }
 
  private:
+  bool reads_motion() const override { return false; }
   void answer() override;
   void put_rows();
 

@@ -57,7 +57,7 @@ grainscope::Outputs declared() {
 }
 
 struct ComputeNematic::Impl {
-  explicit Impl(LAMMPS *lmp) : scope(lmp, "compute nematic", Scope::plane | Scope::axis) {}
+  explicit Impl(LAMMPS *lmp) : scope(lmp, "compute nematic", Scope::region | Scope::plane | Scope::axis) {}
   Scope scope;
   bool warned = false;
 };
@@ -82,9 +82,10 @@ void ComputeNematic::init() {
 
 void ComputeNematic::compute_vector() {
   invoked_vector = update->ntimestep;
+  impl_->scope.update(grainscope::BoxState(lmp));
   grainscope::NematicSums sums(impl_->scope.shear_plane().flow, impl_->scope.shear_plane().gradient);
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
+    if (!(atom->mask[i] & groupbit) || !impl_->scope.has_place(Eigen::Map<const Vector3d>(atom->x[i]))) continue;
     sums.add_spin(Eigen::Map<const Vector3d>(atom->omega[i]));
     if (!atom->superquadric_flag) continue;
     const grainscope::SymmetryAxis axis = chosen_axis(atom->shape[i], impl_->scope.axis_choice());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_packing.h"
 #include "arguments.h"
+#include "branches_in_region.h"
 #include "contact_network.h"
 #include "contact_observer.h"
 #include "contact_sums.h"
@@ -59,19 +60,22 @@ struct ComputePacking::Impl {
   explicit Impl(LAMMPS *lmp) : rate(lmp, "compute packing", "rate", rate_requirement) {}
   static constexpr const char *rate_requirement = "auto, a positive number or v_name";
 
-  grainscope::ContactSums<grainscope::StressSums> stress;
+  grainscope::ContactSums<grainscope::StressSums, grainscope::BranchesInRegion> stress;
   grainscope::RattlerSearch search;
   grainscope::NumberSource rate;  // none: the box's
   int limit = 0;                  // contacts of a grain that is no rattler; 0: the usual
-  // Of this rank, of the last evaluation
-  double grains = 0.0, rattlers = 0.0;
-  std::array<double, 2> backbone{};
+  /** Of the last evaluation: of grains, and of contacts of the backbone. */
+  struct Sums {
+    double grains = 0.0, rattlers = 0.0, volume = 0.0, mass = 0.0, diameter = 0.0, diameter2 = 0.0;
+    double contacts = 0.0, wall_contacts = 0.0;
+  };
+  Sums of_rank;
 };
 
 ComputePacking::ComputePacking(LAMMPS *lmp, int &iarg, int narg, char **arg)
     : ContactNetworkCompute(lmp, iarg, narg, arg,
-                            grainscope::Scope::walls | grainscope::Scope::volume | grainscope::Scope::plane |
-                                grainscope::Scope::pressure),
+                            grainscope::Scope::region | grainscope::Scope::walls | grainscope::Scope::volume |
+                                grainscope::Scope::plane | grainscope::Scope::pressure),
       impl_(new Impl(lmp)) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   while (!arguments.done()) {
@@ -112,9 +116,12 @@ void ComputePacking::begin_contacts() {
   impl_->search.reset();
 }
 
+/** Rattlers are found among all grains of the group; those in a region, and contacts there, are counted. */
 void ComputePacking::add_contacts(grainscope::ContactSpan contacts) {
   ContactNetworkCompute::add_contacts(contacts);
-  grainscope::for_each_contact(contacts, selection(), [this](const grainscope::Contact &c) { impl_->search.add(c); });
+  grainscope::for_each_contact(contacts, selection().everywhere(), [this](const grainscope::Contact &c) {
+    impl_->search.add(c, !scope_.within() || scope_.has_place(c.motion->point));
+  });
 }
 
 void ComputePacking::end_contacts() {
@@ -122,11 +129,24 @@ void ComputePacking::end_contacts() {
   const int limit = my.limit ? my.limit : usual_limit(domain->dimension);
   std::vector<double> held(local_and_ghosts());
   for (std::size_t i = 0; i < held.size(); i++) held[i] = in_group(i);
-  const auto kept = [&held, this] { return std::count(held.begin(), held.begin() + atom->nlocal, 1.0); };
-  my.grains = kept();
   while (on_any_rank(my.search.remove(limit, atom->nlocal, held))) owners_to_ghosts(held);
-  my.rattlers = my.grains - kept();
-  my.backbone = my.search.contacts(held);
+  const std::array<double, 2> backbone = my.search.contacts(held);
+  my.of_rank = Impl::Sums();
+  my.of_rank.contacts = backbone[0];
+  my.of_rank.wall_contacts = backbone[1];
+  for (int i = 0; i < atom->nlocal; i++)
+    if (in_group(i) && scope_.has_place(Eigen::Map<const Eigen::Vector3d>(atom->x[i]))) add_grain(i, held[i] == 0.0);
+}
+
+void ComputePacking::add_grain(int i, bool rattler) {
+  Impl::Sums &sums = impl_->of_rank;
+  const double d = grainscope::equivalent_diameter(*atom, i);
+  sums.grains += 1.0;
+  sums.rattlers += rattler ? 1.0 : 0.0;
+  sums.volume += grainscope::solid_volume(*atom, i, domain->dimension);
+  sums.mass += atom->rmass[i];
+  sums.diameter += d;
+  sums.diameter2 += d * d;
 }
 
 void ComputePacking::answer() {
@@ -134,30 +154,20 @@ void ComputePacking::answer() {
   const grainscope::StressSums &sums = impl_->stress.total(*this);
   const grainscope::BoxState &box = observer_->box();
   const double omega = scope_.volume_now(box);
-
-  double solid = 0.0, mass = 0.0, d1 = 0.0, d2 = 0.0;
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!in_group(i)) continue;
-    const double d = grainscope::equivalent_diameter(*atom, i);
-    solid += grainscope::solid_volume(*atom, i, domain->dimension);
-    mass += atom->rmass[i];
-    d1 += d;
-    d2 += d * d;
-  }
-  double all[] = {my.grains, my.rattlers, my.backbone[0], my.backbone[1], solid, mass, d1, d2};
-  sum_over_ranks(all, 8);
-  const double n = all[0], rattlers = all[1];
-  solid = all[4];
-  const double d = ratio(all[6], n), rho = ratio(all[5], solid);
-  const double spread = std::sqrt(std::max(0.0, ratio(all[7], n) - d * d));
+  Impl::Sums all = my.of_rank;
+  static_assert(sizeof all == 8 * sizeof(double), "what ranks add up");
+  sum_over_ranks(&all.grains, 8);
+  const double n = all.grains, d = ratio(all.diameter, n), rho = ratio(all.mass, all.volume);
+  const double spread = std::sqrt(std::max(0.0, ratio(all.diameter2, n) - d * d));
 
   const double pressure = scope_.pressure_of(sums.total(1.0), domain->dimension) * force->nktv2p / omega + 0.0;
   const grainscope::Plane &plane = scope_.shear_plane();
   const double rate = my.rate.given() ? my.rate.now() : std::fabs(box.velocity_gradient(plane.flow, plane.gradient));
   const double inertial = pressure > 0.0 ? rate * d * std::sqrt(rho * force->mvv2e * force->nktv2p / pressure) : 0.0;
   const double of_grains = sums.contacts_of_grains(), with_walls = sums.contacts_with_walls();
-  scalar = solid / omega;
-  put_vector({scalar, d, inertial, ratio(2.0 * of_grains + with_walls, n), ratio(2.0 * all[2] + all[3], n - rattlers),
-              ratio(rattlers, n), n, of_grains, with_walls, rattlers, all[2], all[3], pressure, rate, rho, solid, omega,
+  scalar = all.volume / omega;
+  put_vector({scalar, d, inertial, ratio(2.0 * of_grains + with_walls, n),
+              ratio(2.0 * all.contacts + all.wall_contacts, n - all.rattlers), ratio(all.rattlers, n), n, of_grains,
+              with_walls, all.rattlers, all.contacts, all.wall_contacts, pressure, rate, rho, all.volume, omega,
               ratio(spread, d)});
 }

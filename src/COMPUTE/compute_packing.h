@@ -28,11 +28,12 @@ class ComputePacking : public grainscope::ContactNetworkCompute, public grainsco
   void begin_contacts() override;
   void add_contacts(grainscope::ContactSpan contacts) override;
   void end_contacts() override;
-  bool needs_motion() const override { return false; }
   bool needs_images() const override { return false; }
 
  private:
+  bool reads_motion() const override { return false; }
   void answer() override;
+  void add_grain(int i, bool rattler);
   void require_single_grains() const;
 
   struct Impl;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_stress_contact.h"
 #include "arguments.h"
+#include "branches_in_region.h"
 #include "contact_law.h"
 #include "contact_observer.h"
 #include "contact_sums.h"
@@ -25,6 +26,8 @@
 using namespace LAMMPS_NS;
 
 namespace {
+
+using grainscope::StressSums;
 
 // Bilotto et al. 2025, Sec. II: above it results do not depend on the stiffness.
 const double hard_grains = 1.1e3;
@@ -67,14 +70,15 @@ grainscope::Outputs declared(const grainscope::TypePairs *pairs) {
 }
 
 struct ComputeStressContact::Impl {
-  grainscope::ContactSums<grainscope::StressSums> sums;
-  std::unique_ptr<grainscope::TypePairSums<grainscope::StressSums>> of_types;  // of 'rows types'
+  grainscope::ContactSums<StressSums, grainscope::BranchesInRegion> sums;
+  std::unique_ptr<grainscope::TypePairSums<StressSums, grainscope::BranchesInRegion>> of_types;  // of 'rows types'
 };
 
 ComputeStressContact::ComputeStressContact(LAMMPS *lmp, int &iarg, int narg, char **arg)
     : ContactCompute(lmp, iarg, narg, arg,
-                     grainscope::Scope::types | grainscope::Scope::rows | grainscope::Scope::walls |
-                         grainscope::Scope::volume | grainscope::Scope::plane | grainscope::Scope::pressure),
+                     grainscope::Scope::region | grainscope::Scope::types | grainscope::Scope::rows |
+                         grainscope::Scope::walls | grainscope::Scope::volume | grainscope::Scope::plane |
+                         grainscope::Scope::pressure),
       impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   while (!arguments.done()) {
@@ -83,7 +87,7 @@ ComputeStressContact::ComputeStressContact(LAMMPS *lmp, int &iarg, int narg, cha
   }
   sums_over(impl_->sums);
   if (scope_.by_types()) {
-    impl_->of_types.reset(new grainscope::TypePairSums<grainscope::StressSums>(type_pairs()));
+    impl_->of_types.reset(new grainscope::TypePairSums<StressSums, grainscope::BranchesInRegion>(type_pairs()));
     sums_over(*impl_->of_types);
   }
   declare(this, declared(impl_->of_types ? &impl_->of_types->pairs() : nullptr));
@@ -135,12 +139,12 @@ double ComputeStressContact::flattest_shape() const {
 }
 
 void ComputeStressContact::answer() {
-  const grainscope::StressSums &all = impl_->sums.total(*this);
+  const StressSums &all = impl_->sums.total(*this);
   double largest_overlap = impl_->sums.mine().largest_overlap;
   MPI_Allreduce(MPI_IN_PLACE, &largest_overlap, 1, MPI_DOUBLE, MPI_MAX, world);
 
   const grainscope::BoxState &box = observer_->box();
-  const grainscope::Fluctuations motion(lmp, groupbit, box);
+  const grainscope::Fluctuations motion(lmp, {groupbit, scope_.within()}, box);
   // Forces over areas are in pressure units only where force->nktv2p is 1; cgs and si both are.
   const double unit = force->nktv2p / scope_.volume_now(box);
   const Eigen::Matrix3d total = all.total(1.0) * unit;

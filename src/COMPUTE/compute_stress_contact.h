@@ -26,9 +26,9 @@ class ComputeStressContact : public grainscope::ContactCompute, public grainscop
   ComputeStressContact(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeStressContact() override;
   void init() override;
-  bool needs_motion() const override { return false; }
 
  private:
+  bool reads_motion() const override { return false; }
   struct Impl;
   std::unique_ptr<Impl> impl_;
   grainscope::RangeWarning soft_;

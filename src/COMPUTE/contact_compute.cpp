@@ -38,6 +38,7 @@ bool ContactCompute::wants_contacts() {
 }
 
 void ContactCompute::begin_contacts() {
+  scope_.update(observer_->box());
   for (Accumulator *one : sums_) one->reset();
 }
 
@@ -95,7 +96,8 @@ TypePairs ContactCompute::type_pairs() const {
 
 ContactCompute::Selection ContactCompute::selection() const {
   const TypePair &types = scope_.type_pair();
-  return {atom->mask, groupbit, scope_.chosen_walls(), !types.any(), types};
+  const RegionSolid *const region = scope_.within();
+  return {atom->mask, groupbit, scope_.chosen_walls(), region || !types.any(), types, region};
 }
 
 const ContactLaw &ContactCompute::law() const { return PairGranInsitu::required_by(lmp, name_.c_str())->law(); }

@@ -44,6 +44,7 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
   void begin_contacts() override;
   void add_contacts(ContactSpan contacts) override;
   void end_run() override;
+  bool needs_motion() const override { return reads_motion() || scope_.within(); }
 
   /** The contacts that belong to the measure: all of their grains are in the group, and the scope has them. */
   struct Selection {
@@ -52,7 +53,12 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
     Walls walls;
     bool narrow;  // there is more to ask for
     TypePair types;
+    const RegionSolid *region;
     bool has(const Contact &c) const;
+    /** By group and walls alone. */
+    bool takes_grains_of(const Contact &c) const;
+    /** Wherever they are. */
+    Selection everywhere() const;
   };
   Selection selection() const;
   const Scope &scope() const { return scope_; }
@@ -65,6 +71,8 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
   Scope scope_;
 
   void sums_over(Accumulator &sums) { sums_.push_back(&sums); }
+  /** False if Contact::motion is not used, but for the place of contacts in a region. */
+  virtual bool reads_motion() const { return true; }
   /** Fills scalar, vector and array, as far as there are, for the evaluation that was tallied. Collective. */
   virtual void answer();
 

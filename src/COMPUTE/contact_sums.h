@@ -12,24 +12,47 @@
 namespace grainscope {
 
 inline bool ContactCompute::Selection::has(const Contact &c) const {
-  if (narrow && !types.has(c.type_i, c.type_j)) return false;
+  if (narrow && !(types.has(c.type_i, c.type_j) && (!region || region->has(c.motion->point)))) return false;
+  return takes_grains_of(c);
+}
+
+inline bool ContactCompute::Selection::takes_grains_of(const Contact &c) const {
   const PartnerGrain *other = std::get_if<PartnerGrain>(&c.partner);
   if (!other) return walls != Walls::no && (mask[c.i] & bit);
   return (mask[c.i] & mask[other->index] & bit) && walls != Walls::only;
 }
 
+inline ContactCompute::Selection ContactCompute::Selection::everywhere() const {
+  Selection all = *this;
+  all.region = nullptr;
+  return all;
+}
+
 /** Calls `use` with each of the contacts that belongs to the measure. */
 template <class Use>
 void for_each_contact(ContactSpan contacts, ContactCompute::Selection selection, const Use &use) {
+  if (!selection.narrow) {
+    for (const Contact &c : contacts)
+      if (selection.takes_grains_of(c)) use(c);
+    return;
+  }
   for (const Contact &c : contacts)
     if (selection.has(c)) use(c);
 }
+
+/** A contact belongs to a region as a whole, by its contact point. */
+struct WholeContacts {
+  template <class KernelOf>
+  static void add(ContactSpan contacts, const ContactCompute &of, const KernelOf &kernel_of) {
+    for_each_contact(contacts, of.selection(), [&kernel_of](const Contact &c) { kernel_of(c).add(c); });
+  }
+};
 
 /** Sums over the contacts of a compute's group. The kernel has
  *    reset()                 forget everything
  *    add(const Contact &)    one contact; its weight makes sums over ranks count it once
  *    numbers()               what ranks add up: doubles, with data() and size(). */
-template <class Kernel>
+template <class Kernel, class Way = WholeContacts>
 class ContactSums : public ContactCompute::Accumulator {
  public:
   explicit ContactSums(Kernel kernel = Kernel()) : mine_(std::move(kernel)) {}
@@ -39,7 +62,7 @@ class ContactSums : public ContactCompute::Accumulator {
     reduced_ = false;
   }
   void add(ContactSpan contacts, const ContactCompute &of) override {
-    for_each_contact(contacts, of.selection(), [this](const Contact &c) { mine_.add(c); });
+    Way::add(contacts, of, [this](const Contact &) -> Kernel & { return mine_; });
   }
   /** Of this rank. */
   Kernel &mine() { return mine_; }
@@ -59,7 +82,7 @@ class ContactSums : public ContactCompute::Accumulator {
 };
 
 /** The same for each pair of atom types: together they add up to the sums over all contacts. */
-template <class Kernel>
+template <class Kernel, class Way = WholeContacts>
 class TypePairSums : public ContactCompute::Accumulator {
  public:
   explicit TypePairSums(TypePairs pairs, const Kernel &kernel = Kernel())
@@ -69,8 +92,7 @@ class TypePairSums : public ContactCompute::Accumulator {
     for (Kernel &row : rows_) row.reset();
   }
   void add(ContactSpan contacts, const ContactCompute &of) override {
-    for_each_contact(contacts, of.selection(),
-                     [this](const Contact &c) { rows_[pairs_.index(c.type_i, c.type_j)].add(c); });
+    Way::add(contacts, of, [this](const Contact &c) -> Kernel & { return rows_[pairs_.index(c.type_i, c.type_j)]; });
   }
   const TypePairs &pairs() const { return pairs_; }
   /** Of this rank, by the numbers of the pairs. */

@@ -20,7 +20,10 @@ namespace grainscope {
 class RattlerSearch {
  public:
   void reset() { contacts_.clear(); }
-  void add(const Contact &c) { contacts_.push_back({c.i, c.with_wall() ? wall : c.j(), c.weight}); }
+  /** `counts`: in contacts(), too; it holds its grains in any case. */
+  void add(const Contact &c, bool counts = true) {
+    contacts_.push_back({c.i, c.with_wall() ? wall : c.j(), counts ? c.weight : 0.0});
+  }
 
   /** Clears `held` of the first `owned` grains as far as is known on this rank; ghosts stay as they are. True when it
    *  cleared any. */

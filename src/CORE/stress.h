@@ -17,10 +17,17 @@ struct StressSums {
   double largest_overlap = 0.0;
 
   void add(const Contact &c) {
+    add_moments(c, c.weight);
+    count(c);
+  }
+  /** The share of the branch that counts, times the weight of the contact. */
+  void add_moments(const Contact &c, double share) {
     Eigen::Matrix<double, 6, 1> forces;
     forces << c.force, c.tangential_force;
-    const Eigen::Vector3d r = c.weight * c.branch;
+    const Eigen::Vector3d r = share * c.branch;
     Moments(sums.data()).noalias() += forces * r.transpose();
+  }
+  void count(const Contact &c) {
     sums[c.with_wall() ? 19 : 18] += c.weight;
     sums[20] += c.sliding ? c.weight : 0.0;
     sums[21] += c.weight * c.overlap;

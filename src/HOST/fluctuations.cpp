@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fluctuations.h"
 #include "arguments.h"
+#include "region_solid.h"
 #include "require_finite.h"
 #include "symmetric_tensor.h"
 #include "atom.h"
@@ -34,39 +35,40 @@ void MeanFlow::read(Arguments &arguments) {
 
 /** The grains of the group, with what their velocity has beside flow(x). */
 template <class Flow>
-inline void Fluctuations::collect(int groupbit, Flow flow) {
+inline void Fluctuations::collect(ChosenGrains chosen, Flow flow) {
   const LAMMPS_NS::Atom *atom = lmp_->atom;
   local_.resize(atom->nlocal);
   Grain *grain = local_.data();
   for (int i = 0, n = atom->nlocal; i < n; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
+    if (!(atom->mask[i] & chosen.groupbit)) continue;
+    if (chosen.region && !chosen.region->has(Map<const Vector3d>(atom->x[i]))) continue;
     const double m = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
     *grain++ = {i, 0, m, Map<const Vector3d>(atom->v[i]) - flow(Map<const Vector3d>(atom->x[i]))};
   }
   local_.resize(grain - local_.data());
 }
 
-Fluctuations::Fluctuations(LAMMPS_NS::LAMMPS *lmp, int groupbit, const BoxState &box) : lmp_(lmp), means_(1) {
+Fluctuations::Fluctuations(LAMMPS_NS::LAMMPS *lmp, ChosenGrains chosen, const BoxState &box) : lmp_(lmp), means_(1) {
   const AffineFlow affine = box;  // a copy, which no store of a grain may change
-  collect(groupbit, [&affine](const Vector3d &x) { return affine.flow(x); });
+  collect(chosen, [&affine](const Vector3d &x) { return affine.flow(x); });
   find_mean_velocity();
 }
 
-Fluctuations::Fluctuations(LAMMPS_NS::LAMMPS *lmp, int groupbit, const BoxState &box, const MeanFlow &flow)
+Fluctuations::Fluctuations(LAMMPS_NS::LAMMPS *lmp, ChosenGrains chosen, const BoxState &box, const MeanFlow &flow)
     : lmp_(lmp), means_(flow.kind == MeanFlow::Kind::layers ? flow.layers : 1) {
   const int along = flow.plane.flow, across = flow.plane.gradient;
   switch (flow.kind) {
     case MeanFlow::Kind::box:
-    case MeanFlow::Kind::layers: collect(groupbit, [&](const Vector3d &x) { return box.flow(x); }); break;
+    case MeanFlow::Kind::layers: collect(chosen, [&](const Vector3d &x) { return box.flow(x); }); break;
     case MeanFlow::Kind::rate:
-      collect(groupbit, [&](const Vector3d &x) {
+      collect(chosen, [&](const Vector3d &x) {
         Vector3d shear = Vector3d::Zero();
         shear[along] = flow.rate * (x[across] - box.centre[across]);
         return shear;
       });
       break;
     case MeanFlow::Kind::fit:
-      collect(groupbit, [](const Vector3d &) { return Vector3d(Vector3d::Zero()); });
+      collect(chosen, [](const Vector3d &) { return Vector3d(Vector3d::Zero()); });
       subtract_line(across);
       break;
   }

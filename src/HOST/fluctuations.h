@@ -14,6 +14,15 @@ class LAMMPS;
 namespace grainscope {
 
 class Arguments;
+class RegionSolid;
+
+/** Grains of a group, and where it is given with their centres in a region. */
+struct ChosenGrains {
+  int groupbit;
+  const RegionSolid *region = nullptr;
+
+  ChosenGrains(int groupbit, const RegionSolid *region = nullptr) : groupbit(groupbit), region(region) {}
+};
 
 /** What is taken for the mean flow: the affine flow of the box; a given rate; the straight line fitted to the
  *  velocities; or the mean of each of `layers` layers across the gradient. The group's mean (by mass) is taken out in
@@ -40,8 +49,8 @@ class Fluctuations {
   };
 
   /** Against the affine flow of the box; spins are not asked for. */
-  Fluctuations(LAMMPS_NS::LAMMPS *lmp, int groupbit, const BoxState &box);
-  Fluctuations(LAMMPS_NS::LAMMPS *lmp, int groupbit, const BoxState &box, const MeanFlow &flow);
+  Fluctuations(LAMMPS_NS::LAMMPS *lmp, ChosenGrains chosen, const BoxState &box);
+  Fluctuations(LAMMPS_NS::LAMMPS *lmp, ChosenGrains chosen, const BoxState &box, const MeanFlow &flow);
 
   /** This rank's grains of the group. */
   const std::vector<Grain> &local() const { return local_; }
@@ -68,7 +77,7 @@ class Fluctuations {
   Eigen::Vector3d slope_ = Eigen::Vector3d::Zero();
 
   template <class Flow>
-  void collect(int groupbit, Flow flow);
+  void collect(ChosenGrains chosen, Flow flow);
   void find_layers(const BoxState &box, int gradient, int layers);
   void subtract_line(int gradient);
   void find_mean_velocity();

@@ -16,9 +16,9 @@ struct Name {
   const char *name;
 };
 
-const Name names[] = {{Scope::types, "types"},   {Scope::rows, "rows"},   {Scope::walls, "walls"},
-                      {Scope::volume, "volume"}, {Scope::plane, "plane"}, {Scope::pressure, "pressure"},
-                      {Scope::axis, "axis"}};
+const Name names[] = {{Scope::region, "region"},     {Scope::types, "types"},   {Scope::rows, "rows"},
+                      {Scope::walls, "walls"},       {Scope::volume, "volume"}, {Scope::plane, "plane"},
+                      {Scope::pressure, "pressure"}, {Scope::axis, "axis"}};
 
 const int most_types = 1000000;
 const char *const volume_requirement = "auto, a positive number or v_name";
@@ -40,6 +40,7 @@ bool Scope::read(Arguments &arguments, const std::string &keyword) {
   for (const Name &one : names)
     if (keyword == one.name) which = one.keyword & keywords_;
   switch (which) {
+    case region: region_.reset(new RegionSolid(lmp, style_, arguments.word("the ID of a region"))); return true;
     case types: read_types(arguments); return true;
     case rows: by_types_ = arguments.choice(keyword, {"types"}) == "types"; return true;
     case walls: {
@@ -90,19 +91,42 @@ void Scope::init() {
           .fail("types", "at most " + std::to_string(atom->ntypes) + ", the atom types that there are",
                 std::to_string(type));
   volume_.init();
-  if ((keywords_ & volume) && !volume_given_) warn_of_whole_box();
+  if (region_) init_region();
+  else if ((keywords_ & volume) && !volume_given_) warn_of_whole_box();
+}
+
+/** What will be asked of the region must be known. */
+void Scope::init_region() {
+  region_->init();
+  if (!(keywords_ & volume)) return;
+  region_->require_parts();
+  if (volume_.given()) return;
+  region_->update(BoxState(lmp));
+  volume_of_region();
+}
+
+double Scope::volume_of_region() const {
+  double value = 0.0;
+  std::string why;
+  if (!region_->volume(value, why))
+    Arguments(lmp, style_).fail("the volume of the region is not known (" + why + "): give it, 'volume V'");
+  return value;
 }
 
 void Scope::warn_of_whole_box() {
   if (warned_ || (domain->xperiodic && domain->yperiodic && domain->zperiodic)) return;
   warned_ = true;
   if (comm->me == 0)
-    error->warning(FLERR,
-                   (style_ + ": stresses are per volume of the whole box, and grains need not fill one that is not "
-                             "periodic: say 'volume V' of what they fill, or 'volume auto' where the box is meant")
-                       .c_str());
+    error->warning(
+        FLERR,
+        (style_ + ": stresses are per volume of the whole box, and grains need not fill one that is not "
+                  "periodic: say 'region ID' or 'volume V' of what they fill, or 'volume auto' where the box is meant")
+            .c_str());
 }
 
-double Scope::volume_now(const BoxState &box) const { return volume_.given() ? volume_.now() : box.volume; }
+double Scope::volume_now(const BoxState &box) const {
+  if (volume_.given()) return volume_.now();
+  return region_ ? volume_of_region() : box.volume;
+}
 
 }

@@ -5,6 +5,7 @@
 #include "number_source.h"
 #include "plane.h"
 #include "pointers.h"
+#include "region_solid.h"
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,7 +13,6 @@
 namespace grainscope {
 
 class Arguments;
-struct BoxState;
 
 /** Contacts with walls, as the keyword `walls` chooses them. */
 enum class Walls { no, yes, only };
@@ -33,17 +33,28 @@ enum class AxisChoice { symmetry, longest, shortest };
 
 /** What a measure is of, beside its group: keywords that have one meaning in all measures and are read in one place.
  *
+ *    region ID        what lies in a region of the host, which may move
  *    types a b        contacts of atom types a and b, each a number or *
  *    rows types       beside the totals, an array with a row for each pair of types
  *    walls no|yes|only
- *    volume auto|V|v_name   what stresses and densities are per: the box's, an area in two dimensions
+ *    volume auto|V|v_name   what stresses and densities are per: the region's or the box's, an area in
+ *                           two dimensions
  *    plane xy|xz|yz   flow and gradient
  *    pressure x|y|z|mean    -sigma_aa or -tr sigma/dimension; default: a is the gradient of the plane
  *    axis auto|symmetry|long|short */
 class Scope : private LAMMPS_NS::Pointers {
  public:
   /** Keywords that a measure understands. */
-  enum Keywords : unsigned { types = 1, rows = 2, walls = 4, volume = 8, plane = 16, pressure = 32, axis = 64 };
+  enum Keywords : unsigned {
+    types = 1,
+    rows = 2,
+    walls = 4,
+    volume = 8,
+    plane = 16,
+    pressure = 32,
+    axis = 64,
+    region = 128
+  };
 
   /** `style` for messages. */
   Scope(LAMMPS_NS::LAMMPS *lmp, const std::string &style, unsigned keywords);
@@ -56,6 +67,14 @@ class Scope : private LAMMPS_NS::Pointers {
    *  a box that grains need not fill and nobody said so. */
   void init();
 
+  /** Before use in a step: a region may move. Collective. */
+  void update(const BoxState &box) {
+    if (region_) region_->update(box);
+  }
+
+  /** The region, null for everywhere. */
+  const RegionSolid *within() const { return region_.get(); }
+  bool has_place(const Eigen::Vector3d &x) const { return !region_ || region_->has(x); }
   const TypePair &type_pair() const { return types_; }
   bool by_types() const { return by_types_; }
   Walls chosen_walls() const { return walls_; }
@@ -64,7 +83,7 @@ class Scope : private LAMMPS_NS::Pointers {
   AxisChoice axis_choice() const { return axis_; }
   /** Nobody said which axis, so that long and flat grains in one group are worth a warning. */
   bool axis_is_automatic() const { return axis_is_automatic_; }
-  /** What stresses and densities are per. Collective. */
+  /** What stresses and densities are per, after update(). Collective. */
   double volume_now(const BoxState &box) const;
   /** -sigma_aa, or -tr sigma/dimension, tension positive. */
   template <class Tensor>
@@ -79,6 +98,7 @@ class Scope : private LAMMPS_NS::Pointers {
 
   std::string style_;
   unsigned keywords_;
+  std::unique_ptr<RegionSolid> region_;
   TypePair types_;
   bool by_types_ = false;
   Walls walls_ = Walls::yes;
@@ -94,6 +114,8 @@ class Scope : private LAMMPS_NS::Pointers {
   void read_volume(Arguments &arguments);
   void read_axis(Arguments &arguments);
   void warn_of_whole_box();
+  void init_region();
+  double volume_of_region() const;
 };
 
 }

@@ -96,6 +96,16 @@ def of_types(ranks):
         require_agreement(*one)
 
 
+def in_a_region(ranks):
+    """The contacts whose points are in it."""
+    deck = Deck(dense_packing(sizes=(0.9, 1.0, 1.1), atom_style="sphere", overlap=0.001, speed=1.0, minimum=200))
+    middle = " ".join(repr(0.5 * e) for e in deck.packing.edges)
+    deck.body = [shear(0.3), f"region ball sphere {middle} 4.5 units box"]
+    for one in measured(deck, ranks, "region ball"):
+        require_agreement(*one)
+        require(100 < one[0]["N_c"] < 500, "some of the contacts")
+
+
 def of_a_group(ranks):
     packing = dense_packing(sizes=(0.9, 1.0, 1.1), atom_style="sphere", overlap=0.001, speed=1.0)
     deck = Deck(packing)
@@ -163,6 +173,7 @@ CASES = {
     "cohesive": agrees(1.0, "sphere", cohesion="sjkr"),
     "at-walls": at_walls,
     "of-types": of_types,
+    "in-a-region": in_a_region,
     "of-a-group": of_a_group,
     "empty-group": empty_group,
     "chains": chains,

@@ -24,6 +24,9 @@ ROWS = ["compute rows chosen contact/local id force branch"]
 LOOSE = {"overlap": -0.002, "speed": 1.0, "minimum": 200}  # contacts open and close: there are rattlers
 
 
+PARTS = {"whole": "", "left": "region left", "right": "region right"}
+
+
 def given(table, row):
     return {name: float(table[C_IT[name]][row]) for name in MEASURE.names("vector")}
 
@@ -163,6 +166,32 @@ def at_walls(ranks):
         require(walls == "no" or found[-1][0]["N_w"] > 50, "contacts with walls")
 
 
+def in_regions(ranks):
+    """Two halves of the box add up to it; rattlers are those of the whole."""
+    packing = replace(dense_packing(sizes=(0.9, 1.0, 1.1), atom_style="sphere", **LOOSE), triclinic=False)
+    (lx, ly, lz), deck = packing.edges, Deck(packing)
+    deck.body = [
+        f"region left block 0 {0.4 * lx!r} 0 {ly!r} 0 {lz!r} units box",
+        f"region right block 0 {0.4 * lx!r} 0 {ly!r} 0 {lz!r} side out units box",
+        *(f"compute {name} all packing rate 1 {words}" for name, words in PARTS.items()),
+        *thermo(20, *(word for name in PARTS for word in MEASURE.of(name).vector())),
+        "run 60",
+    ]
+    table = run(deck, ranks).thermo()[-1]
+    for row in range(len(table["step"])):
+        whole, left, right = (
+            {name: float(table[MEASURE.of(part)[name]][row]) for name in MEASURE.names("vector")} for part in PARTS
+        )
+        for name in ("N", "N_c", "N_rattlers", "N_c_backbone"):
+            require_equal(left[name] + right[name], whole[name], name)
+        for name in ("V_s", "Omega"):
+            require_close(left[name] + right[name], whole[name], 1e-12, name)
+        for name in ("phi", "P"):
+            parts = sum(part[name] * part["Omega"] for part in (left, right))
+            require_close(parts, whole[name] * whole["Omega"], 1e-12, name)
+        require(left["N"] > 40 and whole["N_rattlers"] > 0, "grains")
+
+
 def line_of_spheres(count, pitch, length):
     grains = [Grain(((k + 0.5) * pitch, 6.0, 6.0)) for k in range(count)]
     return Packing((length, 12.0, 12.0), grains, atom_style="sphere", triclinic=False)
@@ -220,6 +249,7 @@ CASES = {
     "of-a-group": of_a_group,
     "empty-group": empty_group,
     "at-walls": at_walls,
+    "in-regions": in_regions,
     "chains": chains,
     "inertial-number": inertial_number,
     "clumps-refused": clumps_refused,

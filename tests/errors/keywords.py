@@ -14,6 +14,11 @@ TYPE = Kind(
     "two atom types, each a number or *", ("1 1", "* *", "1 *"), NOT_NUMBERS + ("0", "-1", "1.5", "1000001", "**")
 )
 TYPES = [Keyword("types", TYPE), Keyword("types 1", Kind(TYPE.requirement, ("1", "*"), TYPE.bad), "types")]
+REGION = Keyword(
+    "region",
+    Kind("a region that is defined", ("box",), ("q", "", "nan", "BOX")),
+    ends="expected the ID of a region after 'region', got the end of the command",
+)
 ROWS = Keyword("rows", choice("types"))
 VOLUME = Keyword(
     "volume", number("auto, a positive number or v_name", ("auto", "1e-300", "1e300"), ("0", "-1", "AUTO", "autos"))
@@ -73,6 +78,8 @@ COLUMNS = (
 
 
 def compute(style, *keywords, **choices):
+    if REGION in keywords:
+        choices.setdefault("before", ("region box block 0 10 0 10 0 10 units box",))
     return Style(f"compute {style}", f"compute c all {style}", list(keywords), **choices)
 
 
@@ -149,9 +156,9 @@ NAMES_OF_WALLS = [
     ),
 ]
 STYLES = [
-    compute("stress/contact", *TYPES, ROWS, WALLS, VOLUME, PLANE, PRESSURE),
-    compute("nematic", PLANE, AXIS),
-    compute("contact/grain", *TYPES, WALLS, PLANE),
+    compute("stress/contact", REGION, *TYPES, ROWS, WALLS, VOLUME, PLANE, PRESSURE),
+    compute("nematic", REGION, PLANE, AXIS),
+    compute("contact/grain", REGION, *TYPES, WALLS, PLANE),
     compute("contact/solver"),
     compute("energy/ledger"),
     compute(
@@ -195,32 +202,35 @@ STYLES = [
             ),
         ],
     ),
-    compute("dissipation", Keyword("mode", choice("instantaneous", "step", "ledger")), *TYPES, ROWS, WALLS),
+    compute("dissipation", Keyword("mode", choice("instantaneous", "step", "ledger")), REGION, *TYPES, ROWS, WALLS),
     compute(
         "fabric",
+        REGION,
         *TYPES,
         ROWS,
         WALLS,
         PLANE,
         flags=("branch", "force/normal", "force/tangential"),
-        order=("branch", "force/normal", "force/tangential", "types", "rows", "walls", "plane"),
+        order=("branch", "force/normal", "force/tangential", "region", "types", "rows", "walls", "plane"),
     ),
     compute(
         "contact/surface",
         Keyword("bins", whole(1, 1000)),
         Keyword("angle", choice("polar", "parametric")),
         Keyword("axis", choice("auto", "x", "y", "z")),
+        REGION,
         *TYPES,
         WALLS,
         VOLUME,
         PRESSURE,
     ),
-    compute("contact/direction", Keyword("bins", even(2, 10000)), *TYPES, WALLS, PLANE),
+    compute("contact/direction", Keyword("bins", even(2, 10000)), REGION, *TYPES, WALLS, PLANE),
     compute(
         "contact/force",
         Keyword("bins", whole(1, 10000)),
         Keyword("max", number("a positive number", ("1e-300", "1e300"), ("0", "-1"))),
         Keyword("tail", number("a number, not negative", ("0", "1e300"), ("-1", "-1e-300"))),
+        REGION,
         *TYPES,
         WALLS,
     ),
@@ -228,12 +238,21 @@ STYLES = [
         "packing",
         Keyword("rate", number("auto, a positive number or v_name", ("auto", "1e-300", "1e300"), ("0", "-1", "AUTO"))),
         Keyword("rattlers", whole(1, 100)),
+        REGION,
         WALLS,
         VOLUME,
         PLANE,
         PRESSURE,
     ),
-    compute("contact/local", *TYPES, WALLS, flags=COLUMNS, sort="column", order=(*COLUMNS, "types", "walls")),
+    compute(
+        "contact/local",
+        REGION,
+        *TYPES,
+        WALLS,
+        flags=COLUMNS,
+        sort="column",
+        order=(*COLUMNS, "region", "types", "walls"),
+    ),
     compute("fluctuation", PLANE, Keyword("layers", whole(1, 10000)), Keyword("diameter", LENGTH), *FLOW),
     compute("layering", Keyword("axis", choice("x", "y", "z")), Keyword("layers", even(2, 1000))),
     compute(

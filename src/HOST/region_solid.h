@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_REGION_SOLID_H
+#define GRAINSCOPE_REGION_SOLID_H
+
+#include "box_state.h"
+#include "pointers.h"
+#include "solid.h"
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+class Region;
+}
+
+namespace grainscope {
+
+/** A region of the host: what is in it, by the host's own rule, and its shape as far as it is known, at its place in
+ *  the step. A region that sticks out of a periodic box ends at its faces. */
+class RegionSolid : private LAMMPS_NS::Pointers {
+ public:
+  /** `style` for messages. An error when there is no region of that ID. */
+  RegionSolid(LAMMPS_NS::LAMMPS *lmp, const std::string &style, const std::string &id);
+
+  const std::string &id() const { return id_; }
+  /** Before each run: finds it again. */
+  void init();
+  /** Before use in a step: where it is now. Collective. */
+  void update(const BoxState &box);
+
+  bool has(const Eigen::Vector3d &x) const;
+  /** The share of a line that lies inside, from 0 to 1; of a line across periodic faces each part where it belongs. */
+  double part(const Eigen::Vector3d &from, const Eigen::Vector3d &to) const;
+  /** Errors where the shape is not known by which lines are cut. */
+  void require_parts() const;
+  /** Of what lies in the box, in two dimensions the area in the plane z = 0; false where it is not known, and why. */
+  bool volume(double &value, std::string &why) const;
+
+ private:
+  std::string style_, id_;
+  LAMMPS_NS::Region *region_ = nullptr;
+  BoxState box_;
+  bool known_ = false;  // the shape
+  std::string why_not_;
+  Solid solid_ = Solid::common({});
+
+  LAMMPS_NS::Region *find(const std::string &id) const;
+  bool shape_of(LAMMPS_NS::Region *region, Solid &solid, std::string &why) const;
+  bool shape_at_rest(LAMMPS_NS::Region *region, Solid &solid, std::string &why) const;
+  bool members_of(int number, const int *list, std::vector<Solid> &members, std::string &why) const;
+  void evaluate(LAMMPS_NS::Region *region) const;
+};
+
+}
+
+#endif
