@@ -491,6 +491,12 @@ add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall
 add_cases(wall/triangle cases/wall_triangle.py LABEL case STYLES wall/triangle wall/contact RANKS 1 2 LONG_RANKS 4
   CASES rows wear)
 
+# A box that fix press/strain would make too small
+add_cases(press/strain-small-box cases/small_box.py LABEL case STYLES press/strain gran/insitu RANKS 1 2 LONG_RANKS 4
+  CASES refused warned)
+add_cases(press/strain-small-box cases/small_box.py LABEL case STYLES press/strain gran/insitu CASES
+  only-what-is-certain large-enough forecast-comes-true)
+
 # Standard numbers of a state
 add_cases(packing cases/packing_measures.py LABEL case STYLES packing RANKS 1 2 LONG_RANKS 4 CASES
   spheres oblate chains at-walls)
