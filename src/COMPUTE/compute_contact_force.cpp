@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_contact_force.h"
 #include "arguments.h"
+#include "branches.h"
 #include "contact_sums.h"
 #include "force_statistics.h"
 #include "require_finite.h"
@@ -117,7 +118,7 @@ void ComputeContactForce::begin_contacts() {
 void ComputeContactForce::add_contacts(grainscope::ContactSpan contacts) {
   grainscope::for_each_contact(contacts, selection(), [this](const grainscope::Contact &c) {
     if (!is_mine(c)) return;
-    impl_->contacts.push_back(ContactForce(c));
+    impl_->contacts.push_back(ContactForce(c, grainscope::branch_of(c, bodies())));
     impl_->links.push_back(link(c));
     impl_->moments.add(impl_->contacts.back());
   });

@@ -31,6 +31,7 @@ class ComputeContactForce : public grainscope::ContactNetworkCompute, public gra
 
  private:
   bool reads_motion() const override { return false; }
+  bool uses_bodies() const override { return true; }
   void answer() override;
   void find_clusters(double mean);
 

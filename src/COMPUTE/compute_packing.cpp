@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_packing.h"
 #include "arguments.h"
-#include "branches_in_region.h"
+#include "branches.h"
 #include "contact_network.h"
 #include "contact_observer.h"
 #include "contact_sums.h"
@@ -9,13 +9,10 @@
 #include "stress.h"
 #include "atom.h"
 #include "domain.h"
-#include "fix.h"
 #include "force.h"
-#include "modify.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <vector>
 
 using namespace LAMMPS_NS;
@@ -60,7 +57,7 @@ struct ComputePacking::Impl {
   explicit Impl(LAMMPS *lmp) : rate(lmp, "compute packing", "rate", rate_requirement) {}
   static constexpr const char *rate_requirement = "auto, a positive number or v_name";
 
-  grainscope::ContactSums<grainscope::StressSums, grainscope::BranchesInRegion> stress;
+  grainscope::ContactSums<grainscope::StressSums, grainscope::Branches> stress;
   grainscope::RattlerSearch search;
   grainscope::NumberSource rate;  // none: the box's
   int limit = 0;                  // contacts of a grain that is no rattler; 0: the usual
@@ -97,18 +94,7 @@ ComputePacking::~ComputePacking() {}
 void ComputePacking::init() {
   ContactNetworkCompute::init();
   impl_->rate.init();
-  require_single_grains();
-}
-
-/** The spheres of a clump overlap: their volumes and contacts are not those of the grains. */
-void ComputePacking::require_single_grains() const {
-  for (int k = 0; k < modify->nfix; k++) {
-    const Fix *fix = modify->fix[k];
-    if (fix->rigid_flag || strstr(fix->style, "multisphere"))
-      grainscope::Arguments(lmp, name_)
-          .fail(std::string("does not know the volumes and contacts of clumps (fix ") + fix->id + ", style " +
-                fix->style + ")");
-  }
+  grainscope::require_no_bodies(lmp, grainscope::Arguments(lmp, name_), "their rattlers are not known");
 }
 
 void ComputePacking::begin_contacts() {

@@ -32,9 +32,9 @@ class ComputePacking : public grainscope::ContactNetworkCompute, public grainsco
 
  private:
   bool reads_motion() const override { return false; }
+  bool uses_bodies() const override { return true; }
   void answer() override;
   void add_grain(int i, bool rattler);
-  void require_single_grains() const;
 
   struct Impl;
   std::unique_ptr<Impl> impl_;

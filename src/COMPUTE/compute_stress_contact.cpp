@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_stress_contact.h"
 #include "arguments.h"
-#include "branches_in_region.h"
+#include "branches.h"
 #include "contact_law.h"
 #include "contact_observer.h"
 #include "contact_sums.h"
@@ -70,8 +70,8 @@ grainscope::Outputs declared(const grainscope::TypePairs *pairs) {
 }
 
 struct ComputeStressContact::Impl {
-  grainscope::ContactSums<StressSums, grainscope::BranchesInRegion> sums;
-  std::unique_ptr<grainscope::TypePairSums<StressSums, grainscope::BranchesInRegion>> of_types;  // of 'rows types'
+  grainscope::ContactSums<StressSums, grainscope::Branches> sums;
+  std::unique_ptr<grainscope::TypePairSums<StressSums, grainscope::Branches>> of_types;  // of 'rows types'
 };
 
 ComputeStressContact::ComputeStressContact(LAMMPS *lmp, int &iarg, int narg, char **arg)
@@ -87,7 +87,7 @@ ComputeStressContact::ComputeStressContact(LAMMPS *lmp, int &iarg, int narg, cha
   }
   sums_over(impl_->sums);
   if (scope_.by_types()) {
-    impl_->of_types.reset(new grainscope::TypePairSums<StressSums, grainscope::BranchesInRegion>(type_pairs()));
+    impl_->of_types.reset(new grainscope::TypePairSums<StressSums, grainscope::Branches>(type_pairs()));
     sums_over(*impl_->of_types);
   }
   declare(this, declared(impl_->of_types ? &impl_->of_types->pairs() : nullptr));

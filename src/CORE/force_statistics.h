@@ -19,8 +19,8 @@ struct ContactForce {
   bool with_wall = false;
 
   ContactForce() = default;
-  explicit ContactForce(const Contact &c)
-      : normal(c.normal_force), tangential(c.tangential_force.norm()), force(c.force), branch(c.branch),
+  ContactForce(const Contact &c, const Eigen::Vector3d &branch)
+      : normal(c.normal_force), tangential(c.tangential_force.norm()), force(c.force), branch(branch),
         with_wall(c.with_wall()) {}
 };
 

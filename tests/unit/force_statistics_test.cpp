@@ -28,7 +28,7 @@ ForceDistribution distribution(const std::vector<double> &forces, double mean, d
 
 TEST(force_statistics, moments_by_hand) {
   ForceMoments m;
-  m.add(ContactForce(make_contact()));  // 10, and 3
+  m.add(ContactForce(make_contact(), Eigen::Vector3d::Zero()));  // 10, and 3
   ContactForce wall = of(4.0);
   wall.with_wall = true;
   m.add(wall);
