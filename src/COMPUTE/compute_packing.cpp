@@ -94,7 +94,6 @@ ComputePacking::~ComputePacking() {}
 void ComputePacking::init() {
   ContactNetworkCompute::init();
   impl_->rate.init();
-  grainscope::require_no_bodies(lmp, grainscope::Arguments(lmp, name_), "their rattlers are not known");
 }
 
 void ComputePacking::begin_contacts() {
@@ -102,35 +101,77 @@ void ComputePacking::begin_contacts() {
   impl_->search.reset();
 }
 
+/** Number of the grain that local grain or ghost i is, or is part of. */
+int ComputePacking::number_of(int i) const {
+  const grainscope::Body *const body = bodies().of(i);
+  return body ? local_and_ghosts() + body->tag : i;
+}
+
 /** Rattlers are found among all grains of the group; those in a region, and contacts there, are counted. */
 void ComputePacking::add_contacts(grainscope::ContactSpan contacts) {
   ContactNetworkCompute::add_contacts(contacts);
   grainscope::for_each_contact(contacts, selection().everywhere(), [this](const grainscope::Contact &c) {
-    impl_->search.add(c, !scope_.within() || scope_.has_place(c.motion->point));
+    const bool counts = !scope_.within() || scope_.has_place(c.motion->point);
+    impl_->search.add(c, number_of(c.i), c.with_wall() ? grainscope::RattlerSearch::wall : number_of(c.j()),
+                      counts ? c.weight : 0.0);
   });
+}
+
+/** 1 for the grains of the group: local ones and ghosts that are on their own, then clumps by their tags, which all ranks
+ *  know. */
+std::vector<double> ComputePacking::grains_of_group() const {
+  int tags = 0;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (const grainscope::Body *body = bodies().of(i)) tags = std::max(tags, body->tag + 1);
+  MPI_Allreduce(MPI_IN_PLACE, &tags, 1, MPI_INT, MPI_MAX, world);
+  std::vector<double> held(local_and_ghosts() + tags);
+  for (int i = 0; i < local_and_ghosts(); i++)
+    if (in_group(i) && bodies().stands_for_itself_or_clump(i)) held[number_of(i)] = 1.0;
+  MPI_Allreduce(MPI_IN_PLACE, held.data() + local_and_ghosts(), tags, MPI_DOUBLE, MPI_MAX, world);
+  return held;
+}
+
+void ComputePacking::find_rattlers(std::vector<double> &held) {
+  const grainscope::RattlerSearch &search = impl_->search;
+  const int limit = impl_->limit ? impl_->limit : usual_limit(domain->dimension);
+  const int first = local_and_ghosts(), clumps = static_cast<int>(held.size()) - first;
+  bool removed = true;
+  while (on_any_rank(removed)) {
+    removed = search.remove(limit, atom->nlocal, held);
+    owners_to_ghosts(held);
+    if (clumps == 0) continue;
+    std::vector<double> contacts = search.degrees(held);
+    sum_over_ranks(contacts.data() + first, clumps);
+    for (std::size_t k = first; k < held.size(); k++)
+      if (held[k] != 0.0 && contacts[k] < limit) {
+        held[k] = 0.0;
+        removed = true;
+      }
+  }
 }
 
 void ComputePacking::end_contacts() {
   Impl &my = *impl_;
-  const int limit = my.limit ? my.limit : usual_limit(domain->dimension);
-  std::vector<double> held(local_and_ghosts());
-  for (std::size_t i = 0; i < held.size(); i++) held[i] = in_group(i);
-  while (on_any_rank(my.search.remove(limit, atom->nlocal, held))) owners_to_ghosts(held);
+  std::vector<double> held = grains_of_group();
+  find_rattlers(held);
   const std::array<double, 2> backbone = my.search.contacts(held);
   my.of_rank = Impl::Sums();
   my.of_rank.contacts = backbone[0];
   my.of_rank.wall_contacts = backbone[1];
   for (int i = 0; i < atom->nlocal; i++)
-    if (in_group(i) && scope_.has_place(Eigen::Map<const Eigen::Vector3d>(atom->x[i]))) add_grain(i, held[i] == 0.0);
+    if (in_group(i) && bodies().stands_for_itself_or_clump(i)) add_grain(i, held[number_of(i)] == 0.0);
 }
 
+/** Local grain i, or the clump that it stands for, when its centre is in the region. */
 void ComputePacking::add_grain(int i, bool rattler) {
+  const grainscope::Body *const body = bodies().of(i);
+  if (!scope_.has_place(body ? body->centre : Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(atom->x[i])))) return;
   Impl::Sums &sums = impl_->of_rank;
-  const double d = grainscope::equivalent_diameter(*atom, i);
+  const double d = body ? std::cbrt(6.0 / M_PI * body->volume) : grainscope::equivalent_diameter(*atom, i);
   sums.grains += 1.0;
   sums.rattlers += rattler ? 1.0 : 0.0;
-  sums.volume += grainscope::solid_volume(*atom, i, domain->dimension);
-  sums.mass += atom->rmass[i];
+  sums.volume += body ? body->volume : grainscope::solid_volume(*atom, i, domain->dimension);
+  sums.mass += body ? body->mass : atom->rmass[i];
   sums.diameter += d;
   sums.diameter2 += d * d;
 }

@@ -15,31 +15,41 @@ namespace grainscope {
  *  have `limit` contacts with each other and with walls. O'Hern, Silbert, Liu & Nagel 2003, doi
  *  10.1103/PhysRevE.68.011306.
  *
- *  Grains of a rank come first, then ghosts; contacts with ghosts are seen by both owners. `held` of a grain is 1 while
- *  it is not known to be a rattler, then 0. */
+ *  A grain is known by a number on its rank: those that the rank owns first, then others, ghosts or clumps of many
+ *  ranks, which it does not remove. A contact with a ghost is seen by both owners, each for its own grain. `held` of a
+ *  grain is 1 while it is not known to be a rattler, then 0. */
 class RattlerSearch {
  public:
-  void reset() { contacts_.clear(); }
-  /** `counts`: in contacts(), too; it holds its grains in any case. */
-  void add(const Contact &c, bool counts = true) {
-    contacts_.push_back({c.i, c.with_wall() ? wall : c.j(), counts ? c.weight : 0.0});
-  }
+  static constexpr int wall = -1;
 
-  /** Clears `held` of the first `owned` grains as far as is known on this rank; ghosts stay as they are. True when it
-   *  cleared any. */
-  bool remove(int limit, int owned, std::vector<double> &held) {
+  void reset() { contacts_.clear(); }
+  /** Grains i and j, or the wall; `weight` is for contacts() alone. */
+  void add(const Contact &c, int i, int j, double weight) { contacts_.push_back({i, j, c.with_own_grain(), weight}); }
+
+  /** Clears `held` of the first `owned` grains as far as is known on this rank. True when it cleared any. */
+  bool remove(int limit, int owned, std::vector<double> &held) const {
     bool any = false, again = true;
     while (again) {
-      count(owned, held);
+      const std::vector<double> found = degrees(held);
       again = false;
       for (int i = 0; i < owned; i++)
-        if (held[i] != 0.0 && degree_[i] < limit) {
+        if (held[i] != 0.0 && found[i] < limit) {
           held[i] = 0.0;
           again = true;
         }
       any = any || again;
     }
     return any;
+  }
+  /** Contacts of each grain with those that are held, as far as this rank owns its side of them. */
+  std::vector<double> degrees(const std::vector<double> &held) const {
+    std::vector<double> found(held.size(), 0.0);
+    for (const Link &c : contacts_) {
+      if (!carries(c, held)) continue;
+      found[c.i] += 1.0;
+      if (c.both_owned) found[c.j] += 1.0;
+    }
+    return found;
   }
   /** Contacts of the backbone between grains and with walls, weighted. */
   std::array<double, 2> contacts(const std::vector<double> &held) const {
@@ -50,24 +60,15 @@ class RattlerSearch {
   }
 
  private:
-  static constexpr int wall = -1;
   struct Link {
-    int i, j;  // j = wall, or a grain
+    int i, j;
+    bool both_owned;
     double weight;
   };
   std::vector<Link> contacts_;
-  std::vector<int> degree_;
 
   static bool carries(const Link &c, const std::vector<double> &held) {
     return held[c.i] != 0.0 && (c.j == wall || held[c.j] != 0.0);
-  }
-  void count(int owned, const std::vector<double> &held) {
-    degree_.assign(owned, 0);
-    for (const Link &c : contacts_) {
-      if (!carries(c, held)) continue;
-      degree_[c.i]++;
-      if (c.j != wall && c.j < owned) degree_[c.j]++;
-    }
   }
 };
 
