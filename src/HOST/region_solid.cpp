@@ -2,6 +2,7 @@
 #include "region_solid.h"
 #include "arguments.h"
 #include "private_member.h"
+#include "atom.h"
 #include "domain.h"
 #include "modify.h"
 #include "region_block.h"
@@ -142,6 +143,14 @@ void RegionSolid::update(const BoxState &box) {
   box_ = box;
   evaluate(region_);
   known_ = shape_of(region_, solid_, why_not_);
+  if (box.dimension == 2) height_ = height_of_grains();
+}
+
+/** z of the plane of the grains, the middle of the box without any. Collective. */
+double RegionSolid::height_of_grains() const {
+  double height = atom->nlocal > 0 ? atom->x[0][2] : -HUGE_VAL;
+  MPI_Allreduce(MPI_IN_PLACE, &height, 1, MPI_DOUBLE, MPI_MAX, world);
+  return std::isfinite(height) ? height : box_.centre[2];
 }
 
 bool RegionSolid::members_of(int number, const int *list, std::vector<Solid> &members, std::string &why) const {
@@ -254,10 +263,7 @@ bool RegionSolid::volume(double &value, std::string &why) const {
     if (!solid_.volume_within(Polyhedron(corner, box_.edges), value, why)) return false;
   } else {
     Solid cut = solid_;
-    Matrix3d layer = box_.edges;
-    layer.col(2) = Vector3d::UnitZ();
-    if (!solid_.section(0.0, cut, why) ||
-        !cut.volume_within(Polyhedron({corner[0], corner[1], -0.5}, layer), value, why))
+    if (!solid_.section(height_, cut, why) || !cut.volume_within(Polyhedron(corner, box_.edges), value, why))
       return false;
   }
   if (value > 0.0) return true;
