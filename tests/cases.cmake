@@ -491,6 +491,23 @@ add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall
 add_cases(wall/triangle cases/wall_triangle.py LABEL case STYLES wall/triangle wall/contact RANKS 1 2 LONG_RANKS 4
   CASES rows wear)
 
+# A box that fix press/strain would make too small
+add_cases(press/strain-small-box cases/small_box.py LABEL case STYLES press/strain gran/insitu RANKS 1 2 LONG_RANKS 4
+  CASES refused warned)
+add_cases(press/strain-small-box cases/small_box.py LABEL case STYLES press/strain gran/insitu CASES
+  only-what-is-certain large-enough forecast-comes-true)
+
+# Standard numbers of a state
+add_cases(packing cases/packing_measures.py LABEL case STYLES packing RANKS 1 2 LONG_RANKS 4 CASES
+  spheres oblate chains at-walls clumps)
+add_cases(packing cases/packing_measures.py LABEL case STYLES packing RANKS 1 LONG_RANKS 2 4 CASES
+  prolate blocky of-a-group in-regions empty-group inertial-number rigid-refused
+  clumps-between-walls)
+add_cases(contact/force cases/contact_force.py LABEL case STYLES contact/force contact/local RANKS 1 2 LONG_RANKS 4
+  CASES spheres prolate chains at-walls)
+add_cases(contact/force cases/contact_force.py LABEL case STYLES contact/force contact/local RANKS 1 LONG_RANKS 2 4
+  CASES oblate superquadric cohesive of-types in-a-region of-a-group empty-group)
+
 # Includes between the folders of src/
 add_cases(suite-floors cases/floors.py LABEL case STYLES suite CASES
   includes-go-down small-tree-passes up-refused up-by-angle-brackets-refused beside-refused host-in-core-refused
@@ -499,6 +516,7 @@ add_cases(suite-floors cases/floors.py LABEL case STYLES suite CASES
 # Outputs have names
 set(with_outputs stress/contact fabric contact/direction contact/surface contact/grain contact/local contact/solver
   wall/contact wall/triangle
+  contact/force packing
   displacement/shear dissipation energy/ledger fluctuation layering nematic velocity/correlation velocity/memory
   property/atom press/strain)
 add_cases(every-style-outputs cases/outputs_declared.py LABEL case STYLES outputs ${with_outputs} RANKS 1 2 CASES every-number)

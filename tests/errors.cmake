@@ -2,6 +2,7 @@
 set(styles_with_keywords stress/contact nematic contact/grain contact/solver energy/ledger dissipation fabric
   contact/surface contact/direction contact/local fluctuation layering velocity/correlation velocity/memory
   wall/contact wall/triangle
+  contact/force packing
   displacement/shear press/strain nve/spheroid gran/insitu)
 set(keywords ${CMAKE_CURRENT_SOURCE_DIR}/errors/keywords.py)
 foreach(style IN LISTS styles_with_keywords)

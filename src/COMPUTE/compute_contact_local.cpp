@@ -8,6 +8,8 @@
 #include "update.h"
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <numeric>
 
 using namespace LAMMPS_NS;
 using Eigen::Vector3d;
@@ -41,6 +43,9 @@ struct Column {
 };
 
 const char *const xyz = "x y z", *const one = "";
+
+/** Written when all contacts are known. */
+void after_all(const Row &, double *to) { *to = 0.0; }
 
 const Column columns[] = {
     {"id", "i j", "-", "ID of grain",
@@ -76,7 +81,9 @@ const Column columns[] = {
     {"wall", one, "-", "number of the wall, from 1, 0 for a grain",
      [](const Row &r, double *to) { *to = r.contact.with_wall() ? r.contact.wall().wall + 1 : 0; }},
     {"triangle", one, "-", "ID of the wall's triangle, from 0, -1 for none",
-     [](const Row &r, double *to) { *to = r.contact.with_wall() ? r.contact.wall().triangle : -1; }}};
+     [](const Row &r, double *to) { *to = r.contact.with_wall() ? r.contact.wall().triangle : -1; }},
+    {"strong", one, "-", "1 if fn is above the mean of all rows, else 0", after_all},
+    {"cluster", one, "-", "lowest ID of the grains that strong contacts connect with i, 0 when not strong", after_all}};
 
 /** The columns that are written where none is asked for: scripts count them. */
 const int usual_columns = 15;
@@ -92,11 +99,17 @@ struct ComputeContactLocal::Impl {
   int width = 0;
   std::vector<double> values;  // the rows, one after the other
   std::vector<double *> rows;
+
+  // Of the columns that are written when all contacts are known
+  int strong = -1, cluster = -1;  // places in a row; -1: not asked for
+  bool ranks_forces() const { return strong >= 0 || cluster >= 0; }
+  std::vector<double> normal_forces;
+  std::vector<ContactNetworkCompute::Link> links;
 };
 
 ComputeContactLocal::ComputeContactLocal(LAMMPS *lmp, int &iarg, int narg, char **arg)
-    : ContactCompute(lmp, iarg, narg, arg,
-                     grainscope::Scope::region | grainscope::Scope::types | grainscope::Scope::walls),
+    : ContactNetworkCompute(lmp, iarg, narg, arg,
+                            grainscope::Scope::region | grainscope::Scope::types | grainscope::Scope::walls),
       impl_(new Impl) {
   grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
   std::vector<std::string> names;
@@ -115,25 +128,14 @@ ComputeContactLocal::ComputeContactLocal(LAMMPS *lmp, int &iarg, int narg, char 
     const grainscope::OutputList list = one.column->outputs();
     outputs.local.insert(outputs.local.end(), list.begin(), list.end());
     one.width = list.size();
+    if (!strcmp(one.column->name, "strong")) impl_->strong = impl_->width;
+    if (!strcmp(one.column->name, "cluster")) impl_->cluster = impl_->width;
+    impl_->width += one.width;
   }
-  impl_->width = outputs.local.size();
   declare(this, outputs);
 }
 
 ComputeContactLocal::~ComputeContactLocal() {}
-
-/** Of a contact that two owners see (or one owner twice, through an image of itself), the lower ID writes the row;
- *  between two images of one grain, the one whose partner lies toward the positive side. */
-bool ComputeContactLocal::is_mine(const Contact &c) const {
-  if (!c.ghost()) return true;
-  const int j = c.j();
-  if (atom->tag[c.i] != atom->tag[j]) return atom->tag[c.i] < atom->tag[j];
-  const double *shift = observer_->image_shift(j);
-  for (int k = 0; k < 3; k++) {
-    if (shift[k] != 0.0) return shift[k] > 0.0;
-  }
-  return false;
-}
 
 bool ComputeContactLocal::reads_motion() const {
   return std::any_of(impl_->chosen.begin(), impl_->chosen.end(),
@@ -141,8 +143,10 @@ bool ComputeContactLocal::reads_motion() const {
 }
 
 void ComputeContactLocal::begin_contacts() {
-  ContactCompute::begin_contacts();
+  ContactNetworkCompute::begin_contacts();
   impl_->values.clear();
+  impl_->normal_forces.clear();
+  impl_->links.clear();
 }
 
 void ComputeContactLocal::add_contacts(grainscope::ContactSpan contacts) {
@@ -159,6 +163,28 @@ void ComputeContactLocal::add_row(const Contact &c) {
   for (const Impl::Chosen &one : impl_->chosen) {
     one.column->write(row, to);
     to += one.width;
+  }
+  if (!impl_->ranks_forces()) return;
+  impl_->normal_forces.push_back(c.normal_force);
+  impl_->links.push_back(link(c));
+}
+
+void ComputeContactLocal::end_contacts() {
+  Impl &my = *impl_;
+  if (!my.ranks_forces()) return;
+  double sums[2] = {std::accumulate(my.normal_forces.begin(), my.normal_forces.end(), 0.0),
+                    static_cast<double>(my.normal_forces.size())};
+  sum_over_ranks(sums, 2);
+  const double mean = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
+  std::vector<Link> strong;
+  for (std::size_t row = 0; row < my.links.size(); row++)
+    if (my.normal_forces[row] > mean) strong.push_back(my.links[row]);
+  const std::vector<double> cluster = my.cluster < 0 ? std::vector<double>() : clusters(strong);
+  for (std::size_t row = 0; row < my.links.size(); row++) {
+    if (!(my.normal_forces[row] > mean)) continue;
+    double *values = &my.values[row * my.width];
+    if (my.strong >= 0) values[my.strong] = 1.0;
+    if (my.cluster >= 0) values[my.cluster] = cluster[my.links[row].i];
   }
 }
 

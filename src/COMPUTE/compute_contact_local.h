@@ -8,7 +8,7 @@ ComputeStyle(contact/local,ComputeContactLocal)
 #ifndef LMP_COMPUTE_CONTACT_LOCAL_H
 #define LMP_COMPUTE_CONTACT_LOCAL_H
 
-#include "contact_compute.h"
+#include "contact_network_compute.h"
 #include "outputs.h"
 #include <memory>
 
@@ -17,7 +17,7 @@ namespace LAMMPS_NS {
 /** One row per contact of the group, with a grain or a wall, straight from the force evaluation that drove the step,
  *  each contact once over all ranks; for dump local. Per grain the forces of the rows sum to f. Columns by keyword; by
  *  default all that contacts between grains have, in the order of the table in doc/compute_contact_local.md. */
-class ComputeContactLocal : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
+class ComputeContactLocal : public grainscope::ContactNetworkCompute, public grainscope::DeclaresOutputs {
  public:
   ComputeContactLocal(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   ~ComputeContactLocal() override;
@@ -26,14 +26,13 @@ class ComputeContactLocal : public grainscope::ContactCompute, public grainscope
 
   void begin_contacts() override;
   void add_contacts(grainscope::ContactSpan contacts) override;
-  bool needs_images() const override { return true; }
+  void end_contacts() override;
 
  private:
   bool reads_motion() const override;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 
-  bool is_mine(const grainscope::Contact &contact) const;
   void add_row(const grainscope::Contact &contact);
 };
 

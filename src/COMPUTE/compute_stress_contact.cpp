@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_stress_contact.h"
 #include "arguments.h"
+#include "branches.h"
 #include "contact_law.h"
 #include "contact_observer.h"
 #include "contact_sums.h"
@@ -27,28 +28,6 @@ using namespace LAMMPS_NS;
 namespace {
 
 using grainscope::StressSums;
-
-/** Branches go from the centre of mass of a clump to that of another. Of a region's stress, the part of each branch
- *  that lies in it; contacts are counted where their points are. */
-struct Branches {
-  template <class KernelOf>
-  static void add(grainscope::ContactSpan contacts, const grainscope::ContactCompute &of, const KernelOf &kernel_of) {
-    const grainscope::RegionSolid *const region = of.scope().within();
-    const grainscope::Bodies &bodies = of.bodies();
-    if (!region && !bodies.any()) return grainscope::WholeContacts::add(contacts, of, kernel_of);
-    grainscope::for_each_contact(contacts, of.selection().everywhere(), [&](const grainscope::Contact &c) {
-      Eigen::Vector3d branch = c.branch - bodies.arm(c.i);
-      if (!c.with_wall()) branch += bodies.arm(c.j());
-      double share = c.weight;
-      if (region) {
-        const Eigen::Vector3d to = c.motion->point - c.motion->arm - bodies.arm(c.i);  // the centre of i
-        share *= region->part(to - branch, to);
-      }
-      kernel_of(c).add_moments(c, share * branch);
-      if (!region || region->has(c.motion->point)) kernel_of(c).count(c);
-    });
-  }
-};
 
 // Bilotto et al. 2025, Sec. II: above it results do not depend on the stiffness.
 const double hard_grains = 1.1e3;
@@ -92,8 +71,8 @@ grainscope::Outputs declared(const grainscope::TypePairs *pairs) {
 }
 
 struct ComputeStressContact::Impl {
-  grainscope::ContactSums<StressSums, Branches> sums;
-  std::unique_ptr<grainscope::TypePairSums<StressSums, Branches>> of_types;  // of 'rows types'
+  grainscope::ContactSums<StressSums, grainscope::Branches> sums;
+  std::unique_ptr<grainscope::TypePairSums<StressSums, grainscope::Branches>> of_types;  // of 'rows types'
 };
 
 ComputeStressContact::ComputeStressContact(LAMMPS *lmp, int &iarg, int narg, char **arg)
@@ -109,7 +88,7 @@ ComputeStressContact::ComputeStressContact(LAMMPS *lmp, int &iarg, int narg, cha
   }
   sums_over(impl_->sums);
   if (scope_.by_types()) {
-    impl_->of_types.reset(new grainscope::TypePairSums<StressSums, Branches>(type_pairs()));
+    impl_->of_types.reset(new grainscope::TypePairSums<StressSums, grainscope::Branches>(type_pairs()));
     sums_over(*impl_->of_types);
   }
   declare(this, declared(impl_->of_types ? &impl_->of_types->pairs() : nullptr));

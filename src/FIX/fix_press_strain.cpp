@@ -4,6 +4,7 @@
 #include "contact_observer.h"
 #include "fluctuations.h"
 #include "pair_gran_insitu.h"
+#include "press_strain_forecast.h"
 #include "press_strain_host_arguments.h"
 #include "press_strain_requirements.h"
 #include "press_strain_settings.h"
@@ -36,11 +37,13 @@ struct SavedControl {
 
 struct FixPressStrain::Impl {
   Impl(LAMMPS *lmp, int narg, char **arg)
-      : settings(lmp, narg, arg), box(lmp, settings.axis, settings.shear), intervals(settings.interval) {}
+      : settings(lmp, narg, arg), box(lmp, settings.axis, settings.shear), intervals(settings.interval),
+        forecast(lmp, settings) {}
 
   grainscope::PressStrainSettings settings;
   grainscope::ShearedBox box;
   grainscope::Intervals intervals;
+  grainscope::PressStrainForecast forecast;
   int momentum_groupbit = 1;
   std::string momentum_group;
   grainscope::ContactObserver *observer = nullptr;
@@ -121,6 +124,7 @@ void FixPressStrain::init() {
 void FixPressStrain::setup(int) {
   grainscope::PressStrainRequirements(lmp, this, impl_->settings).require_known_stiffness();
   evaluate_variables();
+  impl_->forecast.check(time_between_inputs());
 }
 
 /** Every step, so that the computes that a variable uses can be announced for the next one. */

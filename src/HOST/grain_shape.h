@@ -2,6 +2,7 @@
 #ifndef GRAINSCOPE_GRAIN_SHAPE_H
 #define GRAINSCOPE_GRAIN_SHAPE_H
 
+#include "superquadric_volume.h"
 #include "atom.h"
 #include <Eigen/Geometry>
 #include <cmath>
@@ -14,9 +15,22 @@ inline Eigen::Vector3d semi_axes(const LAMMPS_NS::Atom &atom, int i) {
   return Eigen::Vector3d::Constant(atom.radius[i]);
 }
 
-/** Diameter of the sphere of the ellipsoid's volume. */
+/** What grain i fills over what an ellipsoid, or sphere, of its semi-axes fills: 1 but for blocky superquadrics. */
+inline double fullness(const LAMMPS_NS::Atom &atom, int i) {
+  if (!atom.superquadric_flag) return 1.0;
+  const double *n = atom.blockiness[i];
+  return superquadric_volume(1.0, 1.0, 1.0, n[0], n[1]) / superquadric_volume(1.0, 1.0, 1.0, 2.0, 2.0);
+}
+
+/** Volume of grain i; with `dimension 2` the area of a disc. */
+inline double solid_volume(const LAMMPS_NS::Atom &atom, int i, int dimension) {
+  if (dimension == 2) return M_PI * atom.radius[i] * atom.radius[i];
+  return 4.0 / 3.0 * M_PI * semi_axes(atom, i).prod() * fullness(atom, i);
+}
+
+/** Diameter of the sphere of the grain's volume. */
 inline double equivalent_diameter(const LAMMPS_NS::Atom &atom, int i) {
-  return 2.0 * std::cbrt(semi_axes(atom, i).prod());
+  return 2.0 * std::cbrt(semi_axes(atom, i).prod() * fullness(atom, i));
 }
 
 /** Turns the frame of the principal axes of superquadric i into the laboratory's. */

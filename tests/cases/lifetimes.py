@@ -29,6 +29,9 @@ COMPUTES = [
     "wall/contact impacts yes",
     "wall/triangle wear yes",
     "property/atom shapex quatw blockiness2 volume",
+    "contact/force",
+    "contact/local strong cluster",
+    "packing",
     *(w.command for w in everything(dense_packing(1.5))),
 ]
 FIXES = [

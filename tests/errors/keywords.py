@@ -80,6 +80,8 @@ COLUMNS = (
     "mobilisation",
     "wall",
     "triangle",
+    "strong",
+    "cluster",
 )
 
 
@@ -231,6 +233,25 @@ STYLES = [
         PRESSURE,
     ),
     compute("contact/direction", Keyword("bins", even(2, 10000)), REGION, *TYPES, WALLS, PLANE),
+    compute(
+        "contact/force",
+        Keyword("bins", whole(1, 10000)),
+        Keyword("max", number("a positive number", ("1e-300", "1e300"), ("0", "-1"))),
+        Keyword("tail", number("a number, not negative", ("0", "1e300"), ("-1", "-1e-300"))),
+        REGION,
+        *TYPES,
+        WALLS,
+    ),
+    compute(
+        "packing",
+        Keyword("rate", number("auto, a positive number or v_name", ("auto", "1e-300", "1e300"), ("0", "-1", "AUTO"))),
+        Keyword("rattlers", whole(1, 100)),
+        REGION,
+        WALLS,
+        VOLUME,
+        PLANE,
+        PRESSURE,
+    ),
     compute(
         "contact/local",
         REGION,

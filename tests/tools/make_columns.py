@@ -20,9 +20,11 @@ COMMANDS = {
     "fabric": "rows types branch force/normal force/tangential",
     "contact/direction": "",
     "contact/surface": "",
+    "contact/force": "",
+    "packing": "",
     "contact/grain": "",
     "contact/local": "id image point normal branch overlap force fn fn_damping ft un ut sliding slip mobilisation "
-    "wall triangle",
+    "wall triangle strong cluster",
     "contact/solver": "",
     "wall/contact": "impacts yes",
     "wall/triangle": "wear yes",
