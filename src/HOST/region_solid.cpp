@@ -26,6 +26,8 @@ using namespace LAMMPS_NS;
 
 namespace {
 
+const double infinite = 1e20;  // what INF is to the host
+
 using Triple = double[3];
 using Triples = double[3][3];
 
@@ -58,8 +60,11 @@ MEMBER(RegPlane, double, yp)
 MEMBER(RegPlane, double, zp)
 MEMBER(RegPlane, Triple, normal)
 MEMBER(RegPrism, double, xlo)
+MEMBER(RegPrism, double, xhi)
 MEMBER(RegPrism, double, ylo)
+MEMBER(RegPrism, double, yhi)
 MEMBER(RegPrism, double, zlo)
+MEMBER(RegPrism, double, zhi)
 MEMBER(RegPrism, Triples, h)
 MEMBER(RegUnion, int, nregion)
 MEMBER(RegUnion, int *, list)
@@ -90,8 +95,11 @@ Solid block(RegBlock *b) {
   return Solid::flat(sides);
 }
 
+/** The host gives no values to what is below the diagonal of the edges. */
 Solid prism(RegPrism *p) {
-  const Matrix3d edges = Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(h_of(p)[0]), inverse = edges.inverse();
+  const Matrix3d edges =
+                     Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(h_of(p)[0]).triangularView<Eigen::Upper>(),
+                 inverse = edges.inverse();
   const Vector3d corner(xlo_of(p), ylo_of(p), zlo_of(p));
   std::vector<HalfSpace> sides;
   for (int k = 0; k < 3; k++) {
@@ -99,6 +107,14 @@ Solid prism(RegPrism *p) {
     add_slab(sides, normal, normal.dot(corner), normal.dot(corner) + 1.0);
   }
   return Solid::flat(sides);
+}
+
+/** By its places along edges of length 1e20 the host cannot tell one end of an edge from the other. */
+bool ends_on_one_side(RegPrism *p) {
+  const double ends[3][2] = {{xlo_of(p), xhi_of(p)}, {ylo_of(p), yhi_of(p)}, {zlo_of(p), zhi_of(p)}};
+  for (const double *end : ends)
+    if ((end[0] == -infinite) != (end[1] == infinite)) return true;
+  return false;
 }
 
 /** `first`, `second`: coordinates of the axis, in the order of x, y, z without its own. */
@@ -126,31 +142,45 @@ Region *RegionSolid::find(const std::string &id) const {
 void RegionSolid::init() {
   region_ = find(id_);
   region_->init();
+  require_sound(region_);
+}
+
+/** Of a union or a common part. */
+std::vector<Region *> RegionSolid::members_of(Region *region) const {
+  std::vector<int> numbers;
+  if (RegUnion *of = dynamic_cast<RegUnion *>(region)) numbers.assign(list_of(of), list_of(of) + nregion_of(of));
+  if (RegIntersect *of = dynamic_cast<RegIntersect *>(region))
+    numbers.assign(list_of(of), list_of(of) + nregion_of(of));
+  std::vector<Region *> members;
+  for (int number : numbers) members.push_back(domain->regions[number]);
+  return members;
+}
+
+/** Errors where the host itself is wrong about what is inside. */
+void RegionSolid::require_sound(Region *region) const {
+  for (Region *member : members_of(region)) require_sound(member);
+  RegPrism *p = dynamic_cast<RegPrism *>(region);
+  if (p && ends_on_one_side(p))
+    Arguments(lmp, style_)
+        .fail("region '" + std::string(region->id) +
+              "': LIGGGHTS does not see where a prism ends that is INF on one side alone: give it two bounds, or two "
+              "INF");
 }
 
 /** The host asks a region's variables where it comes to need them, which may not be on all ranks: here they are asked. */
 void RegionSolid::evaluate(Region *region) const {
-  std::vector<int> members;
-  if (RegUnion *of = dynamic_cast<RegUnion *>(region)) members.assign(list_of(of), list_of(of) + nregion_of(of));
-  if (RegIntersect *of = dynamic_cast<RegIntersect *>(region))
-    members.assign(list_of(of), list_of(of) + nregion_of(of));
-  for (int member : members) evaluate(domain->regions[member]);
+  for (Region *member : members_of(region)) evaluate(member);
   region->match(0.0, 0.0, 0.0);
 }
 
 void RegionSolid::update(const BoxState &box) {
+  if (Pointers::update->whichflag == 0) init();  // between runs regions may be deleted
   box_ = box;
   evaluate(region_);
   known_ = shape_of(region_, solid_, why_not_);
-}
-
-bool RegionSolid::members_of(int number, const int *list, std::vector<Solid> &members, std::string &why) const {
-  for (int k = 0; k < number; k++) {
-    Solid one = Solid::common({});
-    if (!shape_of(domain->regions[list[k]], one, why)) return false;
-    members.push_back(one);
-  }
-  return true;
+  Solid cut = solid_;
+  std::string ignored;
+  if (domain->dimension == 2 && known_ && solid_.section(0.0, cut, ignored)) solid_ = cut;
 }
 
 bool RegionSolid::shape_at_rest(Region *region, Solid &solid, std::string &why) const {
@@ -168,18 +198,18 @@ bool RegionSolid::shape_at_rest(Region *region, Solid &solid, std::string &why) 
   } else if (RegCone *c = dynamic_cast<RegCone *>(region)) {
     solid = round(axis_of(c), c1_of(c), c2_of(c), lo_of(c), hi_of(c), radiuslo_of(c), radiushi_of(c));
   } else {
-    std::vector<Solid> members;
-    RegUnion *all = dynamic_cast<RegUnion *>(region);
-    RegIntersect *shared = dynamic_cast<RegIntersect *>(region);
+    const bool all = dynamic_cast<RegUnion *>(region), shared = dynamic_cast<RegIntersect *>(region);
     if (!all && !shared) {
       why = "lines are cut by block, prism, plane, sphere, cylinder, cone, and unions and common parts of these, got "
             "style " +
             std::string(region->style);
       return false;
     }
-    if (all ? !members_of(nregion_of(all), list_of(all), members, why)
-            : !members_of(nregion_of(shared), list_of(shared), members, why))
-      return false;
+    std::vector<Solid> members;
+    for (Region *member : members_of(region)) {
+      members.push_back(Solid::common({}));
+      if (!shape_of(member, members.back(), why)) return false;
+    }
     solid = all ? Solid::united(members) : Solid::common(members);
   }
   return true;

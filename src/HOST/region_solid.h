@@ -47,7 +47,8 @@ class RegionSolid : private LAMMPS_NS::Pointers {
   LAMMPS_NS::Region *find(const std::string &id) const;
   bool shape_of(LAMMPS_NS::Region *region, Solid &solid, std::string &why) const;
   bool shape_at_rest(LAMMPS_NS::Region *region, Solid &solid, std::string &why) const;
-  bool members_of(int number, const int *list, std::vector<Solid> &members, std::string &why) const;
+  std::vector<LAMMPS_NS::Region *> members_of(LAMMPS_NS::Region *region) const;
+  void require_sound(LAMMPS_NS::Region *region) const;
   void evaluate(LAMMPS_NS::Region *region) const;
 };
 
