@@ -539,3 +539,12 @@ add_cases(stress/contact-region cases/regions.py LABEL case STYLES stress/contac
   volumes-add-up nothing-there)
 add_cases(stress/contact+fabric-region cases/regions.py LABEL case STYLES stress/contact fabric dissipation
   RANKS 1 2 CASES refused)
+
+# Clumps
+set(of_clumps stress/contact fluctuation displacement/shear velocity/correlation velocity/memory layering contact/grain)
+add_cases(stress/contact+fluctuation+displacement/shear-clumps cases/clumps.py LABEL case STYLES ${of_clumps}
+  RANKS 1 2 LONG_RANKS 4 CASES as-grains between-walls)
+add_cases(stress/contact+fluctuation+displacement/shear-clumps cases/clumps.py LABEL case STYLES ${of_clumps}
+  RANKS 2 LONG_RANKS 1 4 CASES crosses-faces trajectory-untouched)
+add_cases(nematic+energy/ledger+press/strain-clumps cases/clumps.py LABEL case
+  STYLES nematic energy/ledger press/strain gran/insitu RANKS 1 2 CASES refused)

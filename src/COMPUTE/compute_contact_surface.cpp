@@ -174,6 +174,7 @@ ComputeContactSurface::~ComputeContactSurface() {}
 
 void ComputeContactSurface::init() {
   require_axes(atom, grainscope::Arguments(lmp, name_));
+  grainscope::require_no_bodies(lmp, grainscope::Arguments(lmp, name_), "their surface is not that of their grains");
   ContactCompute::init();
   require_known_losses();
   require_one_shape();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_displacement_shear.h"
 #include "arguments.h"
+#include "bodies.h"
 #include "box_state.h"
 #include "fix_grain_record.h"
 #include "strain_source.h"
@@ -74,9 +75,10 @@ struct Box {
       rest[k] = 0.0;
     }
   }
-  /** Position of grain i from the point at rest (from 0 across faces that follow the grains), unwrapped with the edges
-   *  that its image flags count. */
-  Vector3d position(const Atom &atom, int i) const {
+  /** Position of grain i, or of its clump, from the point at rest (from 0 across faces that follow the grains), unwrapped
+   *  with the edges that its image flags count. */
+  Vector3d position(const Atom &atom, int i, const grainscope::Bodies &bodies) const {
+    if (const grainscope::Body *body = bodies.of(i)) return body->centre + wrapped * body->boxes - rest;
     const tagint image = atom.image[i];
     const Vector3d boxes((image & IMGMASK) - IMGMAX, (image >> IMGBITS & IMGMASK) - IMGMAX,
                          (image >> IMG2BITS) - IMGMAX);
@@ -142,14 +144,22 @@ void ComputeDisplacementShear::require_flow_of_all() {
   }
 }
 
+/** Collective. */
+grainscope::Bodies ComputeDisplacementShear::bodies_now() const {
+  grainscope::Bodies bodies(lmp, name);
+  bodies.update(grainscope::BoxState(lmp));
+  return bodies;
+}
+
 void ComputeDisplacementShear::begin(double strain) {
   const Box box(*domain, *impl_->record);
+  const grainscope::Bodies bodies = bodies_now();
   double grains = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
     double *record = impl_->record->of(i);
     std::fill(record, record + WIDTH, 0.0);
-    if (!(atom->mask[i] & groupbit)) continue;
-    Map<Vector3d>(record + POSITION) = box.position(*atom, i);
+    if (!(atom->mask[i] & groupbit) || !bodies.stands_for_itself_or_clump(i)) continue;
+    Map<Vector3d>(record + POSITION) = box.position(*atom, i, bodies);
     record[TRACKED] = 1.0;
     grains += 1.0;
   }
@@ -167,6 +177,7 @@ void ComputeDisplacementShear::begin(double strain) {
 /** Carries every grain's displacement on to now. */
 void ComputeDisplacementShear::advance() {
   const Box box(*domain, *impl_->record);
+  const grainscope::Bodies bodies = bodies_now();
   double *shared = impl_->shared();
   Matrix3d before = Map<Matrix3d>(shared + EDGES);
   Matrix3d after = box.edges;
@@ -182,7 +193,7 @@ void ComputeDisplacementShear::advance() {
   for (int i = 0; i < atom->nlocal; i++) {
     double *record = impl_->record->of(i);
     if (record[TRACKED] == 0.0) continue;
-    const Vector3d now = box.position(*atom, i);
+    const Vector3d now = box.position(*atom, i, bodies);
     Map<Vector3d> last(record + POSITION), d(record + DISPLACEMENT);
     Vector3d ds = to_s2 * (now - box.middle) - to_s1 * (last - box.middle);
     for (int k = 0; k < 3; k++)
@@ -219,9 +230,10 @@ void ComputeDisplacementShear::after_change_box() {
   impl_->record = FixGrainRecord::find(lmp, id);
   impl_->record->note_changed_box();
   const Box box(*domain, *impl_->record);
+  const grainscope::Bodies bodies = bodies_now();
   for (int i = 0; i < atom->nlocal; i++) {
     double *record = impl_->record->of(i);
-    if (record[TRACKED] != 0.0) Map<Vector3d>(record + POSITION) = box.position(*atom, i);
+    if (record[TRACKED] != 0.0) Map<Vector3d>(record + POSITION) = box.position(*atom, i, bodies);
   }
   if (impl_->shared()[STARTED] != 0.0) Map<Matrix3d>(impl_->shared() + EDGES) = box.edges;
 }

@@ -13,6 +13,10 @@ ComputeStyle(displacement/shear,ComputeDisplacementShear)
 #include "outputs.h"
 #include <memory>
 
+namespace grainscope {
+class Bodies;
+}
+
 namespace LAMMPS_NS {
 
 class FixGrainRecord;
@@ -39,6 +43,7 @@ class ComputeDisplacementShear : public Compute, public grainscope::DeclaresOutp
   struct Impl;
   std::unique_ptr<Impl> impl_;
 
+  grainscope::Bodies bodies_now() const;
   void begin(double strain);
   void follow(double strain);
   void advance();

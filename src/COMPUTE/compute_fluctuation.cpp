@@ -2,7 +2,6 @@
 #include "compute_fluctuation.h"
 #include "arguments.h"
 #include "fluctuations.h"
-#include "grain_shape.h"
 #include "range_warning.h"
 #include "requirements.h"
 #include "atom.h"
@@ -92,7 +91,7 @@ void ComputeFluctuation::compute_array() {
   // Per layer m, grains, m u; then grains that no layer holds.
   std::vector<double> sums(sums_of_layer * impl_->layers + 1, 0.0);
   for (const Fluctuations::Grain &g : motion.local()) {
-    const int layer = box.layer(Map<const Vector3d>(atom->x[g.index]), across, impl_->layers);
+    const int layer = box.layer(motion.place(g), across, impl_->layers);
     if (layer < 0) {
       sums.back() += 1.0;
       continue;
@@ -123,8 +122,8 @@ void ComputeFluctuation::compute_vector() {
     Map<Vector3d>(sums + 0) += dv.cwiseAbs2();
     Map<Vector3d>(sums + 3) += dw.cwiseAbs2();
     sums[6] += g.mass * dv.squaredNorm();
-    sums[7] += grainscope::rotational_energy(*atom, g.index, dw);
-    sums[8] += grainscope::equivalent_diameter(*atom, g.index);
+    sums[7] += motion.rotational_energy(g, dw);
+    sums[8] += motion.equivalent_diameter(g);
   }
   MPI_Allreduce(MPI_IN_PLACE, sums, 9, MPI_DOUBLE, MPI_SUM, world);
   std::fill(vector, vector + size_vector, 0.0);

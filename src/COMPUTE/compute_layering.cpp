@@ -55,9 +55,12 @@ void ComputeLayering::compute_array() {
   const grainscope::BoxState box(lmp);
   const int m = impl_->layers;
   std::vector<double> counts(m + 1, 0.0);  // of each layer; then grains that none holds
+  grainscope::Bodies bodies(lmp, "compute layering");
+  bodies.update(box);
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
-    const int layer = box.layer(Eigen::Map<const Eigen::Vector3d>(atom->x[i]), impl_->axis, m);
+    if (!(atom->mask[i] & groupbit) || !bodies.stands_for_itself_or_clump(i)) continue;
+    const Eigen::Vector3d x = Eigen::Map<const Eigen::Vector3d>(atom->x[i]) - bodies.arm(i);
+    const int layer = box.layer(x, impl_->axis, m);
     counts[layer < 0 ? m : layer] += 1.0;
   }
   MPI_Allreduce(MPI_IN_PLACE, counts.data(), m + 1, MPI_DOUBLE, MPI_SUM, world);

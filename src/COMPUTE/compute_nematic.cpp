@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_nematic.h"
 #include "arguments.h"
+#include "bodies.h"
 #include "grain_shape.h"
 #include "nematic.h"
 #include "scope.h"
@@ -77,6 +78,7 @@ ComputeNematic::~ComputeNematic() {}
 
 void ComputeNematic::init() {
   grainscope::require_grains(lmp, grainscope::Arguments(lmp, "compute nematic"));
+  grainscope::require_no_bodies(lmp, grainscope::Arguments(lmp, "compute nematic"), "they have no axis of symmetry");
   impl_->scope.init();
 }
 

@@ -28,16 +28,24 @@ namespace {
 
 using grainscope::StressSums;
 
-/** Of a region's stress, the part of each branch that lies in it; contacts are counted where their points are. */
-struct BranchesInRegion {
+/** Branches go from the centre of mass of a clump to that of another. Of a region's stress, the part of each branch
+ *  that lies in it; contacts are counted where their points are. */
+struct Branches {
   template <class KernelOf>
   static void add(grainscope::ContactSpan contacts, const grainscope::ContactCompute &of, const KernelOf &kernel_of) {
     const grainscope::RegionSolid *const region = of.scope().within();
-    if (!region) return grainscope::WholeContacts::add(contacts, of, kernel_of);
+    const grainscope::Bodies &bodies = of.bodies();
+    if (!region && !bodies.any()) return grainscope::WholeContacts::add(contacts, of, kernel_of);
     grainscope::for_each_contact(contacts, of.selection().everywhere(), [&](const grainscope::Contact &c) {
-      const Eigen::Vector3d to = c.motion->point - c.motion->arm;  // the centre of i
-      kernel_of(c).add_moments(c, c.weight * region->part(to - c.branch, to));
-      if (region->has(c.motion->point)) kernel_of(c).count(c);
+      Eigen::Vector3d branch = c.branch - bodies.arm(c.i);
+      if (!c.with_wall()) branch += bodies.arm(c.j());
+      double share = c.weight;
+      if (region) {
+        const Eigen::Vector3d to = c.motion->point - c.motion->arm - bodies.arm(c.i);  // the centre of i
+        share *= region->part(to - branch, to);
+      }
+      kernel_of(c).add_moments(c, share * branch);
+      if (!region || region->has(c.motion->point)) kernel_of(c).count(c);
     });
   }
 };
@@ -83,8 +91,8 @@ grainscope::Outputs declared(const grainscope::TypePairs *pairs) {
 }
 
 struct ComputeStressContact::Impl {
-  grainscope::ContactSums<StressSums, BranchesInRegion> sums;
-  std::unique_ptr<grainscope::TypePairSums<StressSums, BranchesInRegion>> of_types;  // of 'rows types'
+  grainscope::ContactSums<StressSums, Branches> sums;
+  std::unique_ptr<grainscope::TypePairSums<StressSums, Branches>> of_types;  // of 'rows types'
 };
 
 ComputeStressContact::ComputeStressContact(LAMMPS *lmp, int &iarg, int narg, char **arg)
@@ -100,7 +108,7 @@ ComputeStressContact::ComputeStressContact(LAMMPS *lmp, int &iarg, int narg, cha
   }
   sums_over(impl_->sums);
   if (scope_.by_types()) {
-    impl_->of_types.reset(new grainscope::TypePairSums<StressSums, BranchesInRegion>(type_pairs()));
+    impl_->of_types.reset(new grainscope::TypePairSums<StressSums, Branches>(type_pairs()));
     sums_over(*impl_->of_types);
   }
   declare(this, declared(impl_->of_types ? &impl_->of_types->pairs() : nullptr));

@@ -29,6 +29,7 @@ class ComputeStressContact : public grainscope::ContactCompute, public grainscop
 
  private:
   bool reads_motion() const override { return false; }
+  bool uses_bodies() const override { return true; }
   struct Impl;
   std::unique_ptr<Impl> impl_;
   grainscope::RangeWarning soft_;

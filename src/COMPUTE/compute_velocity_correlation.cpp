@@ -229,7 +229,7 @@ ComputeVelocityCorrelation::Impl::Totals ComputeVelocityCorrelation::Impl::measu
   Totals now;
   for (const Fluctuations::Grain &g : motion.local()) {
     const double value = component.of(motion, g);
-    points.add(box.fraction(Eigen::Map<const Eigen::Vector3d>(lmp->atom->x[g.index])), value);
+    points.add(box.fraction(motion.place(g)), value);
     smallest = std::min(smallest, 2.0 * grainscope::semi_axes(*lmp->atom, g.index).minCoeff());
     now.squares += value * value;
   }

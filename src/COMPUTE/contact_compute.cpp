@@ -25,6 +25,7 @@ void ContactCompute::init() {
   observer_ = &PairGranInsitu::required_by(lmp, name_.c_str())->observer();
   observer_->add(this);
   scope_.init();
+  bodies_.reset(uses_bodies() ? new Bodies(lmp, name_) : nullptr);
   tallied_ = -1;
 }
 
@@ -39,6 +40,7 @@ bool ContactCompute::wants_contacts() {
 
 void ContactCompute::begin_contacts() {
   scope_.update(observer_->box());
+  if (bodies_) bodies_->update(observer_->box());
   for (Accumulator *one : sums_) one->reset();
 }
 

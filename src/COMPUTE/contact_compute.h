@@ -3,6 +3,7 @@
 #define GRAINSCOPE_CONTACT_COMPUTE_H
 
 #include "compute.h"
+#include "bodies.h"
 #include "contact_sink.h"
 #include "scope.h"
 #include "type_pairs.h"
@@ -62,6 +63,8 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
   };
   Selection selection() const;
   const Scope &scope() const { return scope_; }
+  /** Of a measure that uses them. */
+  const Bodies &bodies() const { return *bodies_; }
   /** Sums `values` over all ranks, in place. */
   void sum_over_ranks(double *values, int n) const;
 
@@ -69,10 +72,13 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
   ContactObserver *observer_;
   std::string name_;  // "compute <style>", for messages
   Scope scope_;
+  std::unique_ptr<Bodies> bodies_;  // as of the evaluation
 
   void sums_over(Accumulator &sums) { sums_.push_back(&sums); }
   /** False if Contact::motion is not used, but for the place of contacts in a region. */
   virtual bool reads_motion() const { return true; }
+  /** True where clumps count as one grain: bodies() are those of the evaluation. */
+  virtual bool uses_bodies() const { return false; }
   /** Fills scalar, vector and array, as far as there are, for the evaluation that was tallied. Collective. */
   virtual void answer();
 

@@ -17,14 +17,13 @@ struct StressSums {
   double largest_overlap = 0.0;
 
   void add(const Contact &c) {
-    add_moments(c, c.weight);
+    add_moments(c, c.weight * c.branch);
     count(c);
   }
-  /** The share of the branch that counts, times the weight of the contact. */
-  void add_moments(const Contact &c, double share) {
+  /** `r`: the branch, or the part of it that counts, times the weight of the contact. */
+  void add_moments(const Contact &c, const Eigen::Vector3d &r) {
     Eigen::Matrix<double, 6, 1> forces;
     forces << c.force, c.tangential_force;
-    const Eigen::Vector3d r = share * c.branch;
     Moments(sums.data()).noalias() += forces * r.transpose();
   }
   void count(const Contact &c) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fluctuations.h"
 #include "arguments.h"
+#include "grain_shape.h"
 #include "region_solid.h"
 #include "require_finite.h"
 #include "symmetric_tensor.h"
@@ -33,9 +34,25 @@ void MeanFlow::read(Arguments &arguments) {
   if (kind == Kind::layers) layers = arguments.whole_number("flow layers", 1, 10000);
 }
 
+/** The same, clumps as one grain each. */
+template <class Flow>
+void Fluctuations::collect_with_bodies(ChosenGrains chosen, Flow flow) {
+  const LAMMPS_NS::Atom *atom = lmp_->atom;
+  for (int i = 0, n = atom->nlocal; i < n; i++) {
+    if (!(atom->mask[i] & chosen.groupbit) || !bodies_.stands_for_itself_or_clump(i)) continue;
+    Grain grain = {i, 0, atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]], Vector3d::Zero(), bodies_.of(i)};
+    const Vector3d x = place(grain);
+    if (chosen.region && !chosen.region->has(x)) continue;
+    if (grain.body) grain.mass = grain.body->mass;
+    grain.u = (grain.body ? grain.body->velocity : Vector3d(Map<const Vector3d>(atom->v[i]))) - flow(x);
+    local_.push_back(grain);
+  }
+}
+
 /** The grains of the group, with what their velocity has beside flow(x). */
 template <class Flow>
 inline void Fluctuations::collect(ChosenGrains chosen, Flow flow) {
+  if (bodies_.any()) return collect_with_bodies(chosen, flow);
   const LAMMPS_NS::Atom *atom = lmp_->atom;
   local_.resize(atom->nlocal);
   Grain *grain = local_.data();
@@ -43,19 +60,22 @@ inline void Fluctuations::collect(ChosenGrains chosen, Flow flow) {
     if (!(atom->mask[i] & chosen.groupbit)) continue;
     if (chosen.region && !chosen.region->has(Map<const Vector3d>(atom->x[i]))) continue;
     const double m = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
-    *grain++ = {i, 0, m, Map<const Vector3d>(atom->v[i]) - flow(Map<const Vector3d>(atom->x[i]))};
+    *grain++ = {i, 0, m, Map<const Vector3d>(atom->v[i]) - flow(Map<const Vector3d>(atom->x[i])), nullptr};
   }
   local_.resize(grain - local_.data());
 }
 
-Fluctuations::Fluctuations(LAMMPS_NS::LAMMPS *lmp, ChosenGrains chosen, const BoxState &box) : lmp_(lmp), means_(1) {
+Fluctuations::Fluctuations(LAMMPS_NS::LAMMPS *lmp, ChosenGrains chosen, const BoxState &box)
+    : lmp_(lmp), bodies_(lmp, "mean flow"), means_(1) {
+  bodies_.update(box);
   const AffineFlow affine = box;  // a copy, which no store of a grain may change
   collect(chosen, [&affine](const Vector3d &x) { return affine.flow(x); });
   find_mean_velocity();
 }
 
 Fluctuations::Fluctuations(LAMMPS_NS::LAMMPS *lmp, ChosenGrains chosen, const BoxState &box, const MeanFlow &flow)
-    : lmp_(lmp), means_(flow.kind == MeanFlow::Kind::layers ? flow.layers : 1) {
+    : lmp_(lmp), bodies_(lmp, "mean flow"), means_(flow.kind == MeanFlow::Kind::layers ? flow.layers : 1) {
+  bodies_.update(box);
   const int along = flow.plane.flow, across = flow.plane.gradient;
   switch (flow.kind) {
     case MeanFlow::Kind::box:
@@ -76,14 +96,27 @@ Fluctuations::Fluctuations(LAMMPS_NS::LAMMPS *lmp, ChosenGrains chosen, const Bo
   find_means();
 }
 
-Vector3d Fluctuations::spin(const Grain &grain) const {
-  return Map<const Vector3d>(lmp_->atom->omega[grain.index]) - means_[grain.layer].spin;
+Vector3d Fluctuations::own_spin(const Grain &grain) const {
+  return grain.body ? grain.body->spin : Vector3d(Map<const Vector3d>(lmp_->atom->omega[grain.index]));
+}
+
+Vector3d Fluctuations::place(const Grain &grain) const {
+  return grain.body ? grain.body->centre : Vector3d(Map<const Vector3d>(lmp_->atom->x[grain.index]));
+}
+
+double Fluctuations::rotational_energy(const Grain &grain, const Vector3d &w) const {
+  return grain.body ? grain.body->rotational_energy(w) : grainscope::rotational_energy(*lmp_->atom, grain.index, w);
+}
+
+double Fluctuations::equivalent_diameter(const Grain &grain) const {
+  return grain.body ? std::cbrt(6.0 / M_PI * grain.body->volume)
+                    : grainscope::equivalent_diameter(*lmp_->atom, grain.index);
 }
 
 void Fluctuations::find_layers(const BoxState &box, int gradient, int layers) {
   double outside = 0.0;
   for (Grain &g : local_) {
-    g.layer = box.layer(Map<const Vector3d>(lmp_->atom->x[g.index]), gradient, layers);
+    g.layer = box.layer(place(g), gradient, layers);
     if (g.layer < 0) outside += 1.0;
   }
   sum_over_ranks(lmp_, &outside, 1);
@@ -110,7 +143,7 @@ void Fluctuations::find_means() {
     double *at = &sums[8 * g.layer];
     Map<Vector3d>(at + 0) += g.mass * g.u;
     at[3] += g.mass;
-    Map<Vector3d>(at + 4) += Map<const Vector3d>(lmp_->atom->omega[g.index]);
+    Map<Vector3d>(at + 4) += own_spin(g);
     at[7] += 1.0;
   }
   sum_over_ranks(lmp_, sums.data(), sums.size());
@@ -134,10 +167,9 @@ Eigen::Matrix3d Fluctuations::momentum_flux() const {
 
 /** Takes the slope of the fitted line out; its height goes with the mean. */
 void Fluctuations::subtract_line(int gradient) {
-  const double *const *x = lmp_->atom->x;
   double first[5] = {};  // m y, m v, m
   for (const Grain &g : local_) {
-    first[0] += g.mass * x[g.index][gradient];
+    first[0] += g.mass * place(g)[gradient];
     Map<Vector3d>(first + 1) += g.mass * g.u;
     first[4] += g.mass;
   }
@@ -148,14 +180,14 @@ void Fluctuations::subtract_line(int gradient) {
 
   double second[4] = {};  // m (y - <y>)(v - <v>), m (y - <y>)^2
   for (const Grain &g : local_) {
-    const double y = x[g.index][gradient] - middle;
+    const double y = place(g)[gradient] - middle;
     Map<Vector3d>(second + 0) += g.mass * y * (g.u - mean);
     second[3] += g.mass * y * y;
   }
   sum_over_ranks(lmp_, second, 4);
   if (second[3] == 0.0) return;
   slope_ = Map<Vector3d>(second + 0) / second[3];
-  for (Grain &g : local_) g.u -= slope_ * (x[g.index][gradient] - middle);
+  for (Grain &g : local_) g.u -= slope_ * (place(g)[gradient] - middle);
 }
 
 }

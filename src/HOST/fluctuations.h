@@ -2,6 +2,7 @@
 #ifndef GRAINSCOPE_FLUCTUATIONS_H
 #define GRAINSCOPE_FLUCTUATIONS_H
 
+#include "bodies.h"
 #include "box_state.h"
 #include "plane.h"
 #include <string>
@@ -37,15 +38,16 @@ struct MeanFlow {
   void read(Arguments &arguments);
 };
 
-/** How the grains of a group move and spin against a mean flow: u = v - flow, dv = u - <u> by mass, dw = omega -
- *  <omega>, where the means are those of the group, or with flow layers of each layer. Collective. */
+/** How the grains of a group move and spin against a mean flow, a clump as one grain: u = v - flow, dv = u - <u> by
+ *  mass, dw = omega - <omega>, where the means are those of the group, or with flow layers of each layer. Collective. */
 class Fluctuations {
  public:
   struct Grain {
-    int index;  // local index of the host
+    int index;  // local index of the host; of a clump, of the sphere that stands for it
     int layer;  // 0 without layers
     double mass;
     Eigen::Vector3d u;
+    const Body *body;  // null for a grain on its own
   };
 
   /** Against the affine flow of the box; spins are not asked for. */
@@ -55,7 +57,13 @@ class Fluctuations {
   /** This rank's grains of the group. */
   const std::vector<Grain> &local() const { return local_; }
   Eigen::Vector3d velocity(const Grain &grain) const { return grain.u - means_[grain.layer].velocity; }
-  Eigen::Vector3d spin(const Grain &grain) const;
+  Eigen::Vector3d spin(const Grain &grain) const { return own_spin(grain) - means_[grain.layer].spin; }
+  /** Its centre. */
+  Eigen::Vector3d place(const Grain &grain) const;
+  /** 1/2 w.J w, J its inertia. */
+  double rotational_energy(const Grain &grain, const Eigen::Vector3d &w) const;
+  /** Of the sphere of its volume. */
+  double equivalent_diameter(const Grain &grain) const;
   /** Number of grains over all ranks. */
   double grains() const { return grains_; }
   /** <u> of a flow without layers; zero for an empty group. */
@@ -71,13 +79,17 @@ class Fluctuations {
   };
 
   LAMMPS_NS::LAMMPS *lmp_;
+  Bodies bodies_;
   std::vector<Grain> local_;
   std::vector<Mean> means_;  // of each layer
   double grains_ = 0.0;
   Eigen::Vector3d slope_ = Eigen::Vector3d::Zero();
 
+  Eigen::Vector3d own_spin(const Grain &grain) const;
   template <class Flow>
   void collect(ChosenGrains chosen, Flow flow);
+  template <class Flow>
+  void collect_with_bodies(ChosenGrains chosen, Flow flow);
   void find_layers(const BoxState &box, int gradient, int layers);
   void subtract_line(int gradient);
   void find_mean_velocity();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "time_step_watch.h"
+#include "bodies.h"
 #include "grain_shape.h"
 #include "atom.h"
 #include "comm.h"
@@ -18,10 +19,12 @@ const int steps_between_checks = 1000;
 void TimeStepWatch::begin_run() {
   level_ = Level::none;
   grains_next_ = false;
+  clumps_ = has_bodies(lmp);
 }
 
 bool TimeStepWatch::wants_contacts() {
   level_ = Level::none;
+  if (clumps_) return false;
   if (++steps_ < steps_between_checks && !grains_next_) return false;
   level_ = grains_next_ ? Level::grains : Level::contacts;
   grains_next_ = false;

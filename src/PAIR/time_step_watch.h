@@ -26,6 +26,7 @@ class TimeStepWatch : public ContactSink, private LAMMPS_NS::Pointers {
  private:
   enum class Level { none, contacts, grains } level_ = Level::none;
   double warned_of_ = 0.0;    // the value of b
+  bool clumps_ = false;       // whose masses are not those of their spheres: nothing is checked
   int steps_ = 0;             // since the last check
   bool grains_next_ = false;  // the next look is at grains
   double largest_ = 0.0;      // of this rank's contacts

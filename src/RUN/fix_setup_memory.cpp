@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_setup_memory.h"
+#include "arguments.h"
+#include "bodies.h"
 #include "grain_order.h"
 #include "last_evaluation.h"
 #include "last_run.h"
@@ -69,6 +71,8 @@ void FixSetupMemory::take_state(const std::shared_ptr<void> &state) {
 int FixSetupMemory::setmask() { return FixConst::PRE_EXCHANGE | FixConst::PRE_FORCE; }
 
 void FixSetupMemory::init() {
+  grainscope::require_no_bodies(lmp, grainscope::Arguments(lmp, "pair_style gran/insitu setup neutral"),
+                                "a run that begins counts the forces on them anew: 'setup host'");
   impl_->running = false;
   impl_->memory->evaluation.give_up_repetition();
   next_reneighbor = -1;

@@ -4,8 +4,8 @@ from case import require
 from run import attempt, count_errors, tail
 
 
-def require_refused(deck, ranks, *words):
-    result = attempt(deck, ranks)
+def require_refused(deck, ranks, *words, **options):
+    result = attempt(deck, ranks, **options)
     require(
         result.code > 0,
         f"the run was not refused but ended with code {result.code}; its output ends:\n{tail(result.output)}",
