@@ -523,6 +523,32 @@ add_cases(stress/contact-at-walls cases/wall_analytic.py LABEL case
 add_cases(suite-style cases/style.py LABEL case STYLES suite style CASES clang-format black flake8 citation)
 add_cases(suite-style cases/style.py LABEL long STYLES suite style CASES clang-tidy)
 
+# Two dimensions: discs, whatever the box's depth is
+add_cases(every-style-two-dimensions cases/two_dimensions.py LABEL case STYLES ALL RANKS 1 2 LONG_RANKS 4
+  CASES any-depth)
+add_cases(every-style-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES ALL RANKS 2 LONG_RANKS 4
+  CASES decompositions)
+add_cases(stress/contact-two-dimensions cases/two_dimensions.py LABEL case STYLES stress/contact
+  RANKS 1 2 LONG_RANKS 4 CASES stress lattice)
+add_cases(fluctuation+layering+contact/direction-two-dimensions cases/two_dimensions.py LABEL case
+  STYLES fluctuation layering contact/direction RANKS 1 2 LONG_RANKS 4 CASES motion)
+add_cases(dissipation+nematic+contact/grain-two-dimensions cases/two_dimensions.py LABEL case
+  STYLES dissipation nematic contact/grain contact/local RANKS 1 2 LONG_RANKS 4 CASES losses)
+add_cases(fabric-two-dimensions cases/two_dimensions.py LABEL case STYLES fabric RANKS 1 2 LONG_RANKS 4 CASES fabric)
+add_cases(velocity/correlation-two-dimensions cases/two_dimensions.py LABEL case STYLES velocity/correlation
+  RANKS 1 2 LONG_RANKS 4 CASES correlation)
+add_cases(energy/ledger-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES energy/ledger
+  RANKS 1 2 LONG_RANKS 4 CASES ledger)
+add_cases(press/strain-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES press/strain
+  RANKS 1 LONG_RANKS 2 4 CASES pressure)
+add_cases(displacement/shear-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES displacement/shear
+  RANKS 1 2 LONG_RANKS 4 CASES displacement)
+add_cases(wall/contact+stress/contact-two-dimensions cases/two_dimensions_runs.py LABEL case
+  STYLES wall/contact stress/contact wall/gran RANKS 1 LONG_RANKS 2 4 CASES walls ring)
+add_cases(stress/contact-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES stress/contact
+  RANKS 1 2 LONG_RANKS 4 CASES regions)
+add_cases(gran/insitu-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES gran/insitu
+  RANKS 1 LONG_RANKS 2 4 CASES in-parts)
 # What is measured: the shared keywords
 set(scoped stress/contact dissipation fabric contact/grain)
 add_cases(stress/contact+dissipation+fabric-scope cases/scopes.py LABEL case STYLES ${scoped} RANKS 1 4 CASES rows-by-types chosen-types)

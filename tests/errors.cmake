@@ -167,3 +167,11 @@ add_cases(outputs-refused errors/outputs.py LABEL error STYLES outputs CASES
   empty-prefix misspelt nothing-like-it host-compute host-fix compute-and-fix before-the-box clash-equal
   clash-string clash-index clash-atom compute-that-is-gone)
 add_cases(outputs-refused errors/outputs.py LABEL error STYLES outputs RANKS 2 CASES misspelt clash-equal)
+
+# Two dimensions: what has to do with z, superquadrics, grains out of the plane, walls that do not stand on it
+add_cases(every-style-two-dimensions-refused errors/two_dimensions.py LABEL error STYLES ALL
+  CASES keywords superquadrics)
+add_cases(gran/insitu-two-dimensions-refused errors/two_dimensions.py LABEL error STYLES gran/insitu
+  RANKS 1 2 LONG_RANKS 4 CASES out-of-plane small-box)
+add_cases(wall/gran+wall/triangle-two-dimensions-refused errors/two_dimensions.py LABEL error
+  STYLES wall/gran wall/triangle RANKS 1 2 CASES walls mesh-walls)

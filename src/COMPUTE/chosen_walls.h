@@ -44,7 +44,7 @@ class ChosenWalls {
 
 /** The area of a primitive wall within the box: a plane parallel to one of its faces, a cylinder inside it along one of
  *  its edges, where the box does not follow the grains. 0 where it is not known, and `why`. `fixed`: both faces across
- *  an edge stay where they are, or move as commanded. */
+ *  an edge stay where they are, or move as commanded. In two dimensions: the length of the line that the wall is. */
 double primitive_area(const std::vector<std::string> &wall, const BoxState &box, const std::array<bool, 3> &fixed,
                       std::string &why);
 /** Of this rank's triangles of a mesh, as it is now. */

@@ -61,7 +61,9 @@ grainscope::Outputs declared(int bins) {
 /** v seen along body axis `axis`: that component last, the others before it. */
 Vector3d along(int axis, const Vector3d &v) { return {v[(axis + 1) % 3], v[(axis + 2) % 3], v[axis]}; }
 
-void require_axes(const Atom *atom, const grainscope::Arguments &errors) {
+void require_axes(const Atom *atom, const Domain *domain, const grainscope::Arguments &errors) {
+  if (domain->dimension == 2)
+    errors.fail("needs three dimensions, got 'dimension 2': discs have no axes to measure angles from");
   if (!atom->superquadric_flag)
     errors.fail("needs atom_style superquadric: grains of other styles have no axes to measure angles from");
 }
@@ -163,7 +165,7 @@ ComputeContactSurface::ComputeContactSurface(LAMMPS *lmp, int &iarg, int narg, c
       impl_->sums().axis = axis == "auto" ? -1 : axis[0] - 'x';
     }
   }
-  require_axes(atom, arguments);
+  require_axes(atom, domain, arguments);
   impl_->sums().atom = atom;
   sums_over(impl_->contacts);
   sums_over(impl_->pressure);
@@ -173,7 +175,7 @@ ComputeContactSurface::ComputeContactSurface(LAMMPS *lmp, int &iarg, int narg, c
 ComputeContactSurface::~ComputeContactSurface() {}
 
 void ComputeContactSurface::init() {
-  require_axes(atom, grainscope::Arguments(lmp, name_));
+  require_axes(atom, domain, grainscope::Arguments(lmp, name_));
   grainscope::require_no_bodies(lmp, grainscope::Arguments(lmp, name_), "their surface is not that of their grains");
   ContactCompute::init();
   require_known_losses();

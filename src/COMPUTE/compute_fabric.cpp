@@ -5,6 +5,7 @@
 #include "fabric.h"
 #include "principal_axes.h"
 #include "symmetric_tensor.h"
+#include "domain.h"
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -36,7 +37,8 @@ grainscope::Outputs declared(const std::vector<const Weighted *> &chosen, const 
   for (const char *axis : {"1", "2", "3"})
     outputs.vector.add_each(
         "x y z", {std::string("eigenvector_") + axis + "_*", "-", intensive, std::string("* of eigenvector ") + axis});
-  const grainscope::NamedOutput deviator = {"deviator", "-", intensive, "sqrt(3/2 F':F')"};
+  const grainscope::NamedOutput deviator = {"deviator", "-", intensive,
+                                            "sqrt(3/2 F':F'), in two dimensions sqrt(2 F':F')"};
   outputs.vector.add(deviator)
       .add({"angle", "rad", intensive, "principal angle in the plane"})
       .add({"ratio", "-", intensive, "anisotropy, eigenvalue_1 over eigenvalue_2"})
@@ -107,9 +109,10 @@ void ComputeFabric::answer() {
   if (impl_->of_types) put_rows();
   if (all.contacts() == 0.0) return;
 
-  const grainscope::PrincipalAxes principal(fabric);
+  const int dimension = domain->dimension;
+  const grainscope::PrincipalAxes principal(fabric, dimension);
   const int a = scope_.shear_plane().flow, b = scope_.shear_plane().gradient;
-  scalar = std::sqrt(1.5) * (fabric - fabric.trace() / 3.0 * Matrix3d::Identity()).norm();
+  scalar = grainscope::fabric_deviator(fabric, dimension);
   double *out = grainscope::write_components(fabric, vector);
   out = std::copy(principal.values.data(), principal.values.data() + 3, out);
   out = std::copy(principal.vectors.data(), principal.vectors.data() + 9, out);
@@ -123,7 +126,7 @@ void ComputeFabric::answer() {
   *out++ = all.contacts();
 
   if (!impl_->chosen.empty()) {
-    WeightedFabricSums weighted;
+    WeightedFabricSums weighted(dimension);
     for (const grainscope::ContactMoment &moment : impl_->moments.of_contacts) weighted.add(moment, fabric);
     sum_over_ranks(weighted.sums.data(), weighted.sums.size());
     for (const Weighted *one : impl_->chosen) out = grainscope::write_components((weighted.*one->tensor)(), out);

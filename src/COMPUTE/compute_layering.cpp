@@ -2,6 +2,7 @@
 #include "compute_layering.h"
 #include "arguments.h"
 #include "fluctuations.h"
+#include "two_dimensions.h"
 #include "atom.h"
 #include "update.h"
 #include <algorithm>
@@ -40,8 +41,11 @@ ComputeLayering::ComputeLayering(LAMMPS *lmp, int &iarg, int narg, char **arg)
   grainscope::Arguments arguments(lmp, "compute layering", iarg, narg, arg);
   while (!arguments.done()) {
     const std::string keyword = arguments.keyword({"axis", "layers"});
-    if (keyword == "axis") impl_->axis = arguments.choice(keyword, {"x", "y", "z"})[0] - 'x';
-    else impl_->layers = arguments.even_number(keyword, 2, 1000);
+    if (keyword == "axis") {
+      const std::string axis = arguments.choice(keyword, {"x", "y", "z"});
+      grainscope::require_axes_of_plane(lmp, arguments, keyword, "x or y", axis);
+      impl_->axis = axis[0] - 'x';
+    } else impl_->layers = arguments.even_number(keyword, 2, 1000);
   }
   declare(this, declared(impl_->layers / 2 + 1));
 }

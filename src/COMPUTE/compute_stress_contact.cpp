@@ -68,13 +68,14 @@ grainscope::Outputs declared(const grainscope::TypePairs *pairs) {
       .add(pressure)
       .add({"mu_eff", "-", intensive, "effective friction, sxy/P, in another plane likewise"})
       .add({"N1", "-", intensive, "first normal stress difference, (sxx - syy)/P, in another plane likewise"})
-      .add({"N2", "-", intensive, "second normal stress difference, (syy - szz)/P, in another plane likewise"})
+      .add({"N2", "-", intensive,
+            "second normal stress difference, (syy - szz)/P, in another plane likewise; 0 in two dimensions"})
       .add({"N_c", "-", whole, "contacts between grains"})
       .add({"Z", "-", intensive, "coordination number, (2 N_c + N_w)/N"})
       .add({"sliding", "-", intensive, "fraction of contacts that slide"})
       .add({"overlap_mean", "distance", intensive, "mean overlap"})
       .add({"overlap_max", "distance", intensive, "largest overlap"})
-      .add({"kappa", "-", intensive, "stiffness number, min(alpha, 1) (E/P)^(2/3)"})
+      .add({"kappa", "-", intensive, "stiffness number, min(alpha, 1) (E/P)^(2/3); in two dimensions (E d/P)^(2/3)"})
       .add({"N_w", "-", whole, "contacts with walls"});
   if (!pairs) return outputs;
   grainscope::OutputList columns = {{"pair_a", "-", intensive, "atom type"},
@@ -159,6 +160,18 @@ double ComputeStressContact::flattest_shape() const {
   return flattest;
 }
 
+/** Of the group; 0 without grains. */
+double ComputeStressContact::mean_diameter() const {
+  double sums[2] = {0.0, 0.0};
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!in_group(i)) continue;
+    sums[0] += 2.0 * atom->radius[i];
+    sums[1] += 1.0;
+  }
+  sum_over_ranks(sums, 2);
+  return sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
+}
+
 void ComputeStressContact::answer() {
   const StressSums &all = impl_->sums.total(*this);
   double largest_overlap = impl_->sums.mine().largest_overlap;
@@ -185,14 +198,15 @@ void ComputeStressContact::answer() {
   *out++ = pressure;
   *out++ = total(a, b) * per_pressure;
   *out++ = (total(a, a) - total(b, b)) * per_pressure;
-  *out++ = (total(b, b) - total(v, v)) * per_pressure;
+  *out++ = box.dimension == 2 ? 0.0 : (total(b, b) - total(v, v)) * per_pressure;
   *out++ = of_grains;
   *out++ = motion.grains() > 0.0 ? (2.0 * of_grains + with_walls) / motion.grains() : 0.0;
   *out++ = all.sliding() * per_contact;
   *out++ = all.overlaps() * per_contact;
   *out++ = largest_overlap;
   if (stiffness_of_build_ != neighbor->lastcall) {  // grains come and go with neighbour lists only
-    stiffness_ = flattest_shape() * std::pow(softest_modulus(), 2.0 / 3.0);
+    const double depth = box.dimension == 2 ? mean_diameter() : 1.0;
+    stiffness_ = flattest_shape() * std::pow(softest_modulus() * depth, 2.0 / 3.0);
     stiffness_of_build_ = neighbor->lastcall;
   }
   const double kappa = stiffness_ * std::pow(per_pressure, 2.0 / 3.0);

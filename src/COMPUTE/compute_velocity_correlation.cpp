@@ -53,10 +53,6 @@ grainscope::Outputs declared(int bins) {
 
 bool is_positive(double x) { return x > 0.0; }
 
-PeriodicCell periodic_cell(const grainscope::BoxState &box, const Domain &domain) {
-  return {box.edges, {{domain.xperiodic != 0, domain.yperiodic != 0, domain.zperiodic != 0}}};
-}
-
 double half_smallest_height(const PeriodicCell &cell) {
   return 0.5 * std::min({cell.height(0), cell.height(1), cell.height(2)});
 }
@@ -221,7 +217,7 @@ void ComputeVelocityCorrelation::Impl::require_finite(LAMMPS *lmp, const PointVa
 
 ComputeVelocityCorrelation::Impl::Totals ComputeVelocityCorrelation::Impl::measure(LAMMPS *lmp, int groupbit) {
   const grainscope::BoxState box(lmp);
-  const PeriodicCell cell = periodic_cell(box, *lmp->domain);
+  const PeriodicCell cell = grainscope::periodic_cell(box);
   const DistanceBins distances{range > 0.0 ? range : half_smallest_height(cell), bins};
   const Fluctuations motion(lmp, groupbit, box, flow);
   PointValues points;

@@ -46,7 +46,8 @@ OutputList numbers(const std::string &suffix, Extent sum, const Choices &chosen)
       .add_each("x y z", {"torque_*" + suffix, "force*distance", sum, "torque on the wall, *"})
       .add({"F_n" + suffix, "force", sum, "sum of normal forces, > 0 pushes apart"})
       .add({"F_t" + suffix, "force", sum, "sum of the magnitudes of tangential forces"})
-      .add({"area" + suffix, "distance^2", whole, "area of the wall, 0 where it is not known"})
+      .add({"area" + suffix, "distance^2", whole,
+            "area of the wall, in two dimensions its length, 0 where it is not known"})
       .add({"p" + suffix, "pressure", intensive, "normal traction, F_n over the area"})
       .add({"tau" + suffix, "pressure", intensive, "shear traction, F_t over the area"})
       .add({"power" + suffix, "energy/time", sum, "power that the wall gives to the grains"});
@@ -126,6 +127,10 @@ struct ComputeWallContact::Impl {
     if (given_areas[row] > 0.0) return given_areas[row];
     const grainscope::Wall &wall = walls->walls()[row];
     if (!wall.mesh) return grainscope::primitive_area(wall.primitive, box, fixed, why);
+    if (box.dimension == 2) {
+      why = "a mesh has no length in two dimensions";
+      return 0.0;
+    }
     double area = grainscope::mesh_area(wall);
     MPI_Allreduce(MPI_IN_PLACE, &area, 1, MPI_DOUBLE, MPI_SUM, world);
     return area;
@@ -218,7 +223,7 @@ void ComputeWallContact::warn_of_unknown_areas() {
   for (int row = 0; row < impl_->walls->size(); row++) {
     const grainscope::Wall &wall = impl_->walls->walls()[row];
     std::string why;
-    if (!wall.mesh) impl_->area_of(row, grainscope::BoxState(lmp), world, why);
+    if (!wall.mesh || domain->dimension == 2) impl_->area_of(row, grainscope::BoxState(lmp), world, why);
     if (why.empty()) continue;
     impl_->warned = true;
     if (comm->me == 0)

@@ -6,6 +6,7 @@
 #include "contact_observer.h"
 #include "contact_sums.h"
 #include "wall_triangle_sums.h"
+#include "domain.h"
 #include "fix_mesh_surface.h"
 #include "tri_mesh.h"
 #include "update.h"
@@ -71,6 +72,9 @@ ComputeWallTriangle::ComputeWallTriangle(LAMMPS *lmp, int &iarg, int narg, char 
     if (keyword == "walls") named = arguments.words_before(keywords, "names of meshes");
     else impl_->keeps_wear = arguments.yes_or_no(keyword);
   }
+  if (domain->dimension == 2)
+    arguments.fail("needs three dimensions, got 'dimension 2': triangles have no areas there. compute wall/contact "
+                   "has the forces of a mesh");
   impl_->walls.reset(new ChosenWalls(lmp, arguments, ChosenWalls::Kind::mesh, named));
   sums_over(impl_->sums);
   declare(this, declared(impl_->keeps_wear));

@@ -29,24 +29,38 @@ struct ContactMoment {
   double weight, distance, normal_force, tangential_force;
 };
 
+/** Size of the deviator of a fabric, from 0 (isotropic) to 1 (one direction in the plane of two dimensions); in three
+ *  dimensions at most 1 too: sqrt(d/(d - 1) F':F'), d = `dimension`, F' = F - tr F/d. */
+double fabric_deviator(const Eigen::Matrix3d &fabric, int dimension);
+
 /** The tensors of LAMMPS's compute fabric (Ouadfel & Rothenburg 2001), with the true contact normal n and
- *  r = |x_i - x_j|:
- *  a = 15/2 (F - 1/3), w = 1/(1 + a:nn), and the sums of w r n n, w f_n n n, w |F_t| n n over contacts, each once. The
- *  mean over contacts that the definition asks for cancels in the tensors. */
-struct WeightedFabricSums {
+ *  r = |x_i - x_j|, in d = 2 or 3 dimensions:
+ *  a = d (d + 2)/2 (F - 1/d), w = 1/(1 + a:nn), and the sums of w r n n, w f_n n n, w |F_t| n n over contacts, each
+ *  once. The mean over contacts that the definition asks for cancels in the tensors. The coefficients follow from
+ *  means over all directions n, < n_a n_b > = delta_ab/d and < n_a n_b n_c n_d > = (delta_ab delta_cd + ...)/(d (d +
+ *  2)): of a density proportional to 1 + a:nn, a traceless, they give a back. d = 3: 15/2 and 5; d = 2: 4 and 4. */
+class WeightedFabricSums {
+ public:
   // branch, normal force, tangential force: xx yy zz xy xz yz each; then contacts with 1 + a:nn = 0 (within 1e-10)
   std::array<double, 19> sums{};
 
+  explicit WeightedFabricSums(int dimension = 3) : dimension_(dimension) {}
   /** `fabric`: <n n> of all contacts. */
   void add(const ContactMoment &m, const Eigen::Matrix3d &fabric);
   double singular() const { return sums[18]; }
-  /** Traceless, 15/(2 tr D) (D - tr D/3). All three are zero where their trace is, or with a contact where 1 + a:nn =
-   *  0. */
+  /** Traceless, d (d + 2)/(2 tr D) (D - tr D/d). All three are zero where their trace is, or with a contact where 1 +
+   *  a:nn = 0. */
   Eigen::Matrix3d branch() const;
-  /** 15/(2 tr N) (N - tr N/3). */
+  /** d (d + 2)/(2 tr N) (N - tr N/d). */
   Eigen::Matrix3d normal_force() const;
-  /** 5/(tr N) (T - tr T/3). */
+  /** (d + 2)/(tr N) (T - tr T/d). */
   Eigen::Matrix3d tangential_force() const;
+
+ private:
+  int dimension_;
+
+  double of_density() const { return 0.5 * dimension_ * (dimension_ + 2); }
+  Eigen::Matrix3d deviatoric_over(double scale, const Eigen::Matrix3d &m) const;
 };
 
 }

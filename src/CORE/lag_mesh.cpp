@@ -40,7 +40,8 @@ int fast_length(int at_least) {
 std::array<int, 3> mesh_size(const PeriodicCell &cell, const DistanceBins &bins, int per_bin, double most) {
   std::array<double, 3> wanted;
   // rounding must not add a cell
-  for (int k = 0; k < 3; k++) wanted[k] = std::ceil(per_bin * cell.height(k) / bins.width() - 1e-6);
+  for (int k = 0; k < 3; k++)
+    wanted[k] = cell.periodic[k] ? std::ceil(per_bin * cell.height(k) / bins.width() - 1e-6) : 1.0;
   std::array<int, 3> size;
   bool too_many = !(wanted[0] * wanted[1] * wanted[2] <= most);
   for (int k = 0; k < 3; k++) {

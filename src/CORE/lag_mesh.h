@@ -11,11 +11,12 @@ namespace grainscope {
 /** The smallest product of 2, 3, 5 and 7 from `at_least` on: Fourier transforms of such lengths are fast. */
 int fast_length(int at_least);
 
-/** Numbers of cells along the edges: at least `per_bin` to the width of a bin, rounded up to fast lengths. Throws
- *  std::length_error when there would be more than `most` in all. */
+/** Numbers of cells along the edges: at least `per_bin` to the width of a bin, rounded up to fast lengths; one
+ *  along an edge that is not periodic, which is across the plane of two dimensions. Throws std::length_error when there
+ *  would be more than `most` in all. */
 std::array<int, 3> mesh_size(const PeriodicCell &cell, const DistanceBins &bins, int per_bin, double most);
 
-/** A mesh of equal cells along the edges of a box that is periodic in all of them, and the slab of it that one rank
+/** A mesh of equal cells along the edges of a box that is periodic in all that are divided, and the slab of it that one rank
  *  holds: whole planes across the first edge, in rows along the last that are padded to `row` numbers. */
 struct LagMesh {
   std::array<int, 3> size;

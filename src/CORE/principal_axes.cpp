@@ -31,7 +31,21 @@ Vector3d nearest_axis_across(const Vector3d &pole) {
 
 }
 
-PrincipalAxes::PrincipalAxes(const Eigen::Matrix3d &tensor) {
+PrincipalAxes::PrincipalAxes(const Eigen::Matrix3d &tensor, int dimension) {
+  if (dimension == 2) solve_in_plane(tensor);
+  else solve(tensor);
+  for (int k = 0; k < 3; k++) vectors.col(k) = with_sign(vectors.col(k));
+}
+
+void PrincipalAxes::solve_in_plane(const Eigen::Matrix3d &tensor) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(tensor.topLeftCorner<2, 2>());
+  values << solver.eigenvalues().reverse(), tensor(2, 2);
+  vectors.setIdentity();
+  if (values[0] - values[1] > 1e-10 * values.cwiseAbs().maxCoeff())
+    vectors.topLeftCorner<2, 2>() = solver.eigenvectors().rowwise().reverse();
+}
+
+void PrincipalAxes::solve(const Eigen::Matrix3d &tensor) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(tensor);
   values = solver.eigenvalues().reverse();
   vectors = solver.eigenvectors().rowwise().reverse();
@@ -44,7 +58,6 @@ PrincipalAxes::PrincipalAxes(const Eigen::Matrix3d &tensor) {
     vectors.col(one) = nearest_axis_across(vectors.col(pole));
     vectors.col(one + 1) = vectors.col(pole).cross(vectors.col(one));
   }
-  for (int k = 0; k < 3; k++) vectors.col(k) = with_sign(vectors.col(k));
 }
 
 }

@@ -31,6 +31,14 @@ inline Eigen::Matrix3d symmetric_tensor(const double *six) {
   return m;
 }
 
+/** m less its isotropic part, tr m/d in each of the d = `dimension` directions; with d = 2 these are x and y, and m has
+ *  no component along z. */
+inline Eigen::Matrix3d deviatoric(const Eigen::Matrix3d &m, int dimension) {
+  Eigen::Matrix3d unit = Eigen::Matrix3d::Identity();
+  if (dimension == 2) unit(2, 2) = 0.0;
+  return m - m.trace() / dimension * unit;
+}
+
 /** Writes the upper triangle of m as six numbers; returns the place behind them. */
 inline double *write_components(const Eigen::Matrix3d &m, double *to) {
   for (double value : {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)}) *to++ = value;

@@ -41,6 +41,15 @@ class GrainModes {
     damping_ += seen_from(arm, m.damping_coefficient * n + damping_t * t);
   }
 
+  /** Takes out what a grain of two dimensions cannot do: leave the plane x, y, or turn about x or y. */
+  void confine_to_plane() {
+    for (Matrix6 *m : {&stiffness_, &damping_})
+      for (int k : {2, 3, 4}) {
+        m->row(k).setZero();
+        m->col(k).setZero();
+      }
+  }
+
   struct Mode {
     double value = 0.0;                     // 2 x eigenvalue of M^-1 (dt^2 K + 2 dt C) [-]
     double stiffness = 0.0, damping = 0.0;  // value = dt^2 stiffness + dt damping

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_nve_spheroid.h"
 #include "arguments.h"
+#include "two_dimensions.h"
 #include "atom.h"
 #include "error.h"
 #include "modify.h"
@@ -18,6 +19,7 @@ FixNVESpheroid::FixNVESpheroid(LAMMPS *lmp, int narg, char **arg) : FixNVE(lmp, 
   arguments.require_none();
   if (!atom->superquadric_flag)
     arguments.fail("needs atom_style superquadric, got '" + std::string(atom->atom_style) + "'");
+  grainscope::require_grains_of_dimension(lmp, arguments);
 }
 
 int FixNVESpheroid::setmask() { return FixNVE::setmask() | FixConst::PRE_NEIGHBOR; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_wall_gran_insitu.h"
+#include "arguments.h"
 #include "bin_index.h"
 #include "contact_observer.h"
 #include "evaluation_memory.h"
@@ -11,6 +12,7 @@
 #include "restart_state.h"
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "fix_mesh_surface.h"
 #include "force.h"
@@ -18,6 +20,7 @@
 #include "modify.h"
 #include "tri_mesh.h"
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <iostream>
 #include <sstream>
@@ -82,6 +85,8 @@ std::string words_of(int narg, char **arg) {
   return words;
 }
 
+const double rounding = 1e-9;  // of a unit normal
+
 /** In restart files, before the velocities of the meshes. */
 struct SavedWall {
   static constexpr std::uint32_t version = 1;
@@ -144,6 +149,7 @@ void FixWallGranInsitu::init() {
   restart_global = 0;
   impl_->pair = dynamic_cast<PairGranInsitu *>(force->pair);
   if (!impl_->pair) return;
+  if (domain->dimension == 2) require_across_plane();
   ContactLaw law = grainscope::law_of_models(
       impl_->words, [this](const char *kind, const char *name) { return contact_match(kind, name); });
   law.exponent = impl_->exponent;
@@ -170,6 +176,31 @@ void FixWallGranInsitu::init() {
     if (FixWallGranInsitu *wall = dynamic_cast<FixWallGranInsitu *>(modify->fix[k])) wall->add_to(before);
   impl_->first.wall = before.size();
   impl_->meshes.assign(mesh_list(), mesh_list() + n_meshes());
+}
+
+/** Errors unless the grains of two dimensions meet it in their plane. Collective. */
+void FixWallGranInsitu::require_across_plane() {
+  const grainscope::Arguments errors(lmp, "fix wall/gran " + std::string(id));
+  if (!is_mesh_wall()) {
+    const std::string kind = primitive_of(impl_->words).front();
+    if (kind != "xplane" && kind != "yplane" && kind != "zcylinder")
+      errors.fail("primitive", "xplane, yplane or zcylinder with 'dimension 2'", kind);
+    return;
+  }
+  for (int m = 0; m < n_meshes(); m++) {
+    TriMesh &mesh = *mesh_list()[m]->triMesh();
+    int leans = 0;
+    for (int k = 0; k < mesh.sizeLocal(); k++) {
+      double normal[3];
+      mesh.surfaceNorm(k, normal);
+      if (std::fabs(normal[2]) > rounding) leans = 1;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &leans, 1, MPI_INT, MPI_MAX, world);
+    if (leans)
+      errors.fail(
+          "with 'dimension 2' the triangles of a mesh must stand upright, along z, got some that lean in mesh '" +
+          std::string(mesh_list()[m]->id) + "'");
+  }
 }
 
 /** The forces of the first evaluation; where it repeats the last of the run before, with its places and velocities,

@@ -56,6 +56,7 @@ class FixWallGranInsitu : public FixWallGran, public grainscope::WallContactsOwn
   std::unique_ptr<Impl> impl_;
 
   std::vector<TriMesh *> meshes();
+  void require_across_plane();
 };
 
 }

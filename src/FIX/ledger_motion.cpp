@@ -36,14 +36,12 @@ Vector3d LedgerMotion::weight(int i) const {
 }
 
 /** Of a sphere, whose angular momentum the host does not keep. */
-double LedgerMotion::moment_of_inertia(int i) const {
-  return (domain->dimension == 2 ? 0.5 : 0.4) * atom->rmass[i] * atom->radius[i] * atom->radius[i];
-}
+double LedgerMotion::inertia_of_sphere(int i) const { return moment_of_inertia(*atom, i, domain->dimension); }
 
 /** Where it is kept, or made for a sphere in `place`. */
 inline const double *LedgerMotion::momentum(int i, double place[3]) const {
   if (atom->superquadric_flag) return atom->angmom[i];
-  for (int k = 0; k < 3; k++) place[k] = moment_of_inertia(i) * atom->omega[i][k];
+  for (int k = 0; k < 3; k++) place[k] = inertia_of_sphere(i) * atom->omega[i][k];
   return place;
 }
 
@@ -54,7 +52,7 @@ void LedgerMotion::coming_spin(const EnergyLedger::Grain &grain, double momentum
   const double half = 0.5 * update->dt, *torque = grain.torque;
   double kicked[3];
   if (!atom->superquadric_flag) {
-    const double inertia = moment_of_inertia(i);
+    const double inertia = inertia_of_sphere(i);
     for (int k = 0; k < 3; k++) {
       momentum[k] = inertia * atom->omega[i][k];
       omega_after[k] = atom->omega[i][k] + half / inertia * torque[k];

@@ -33,7 +33,7 @@ class LedgerMotion : private LAMMPS_NS::Pointers {
 
   EnergyLedger::Grain shown(int i) const;
   Eigen::Vector3d weight(int i) const;
-  double moment_of_inertia(int i) const;
+  double inertia_of_sphere(int i) const;
   const double *momentum(int i, double place[3]) const;
   void coming_spin(const EnergyLedger::Grain &grain, double momentum[3], double omega_after[3]) const;
 };

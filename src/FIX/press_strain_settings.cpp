@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "press_strain_settings.h"
 #include "arguments.h"
+#include "two_dimensions.h"
 #include "domain.h"
 #include "input.h"
 #include "variable.h"
@@ -35,6 +36,7 @@ Quantity read_quantity(Arguments &arguments, const std::string &keyword, const s
 
 void read_shear(Arguments &arguments, PressStrainSettings &my) {
   const std::string name = arguments.choice("shear", {"xy", "xz", "yz"});
+  require_axes_of_plane(arguments.host(), arguments, "shear", "xy", name);
   for (const Tilt &tilt : tilts)
     if (name == tilt.name) my.shear = &tilt;
   const std::string word = arguments.word("'rate' and a shear rate");
@@ -75,8 +77,11 @@ PressStrainSettings::PressStrainSettings(LAMMPS_NS::LAMMPS *lmp, int narg, char 
     const std::string kind = keyword.compare(0, 6, "every/") == 0 ? "every" : keyword;
     if (!given.insert(kind).second)
       arguments.fail("'every', 'every/time' and 'every/step' exclude each other, got a second one: '" + keyword + "'");
-    if (keyword == "axis") axis = arguments.choice(keyword, {"x", "y", "z"})[0] - 'x';
-    else if (keyword == "target")
+    if (keyword == "axis") {
+      const std::string name = arguments.choice(keyword, {"x", "y", "z"});
+      require_axes_of_plane(lmp, arguments, keyword, "x or y", name);
+      axis = name[0] - 'x';
+    } else if (keyword == "target")
       target =
           read_quantity(arguments, keyword, "a pressure >= 0 or a variable v_name", [](double x) { return x >= 0.0; });
     else if (keyword == "shear") read_shear(arguments, *this);

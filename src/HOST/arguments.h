@@ -24,6 +24,7 @@ class Arguments {
   /** For errors alone, when the words have been read. */
   Arguments(LAMMPS_NS::LAMMPS *lmp, const std::string &style) : lmp_(lmp), style_(style) {}
 
+  LAMMPS_NS::LAMMPS *host() const { return lmp_; }
   bool done() const { return at_ == words_.size(); }
   /** The next word; an error that names `wanted` when there is none. */
   std::string word(const std::string &wanted);

@@ -2,6 +2,7 @@
 #include "bodies.h"
 #include "arguments.h"
 #include "atom.h"
+#include "domain.h"
 #include "fix_multisphere.h"
 #include "modify.h"
 #include "multisphere.h"
@@ -57,6 +58,8 @@ Bodies::Bodies(LAMMPS_NS::LAMMPS *lmp, const std::string &style) : Pointers(lmp)
     if (fix_) Arguments(lmp, style).fail("knows the clumps of one fix multisphere, got a second one");
     fix_ = multisphere;
   }
+  if (fix_ && domain->dimension == 2)
+    Arguments(lmp, style).fail("knows the clumps of fix multisphere in three dimensions only");
 }
 
 /** Of this rank's bodies. */

@@ -23,14 +23,16 @@ BoxState::BoxState(LAMMPS_NS::LAMMPS *lmp) {
                        domain->triclinic ? domain->yz : 0.0,
                        domain->triclinic ? domain->xz : 0.0,
                        domain->triclinic ? domain->xy : 0.0};
+  dimension = domain->dimension;
   edges = upper_triangular(h);
+  centre = Eigen::Map<const Eigen::Vector3d>(domain->boxlo) + 0.5 * edges.rowwise().sum();
+  if (dimension == 2) edges(2, 2) = 1.0;
   // With `remap x` the host moves grains along with the box behind their velocities' back: these are then peculiar
   // already.
   if (domain->deform_vremap) edge_velocities = upper_triangular(domain->h_rate);
   velocity_gradient = edge_velocities * edges.inverse();
-  centre = Eigen::Map<const Eigen::Vector3d>(domain->boxlo) + 0.5 * edges.rowwise().sum();
-  volume = h[0] * h[1] * h[2];
-  periodic = {{domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0}};
+  volume = edges(0, 0) * edges(1, 1) * edges(2, 2);
+  periodic = {{domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0 && dimension == 3}};
 }
 
 Eigen::Vector3d BoxState::fraction(const Eigen::Vector3d &x) const {

@@ -16,11 +16,13 @@ Eigen::Matrix3d upper_triangular(const double *h);
 
 /** The simulation box at one moment, and the affine flow of its grains about its centre. H holds the edge vectors in
  *  its columns, dH/dt their velocities; the velocity gradient is dH/dt H^-1 and includes the motion of a box edge that
- *  is being moved. Zero for a box that does not deform, or deforms without `remap v`. */
+ *  is being moved. Zero for a box that does not deform, or deforms without `remap v`. With `dimension 2` the third edge
+ *  is one unit of length across the plane of the grains, however deep the host's box is, and does not repeat. */
 struct BoxState : AffineFlow {
   Eigen::Matrix3d edges = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d edge_velocities = Eigen::Matrix3d::Zero();
-  double volume = 1.0;
+  int dimension = 3;
+  double volume = 1.0;  // Omega; with `dimension 2` the area L_x L_y
   std::array<bool, 3> periodic{{true, true, true}};
 
   BoxState() = default;

@@ -6,6 +6,7 @@
 #include "require_finite.h"
 #include "symmetric_tensor.h"
 #include "atom.h"
+#include "domain.h"
 #include "lammps.h"
 #include <mpi.h>
 
@@ -105,7 +106,8 @@ Vector3d Fluctuations::place(const Grain &grain) const {
 }
 
 double Fluctuations::rotational_energy(const Grain &grain, const Vector3d &w) const {
-  return grain.body ? grain.body->rotational_energy(w) : grainscope::rotational_energy(*lmp_->atom, grain.index, w);
+  return grain.body ? grain.body->rotational_energy(w)
+                    : grainscope::rotational_energy(*lmp_->atom, grain.index, lmp_->domain->dimension, w);
 }
 
 double Fluctuations::equivalent_diameter(const Grain &grain) const {

@@ -5,6 +5,12 @@
 
 namespace grainscope {
 
+PeriodicCell periodic_cell(const BoxState &box) {
+  PeriodicCell cell{box.edges, box.periodic};
+  if (box.dimension == 2) cell.edges(2, 2) = cell.edges(0, 0);  // a layer that is no flatter than it is long
+  return cell;
+}
+
 PointValues gathered(const PointValues &local, MPI_Comm world) {
   int ranks, n = static_cast<int>(local.size());
   MPI_Comm_size(world, &ranks);

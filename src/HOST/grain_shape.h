@@ -25,17 +25,22 @@ inline Eigen::Quaterniond orientation(const LAMMPS_NS::Atom &atom, int i) {
   return {q[0], q[1], q[2], q[3]};
 }
 
+/** Moment of inertia of grain i, no superquadric, as fix nve/sphere turns it: a sphere's, 2/5 m r^2, or with
+ *  `dimension 2` a disc's, 1/2 m r^2. */
+inline double moment_of_inertia(const LAMMPS_NS::Atom &atom, int i, int dimension) {
+  return (dimension == 2 ? 0.5 : 0.4) * atom.rmass[i] * atom.radius[i] * atom.radius[i];
+}
+
 /** Inertia tensor in the laboratory frame. */
-inline Eigen::Matrix3d inertia_tensor(const LAMMPS_NS::Atom &atom, int i) {
-  if (!atom.superquadric_flag)
-    return 0.4 * atom.rmass[i] * atom.radius[i] * atom.radius[i] * Eigen::Matrix3d::Identity();
+inline Eigen::Matrix3d inertia_tensor(const LAMMPS_NS::Atom &atom, int i, int dimension) {
+  if (!atom.superquadric_flag) return moment_of_inertia(atom, i, dimension) * Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d r = orientation(atom, i).toRotationMatrix();
   return r * Eigen::Map<const Eigen::Vector3d>(atom.inertia[i]).asDiagonal() * r.transpose();
 }
 
 /** 1/2 w.J w, J the inertia tensor of grain i and w in the laboratory frame. */
-inline double rotational_energy(const LAMMPS_NS::Atom &atom, int i, const Eigen::Vector3d &w) {
-  if (!atom.superquadric_flag) return 0.2 * atom.rmass[i] * atom.radius[i] * atom.radius[i] * w.squaredNorm();
+inline double rotational_energy(const LAMMPS_NS::Atom &atom, int i, int dimension, const Eigen::Vector3d &w) {
+  if (!atom.superquadric_flag) return 0.5 * moment_of_inertia(atom, i, dimension) * w.squaredNorm();
   const Eigen::Vector3d body = orientation(atom, i).conjugate() * w;
   return 0.5 * body.cwiseAbs2().dot(Eigen::Map<const Eigen::Vector3d>(atom.inertia[i]));
 }

@@ -15,7 +15,7 @@ struct Plane {
   Vector of(const Vector &v) const {
     return {v[flow], v[gradient], v[vorticity]};
   }
-  /** Reads what follows the keyword 'plane': xy, xz or yz. */
+  /** Reads what follows the keyword 'plane': xy, xz or yz; with `dimension 2` xy. */
   void read(Arguments &arguments);
 };
 

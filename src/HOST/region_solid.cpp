@@ -2,6 +2,7 @@
 #include "region_solid.h"
 #include "arguments.h"
 #include "region_shape.h"
+#include "atom.h"
 #include "domain.h"
 #include "region.h"
 #include <Eigen/Geometry>
@@ -54,9 +55,17 @@ void RegionSolid::update(const BoxState &box) {
   evaluate(region_);
   new_run_ = false;
   known_ = shape_of(*domain, region_, solid_, why_not_);
+  if (box.dimension == 2) height_ = height_of_grains();
   Solid cut = solid_;
   std::string ignored;
-  if (domain->dimension == 2 && known_ && solid_.section(0.0, cut, ignored)) solid_ = cut;
+  if (box.dimension == 2 && known_ && solid_.section(height_, cut, ignored)) solid_ = cut;
+}
+
+/** z of the plane of the grains, the middle of the box without any. Collective. */
+double RegionSolid::height_of_grains() const {
+  double height = atom->nlocal > 0 ? atom->x[0][2] : -HUGE_VAL;
+  MPI_Allreduce(MPI_IN_PLACE, &height, 1, MPI_DOUBLE, MPI_MAX, world);
+  return std::isfinite(height) ? height : box_.centre[2];
 }
 
 bool RegionSolid::has(const Vector3d &x) const {
@@ -111,11 +120,9 @@ bool RegionSolid::volume_within(double beyond, double &value, std::string &why) 
     corner -= below * box_.edges.col(k);
     edges.col(k) *= 1.0 + below + above;
   }
-  if (domain->dimension == 3) return solid_.volume_within(Polyhedron(corner, edges), value, why);
   Solid cut = solid_;
-  edges.col(2) = Vector3d::UnitZ();
-  return solid_.section(0.0, cut, why) &&
-         cut.volume_within(Polyhedron({corner[0], corner[1], -0.5}, edges), value, why);
+  if (box_.dimension == 2 && !solid_.section(height_, cut, why)) return false;
+  return cut.volume_within(Polyhedron(corner, edges), value, why);
 }
 
 /** Boundary s or m. */

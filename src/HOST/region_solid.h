@@ -33,7 +33,8 @@ class RegionSolid : private LAMMPS_NS::Pointers {
   double part(const Eigen::Vector3d &from, const Eigen::Vector3d &to) const;
   /** Errors where the shape is not known by which lines are cut. */
   void require_parts() const;
-  /** Of what lies in the box, in two dimensions the area in the plane z = 0; false where it is not known, and why. */
+  /** Of what lies in the box, in two dimensions the area in the plane of the grains; false where it is not known, and
+   *  why. */
   bool volume(double &value, std::string &why) const;
 
  private:
@@ -44,12 +45,14 @@ class RegionSolid : private LAMMPS_NS::Pointers {
   bool new_run_ = true;  // not yet updated in it
   std::string why_not_;
   Solid solid_ = Solid::common({});
+  double height_ = 0.0;  // z of the plane of two dimensions
 
   LAMMPS_NS::Region *find(const std::string &id) const;
   void require_sound(LAMMPS_NS::Region *region) const;
   bool volume_within(double beyond, double &value, std::string &why) const;
   bool follows_grains(int k, int side) const;
   void evaluate(LAMMPS_NS::Region *region) const;
+  double height_of_grains() const;
 };
 
 }

@@ -2,6 +2,7 @@
 #include "scope.h"
 #include "arguments.h"
 #include "box_state.h"
+#include "two_dimensions.h"
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
@@ -52,6 +53,7 @@ bool Scope::read(Arguments &arguments, const std::string &keyword) {
     case plane: plane_.read(arguments); return true;
     case pressure: {
       const std::string choice = arguments.choice(keyword, {"x", "y", "z", "mean"});
+      require_axes_of_plane(lmp, arguments, keyword, "x, y or mean", choice);
       pressure_ = choice == "mean" ? mean : choice[0] - 'x';
       return true;
     }

@@ -4,6 +4,7 @@
 
 #include "arguments.h"
 #include "fluctuations.h"
+#include "two_dimensions.h"
 
 namespace grainscope {
 
@@ -12,11 +13,14 @@ struct VelocityComponent {
   bool spin = false;
   int axis = 1;
 
-  /** Reads what follows the keyword 'component': vx, vy, vz, wx, wy or wz. */
+  /** Reads what follows the keyword 'component': vx, vy, vz, wx, wy or wz; with `dimension 2` vx, vy or wz. */
   void read(Arguments &arguments) {
     const std::string name = arguments.choice("component", {"vx", "vy", "vz", "wx", "wy", "wz"});
     spin = name[0] == 'w';
     axis = name[1] - 'x';
+    const bool in_plane = spin == (axis == 2);
+    if (arguments.host()->domain->dimension == 2 && !in_plane)
+      arguments.fail("component", "vx, vy or wz with 'dimension 2'", name);
   }
   double of(const Fluctuations &motion, const Fluctuations::Grain &grain) const {
     return (spin ? motion.spin(grain) : motion.velocity(grain))[axis];

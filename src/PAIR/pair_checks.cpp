@@ -3,6 +3,7 @@
 #include "bin_index.h"
 #include "box_state.h"
 #include "symmetry_axis.h"
+#include "two_dimensions.h"
 #include "wall_contacts_owner.h"
 #include "atom.h"
 #include "comm.h"
@@ -12,6 +13,7 @@
 #include "modify.h"
 #include "neighbor.h"
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 
@@ -20,6 +22,8 @@ namespace grainscope {
 using LAMMPS_NS::Modify;
 
 namespace {
+
+const double rounding = 1e-9;  // of positions that are equal, over the radius
 
 /** What a restart file holds for fixes that are not defined yet is the host's own matter: a derived class may look. */
 struct RestartData : Modify {
@@ -101,12 +105,37 @@ void PairChecks::warn_of_sphere_model(const std::string &model) {
   warned_of_sphere_model_ = true;
 }
 
+void PairChecks::require_grains_in_plane() const {
+  if (domain->dimension != 2) return;
+  const Arguments errors(lmp, "pair_style gran/insitu");
+  require_grains_of_dimension(lmp, errors);
+  int held = 0;  // by fixes enforce2d
+  for (int k = 0; k < modify->nfix; k++)
+    if (!strcmp(modify->fix[k]->style, "enforce2d")) held |= modify->fix[k]->groupbit;
+  double extremes[3] = {-HUGE_VAL, -HUGE_VAL, 0.0};  // highest z, -lowest z, largest radius
+  int loose = 0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    extremes[0] = std::max(extremes[0], atom->x[i][2]);
+    extremes[1] = std::max(extremes[1], -atom->x[i][2]);
+    extremes[2] = std::max(extremes[2], atom->radius[i]);
+    const bool stays = atom->v[i][2] == 0.0 && atom->omega[i][0] == 0.0 && atom->omega[i][1] == 0.0;
+    if (!stays && !(atom->mask[i] & held)) loose++;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, extremes, 3, MPI_DOUBLE, MPI_MAX, world);
+  MPI_Allreduce(MPI_IN_PLACE, &loose, 1, MPI_INT, MPI_SUM, world);
+  if (extremes[0] + extremes[1] > rounding * extremes[2])
+    errors.fail("with 'dimension 2' all grains must be at one z, got " + Arguments::text(-extremes[1]) + " to " +
+                Arguments::text(extremes[0]));
+  if (loose)
+    errors.fail("with 'dimension 2' grains must have no velocity along z and no spin about x and y, got " +
+                std::to_string(loose) + " that have and are not held by a fix enforce2d");
+}
+
 void PairChecks::require_box_large_enough() const {
   const BoxState box(lmp);
   const double needed = 2.0 * neighbor->cutneighmax;
-  const int periodic[3] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
-  for (int k = 0; k < 3; k++)
-    if (periodic[k] && box.height(k) < needed) {
+  for (int k = 0; k < domain->dimension; k++)
+    if (box.periodic[k] && box.height(k) < needed) {
       char message[256];
       snprintf(message, sizeof message,
                "pair_style gran/insitu: the periodic box must be at least 2 x (largest diameter x contact distance "

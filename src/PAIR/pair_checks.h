@@ -18,6 +18,8 @@ class PairChecks : private LAMMPS_NS::Pointers {
   void require_same_columns_in_restart(int wanted, int past, bool ledger) const;
   /** Contact history is keyed by grain ID: with two images of one grain within reach of another it is ambiguous. */
   void require_box_large_enough() const;
+  /** With `dimension 2`: spheres in one plane across z, which nothing makes leave it. */
+  void require_grains_in_plane() const;
   /** Once, where spheres keep the tangential springs of contacts that have opened. */
   void warn_of_stale_springs();
   /** Of walls whose contacts no measure sees: once, and again when there are others. */

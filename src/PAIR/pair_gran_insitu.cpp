@@ -220,7 +220,10 @@ void PairGranInsitu::watch_time_step() {
 
 void PairGranInsitu::compute(int eflag, int vflag) {
   if (neighbor->ago == 0 && history) impl_->checks.require_box_large_enough();
-  if (neighbor->ago == 0) impl_->checks.warn_of_sphere_model(impl_->sphere_model);
+  if (neighbor->ago == 0) {
+    impl_->checks.require_grains_in_plane();
+    impl_->checks.warn_of_sphere_model(impl_->sphere_model);
+  }
   const std::shared_ptr<grainscope::EvaluationMemory> memory = evaluation_memory();
   const bool repeats = memory && update->setupflag && memory->repeats();
   if (repeats) {

@@ -4,6 +4,7 @@
 #include "grain_shape.h"
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "update.h"
 #include <cstdio>
@@ -66,7 +67,9 @@ void TimeStepWatch::evaluate_contacts() {
 void TimeStepWatch::evaluate_grains() {
   time_step::GrainModes::Mode worst;
   for (int i = 0; i < atom->nlocal; i++) {
-    const time_step::GrainModes::Mode mode = grains_[i].fastest(atom->rmass[i], inertia_tensor(*atom, i), update->dt);
+    if (domain->dimension == 2) grains_[i].confine_to_plane();
+    const time_step::GrainModes::Mode mode =
+        grains_[i].fastest(atom->rmass[i], inertia_tensor(*atom, i, domain->dimension), update->dt);
     if (mode.value > worst.value) worst = mode;
   }
   grains_.clear();

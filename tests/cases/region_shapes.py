@@ -109,20 +109,18 @@ def fill_memory():
 def part_inside(has, first, last):
     """Of each line from first to last: has(t, lines) is true where the lines are inside; its changes are found by
     halving."""
-    every = np.arange(len(first))
-    total, before = np.zeros(len(first)), has(first, every)
-    for k in range(POINTS):
-        start, end = (first + (last - first) * i / POINTS for i in (k, k + 1))
-        after = has(end, every)
-        total += (before & after) * (end - start)
-        changes = np.flatnonzero(before != after)
-        low, high, inside = start[changes], end[changes], before[changes]
-        for _ in range(HALVINGS if len(changes) else 0):
-            middle = 0.5 * (low + high)
-            same = has(middle, changes) == inside
-            low, high = np.where(same, middle, low), np.where(same, high, middle)
-        total[changes] += np.where(inside, low - start[changes], end[changes] - low)
-        before = after
+    lines = np.repeat(np.arange(len(first)), POINTS + 1)
+    t = first[:, None] + (last - first)[:, None] * np.linspace(0.0, 1.0, POINTS + 1)
+    inside = has(t.ravel(), lines).reshape(t.shape)
+    before, after = inside[:, :-1], inside[:, 1:]
+    total = ((before & after) * np.diff(t)).sum(axis=1)
+    changed, k = np.nonzero(before != after)
+    leaves, low, high = before[changed, k], t[changed, k], t[changed, k + 1]
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        same = has(middle, changed) == leaves
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    np.add.at(total, changed, np.where(leaves, low - t[changed, k], t[changed, k + 1] - high))
     return total
 
 

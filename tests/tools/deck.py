@@ -75,6 +75,8 @@ class Deck:
         )
 
     def header(self):
+        if self.packing.dimension == 2:
+            yield "dimension 2"
         yield from (
             "atom_style " + self.packing.atom_style,
             "atom_modify map array",
@@ -97,6 +99,8 @@ class Deck:
         yield "fix integrate all nve/" + (
             "sphere" if self.packing.atom_style == "sphere" else "superquadric integration_scheme 1"
         )
+        if self.packing.dimension == 2:
+            yield "fix plane all enforce2d"
         yield "thermo_style custom step"
         yield "thermo_modify format float %.17g lost error norm no"
 

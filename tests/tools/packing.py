@@ -37,7 +37,8 @@ class Grain:
 
 @dataclass
 class Packing:
-    """atom_style is 'superquadric', or 'sphere', which needs three equal semi-axes."""
+    """atom_style is 'superquadric', or 'sphere', which needs three equal semi-axes. dimension 2: discs of these radii,
+    all at one z."""
 
     edges: tuple
     grains: list
@@ -46,6 +47,7 @@ class Packing:
     types: int = 1
     origin: tuple = (0.0, 0.0, 0.0)
     triclinic: bool = True
+    dimension: int = 3
 
     def lines(self):
         (x, y, z), (lx, ly, lz) = self.origin, self.edges
@@ -122,6 +124,28 @@ def dense_packing(
             )
         )
     return Packing(tuple(counts * cell), grains, atom_style=atom_style, types=types)
+
+
+def disc_packing(sizes=(0.8, 1.0, 1.2), overlap=0.02, speed=0.4, seed=7, rows=10, depth=1.0):
+    """Discs of two dimensions on a triangular lattice, `rows` in each direction, with random velocities: full of
+    contacts from the first step. `depth`: of the box, across their plane."""
+    random = np.random.default_rng(seed)
+    spacing = 2.0 * (1.0 - overlap) * float(np.mean(sizes))
+    height = 0.5 * math.sqrt(3.0) * spacing
+    grains = []
+    for row in range(rows):
+        for k in range(rows):
+            a = sizes[int(random.integers(len(sizes)))]
+            grains.append(
+                Grain(
+                    ((k + 0.25 + 0.5 * (row % 2)) * spacing, (row + 0.5) * height, 0.0),
+                    (a, a, a),
+                    velocity=(*(speed * random.normal(size=2)), 0.0),
+                    omega=(0.0, 0.0, speed * random.normal()),
+                )
+            )
+    edges = (rows * spacing, rows * height, depth)
+    return Packing(edges, grains, atom_style="sphere", origin=(0.0, 0.0, -0.5 * depth), dimension=2)
 
 
 def in_the_open(packing, factor=3.0):

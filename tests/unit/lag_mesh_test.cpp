@@ -48,6 +48,14 @@ TEST(lag_mesh, cells_follow_the_bins_and_refuse_to_be_too_many) {
   EXPECT_THROW(grainscope::mesh_size(cube, {5.0, 10}, 4, 1e6), std::length_error);
 }
 
+TEST(lag_mesh, an_edge_across_the_plane_of_two_dimensions_is_not_divided) {
+  PeriodicCell plane;
+  plane.edges *= 10.0;
+  plane.periodic[2] = false;
+  const std::array<int, 3> expected{{80, 80, 1}};
+  EXPECT_EQ(grainscope::mesh_size(plane, {5.0, 10}, 4, 1e9), expected);
+}
+
 TEST(lag_mesh, points_fall_into_cells_wherever_their_image_is) {
   PointValues p;
   p.add({0.99, -0.01, 1.5}, 0.0);

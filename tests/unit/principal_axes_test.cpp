@@ -54,3 +54,14 @@ TEST(principal_axes, of_zero_are_those_of_the_laboratory) {
   EXPECT_EQ(axes.vectors, Matrix3d::Identity());
   EXPECT_EQ(axes.values, Vector3d::Zero());
 }
+
+TEST(principal_axes, of_two_dimensions_are_in_the_plane_first) {
+  const Vector3d n(0.6, -0.8, 0.0);
+  const PrincipalAxes one(n * n.transpose(), 2);
+  EXPECT_NEAR((one.values - Vector3d(1.0, 0.0, 0.0)).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((one.vectors.col(0) - Vector3d(-0.6, 0.8, 0.0)).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((one.vectors.col(1) - Vector3d(0.8, 0.6, 0.0)).norm(), 0.0, 1e-15);
+  EXPECT_EQ(one.vectors.col(2), Vector3d(Vector3d::UnitZ()));
+  const Matrix3d isotropic = Vector3d(0.5, 0.5, 0.0).asDiagonal();
+  EXPECT_EQ(PrincipalAxes(isotropic, 2).vectors, Matrix3d(Matrix3d::Identity()));
+}

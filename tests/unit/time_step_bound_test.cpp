@@ -70,4 +70,20 @@ TEST(time_step_bound, the_largest_step_of_a_dashpot_beside_which_the_spring_is_n
   EXPECT_NEAR((GrainModes::Mode{0.0, 0.0, 1e10}).largest_step(), 4e-10, 1e-24);
 }
 
+TEST(time_step_bound, a_disc_stays_in_its_plane) {
+  // normal along x: the tangential spring moves a disc along y with its spin, m/3; along z it could not move it
+  const Matrix3d disc = 0.5 * mass * radius * radius * Matrix3d::Identity();
+  Contact c = make_contact();
+  c.motion->damping_coefficient = 0.0;
+  GrainModes modes;
+  modes.add(by(c, sticking_hooke), Vector3d(-1.0, 0.0, 0.0));
+  modes.confine_to_plane();
+  EXPECT_NEAR(modes.fastest(mass, disc, dt).value, 2.0 * dt * dt * 500.0 * 3.0 / mass, 1e-14);
+  GrainModes across;
+  c.normal = Vector3d::UnitZ();
+  across.add(by(c, hooke), Vector3d(0.0, 0.0, -1.0));
+  across.confine_to_plane();
+  EXPECT_EQ(across.fastest(mass, disc, dt).value, 0.0);
+}
+
 }
