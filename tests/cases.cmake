@@ -583,6 +583,12 @@ add_cases(stress/contact-region cases/regions.py LABEL case STYLES stress/contac
   volumes-add-up nothing-there)
 add_cases(stress/contact+fabric-region cases/regions.py LABEL case STYLES stress/contact fabric dissipation
   RANKS 1 2 CASES refused)
+add_cases(stress/contact-region cases/region_shapes.py LABEL case STYLES stress/contact RANKS 1 4 LONG_RANKS 2 CASES
+  shapes)
+add_cases(stress/contact-region cases/region_shapes.py LABEL case STYLES stress/contact RANKS 1 LONG_RANKS 2 4 CASES
+  closed-forms faces-that-follow two-dimensions between-runs)
+add_cases(stress/contact+fabric+contact/grain-region cases/region_shapes.py LABEL case
+  STYLES stress/contact fabric contact/grain RANKS 1 LONG_RANKS 2 CASES half-infinite-prism)
 
 # Clumps
 set(of_clumps stress/contact fluctuation displacement/shear velocity/correlation velocity/memory layering contact/grain)
