@@ -501,12 +501,12 @@ add_cases(press/strain-small-box cases/small_box.py LABEL case STYLES press/stra
 add_cases(packing cases/packing_measures.py LABEL case STYLES packing RANKS 1 2 LONG_RANKS 4 CASES
   spheres oblate chains at-walls clumps)
 add_cases(packing cases/packing_measures.py LABEL case STYLES packing RANKS 1 LONG_RANKS 2 4 CASES
-  prolate blocky of-a-group in-regions empty-group inertial-number rigid-refused
+  prolate blocky discs of-a-group in-regions empty-group inertial-number rigid-refused
   clumps-between-walls)
 add_cases(contact/force cases/contact_force.py LABEL case STYLES contact/force contact/local RANKS 1 2 LONG_RANKS 4
   CASES spheres prolate chains at-walls)
 add_cases(contact/force cases/contact_force.py LABEL case STYLES contact/force contact/local RANKS 1 LONG_RANKS 2 4
-  CASES oblate superquadric cohesive of-types in-a-region of-a-group empty-group)
+  CASES oblate superquadric cohesive of-types discs in-a-region of-a-group empty-group)
 
 # Includes between the folders of src/
 add_cases(suite-floors cases/floors.py LABEL case STYLES suite CASES

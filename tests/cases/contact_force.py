@@ -9,7 +9,7 @@ from case import main, require, require_close, require_equal
 from columns import outputs
 from deck import Deck, dump_local, shear, thermo
 from oracle import network
-from packing import Grain, Packing, dense_packing
+from packing import Grain, Packing, dense_packing, disc_packing
 from run import run
 from wall_measures import BOX
 
@@ -45,9 +45,9 @@ def measured(deck, ranks, words="", group="union all", steps=60, every=20):
     return found
 
 
-def require_agreement(vector, array, rows):
+def require_agreement(vector, array, rows, dimension=3):
     ids, force, branch, fn, ft = rows[:, :2], rows[:, 2:5], rows[:, 5:8], rows[:, 8], rows[:, 9:12]
-    by_hand = network.force_statistics(fn, np.linalg.norm(ft, axis=1), force, branch, TAIL)
+    by_hand = network.force_statistics(fn, np.linalg.norm(ft, axis=1), force, branch, TAIL, dimension)
     strong = fn > fn.mean()
     labels, clusters = network.clusters(ids, strong)
     at_wall = ids[:, 1] == 0
@@ -104,6 +104,14 @@ def in_a_region(ranks):
     for one in measured(deck, ranks, "region ball"):
         require_agreement(*one)
         require(100 < one[0]["N_c"] < 500, "some of the contacts")
+
+
+def discs(ranks):
+    """Of two dimensions: the deviator is of the plane."""
+    deck = Deck(disc_packing(overlap=0.001, speed=1.0))
+    deck.body = [shear(0.3)]
+    for one in measured(deck, ranks):
+        require_agreement(*one, dimension=2)
 
 
 def of_a_group(ranks):
@@ -174,6 +182,7 @@ CASES = {
     "at-walls": at_walls,
     "of-types": of_types,
     "in-a-region": in_a_region,
+    "discs": discs,
     "of-a-group": of_a_group,
     "empty-group": empty_group,
     "chains": chains,
