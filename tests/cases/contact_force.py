@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
+import clumps
 from case import main, require, require_close, require_equal
 from columns import outputs
 from deck import Deck, dump_local, shear, thermo
@@ -141,6 +142,44 @@ def empty_group(ranks):
         require_close(array, np.stack([middles, 0 * middles, 0 * middles], axis=1), 1e-14, "bins")
 
 
+def of_clumps(ranks):
+    """A clump is one grain of a cluster, known by the lowest ID of its spheres; branches go between centres of mass."""
+    names = ("strong_pressure", "strong_deviator", "N_strong", "clusters", "cluster_max")
+    words = " ".join(C_IT[name] for name in names)
+    columns = ("id_i", "id_j", "fn", "strong", "cluster")
+    lines = [
+        "compute it all contact/force",
+        f"fix it all ave/time 15 1 15 {words} file force.txt",
+        "compute chains all contact/local id fn strong cluster",
+        *dump_local("chains", len(columns), 15, "chains"),
+    ]
+    result, moments = clumps.measured(clumps.start(), ranks, 60, 15, lines)
+    table, chains_dump = result.averages("force.txt"), dict(result.dump("chains.dump"))
+    compared = 0
+    for moment in moments:
+        if moment.step % 15 or moment.step == 0:
+            continue
+        rows = np.stack([chains_dump[moment.step][f"c_chains[{k}]"] for k in range(1, len(columns) + 1)], axis=1)
+        ids, strong = moment.rows["id"], rows[:, 2] > rows[:, 2].mean()
+        require_equal(rows[:, :2], ids, "rows of the two dumps")
+        order = np.searchsorted(moment.grains["id"], ids)
+        lowest = moment.grains["id"].copy()
+        for body in range(moment.body.max() + 1):
+            lowest[moment.body == body] = moment.grains["id"][moment.body == body].min()
+        labels, found = network.clusters(lowest[order], strong)
+        require_equal(rows[:, 3], strong, "strong")
+        require_equal(rows[:, 4], labels, "cluster")
+        branch = moment.rows["branch"] - moment.arm(order[:, 0]) + moment.arm(order[:, 1])
+        force, zero = moment.rows["force"], np.zeros(len(rows))
+        by_hand = network.force_statistics(rows[:, 2], zero, force, branch, 1.0)
+        by_hand.update(clusters=len(found), cluster_max=max(found.values()))
+        row = list(table["TimeStep"]).index(moment.step)
+        for name in names:  # the table has six digits
+            require_close(float(table[C_IT[name]][row]), by_hand[name], 1e-5, name, max(abs(by_hand[name]), 1e-3))
+        compared += 1
+    require(compared >= 4, "several snapshots")
+
+
 def chains(ranks):
     """Lines of spheres along x with two overlaps: the deep contacts are strong. A line of five over all ranks, a pair
     through the periodic face, and light contacts between them."""
@@ -185,6 +224,7 @@ CASES = {
     "discs": discs,
     "of-a-group": of_a_group,
     "empty-group": empty_group,
+    "clumps": of_clumps,
     "chains": chains,
 }
 
