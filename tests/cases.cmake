@@ -506,7 +506,7 @@ add_cases(packing cases/packing_measures.py LABEL case STYLES packing RANKS 1 LO
 add_cases(contact/force cases/contact_force.py LABEL case STYLES contact/force contact/local RANKS 1 2 LONG_RANKS 4
   CASES spheres prolate chains at-walls clumps)
 add_cases(contact/force cases/contact_force.py LABEL case STYLES contact/force contact/local RANKS 1 LONG_RANKS 2 4
-  CASES oblate superquadric cohesive of-types discs in-a-region of-a-group empty-group)
+  CASES trajectory-untouched oblate superquadric cohesive of-types discs in-a-region of-a-group empty-group)
 
 # Includes between the folders of src/
 add_cases(suite-floors cases/floors.py LABEL case STYLES suite CASES

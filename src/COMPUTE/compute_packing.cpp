@@ -10,6 +10,7 @@
 #include "atom.h"
 #include "domain.h"
 #include "force.h"
+#include "update.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -178,6 +179,10 @@ void ComputePacking::answer() {
   const double spread = std::sqrt(std::max(0.0, ratio(all.diameter2, n) - d * d));
 
   const double pressure = scope_.pressure_of(sums.total(1.0), domain->dimension) * force->nktv2p / omega + 0.0;
+  if (!std::isfinite(pressure))
+    grainscope::Arguments(lmp, name_ + " " + id)
+        .fail("step " + std::to_string(update->ntimestep) +
+              ": the pressure is not finite: look at overlaps and at the " + "material's constants");
   const grainscope::Plane &plane = scope_.shear_plane();
   const double rate = my.rate.given() ? my.rate.now() : std::fabs(box.velocity_gradient(plane.flow, plane.gradient));
   const double inertial = pressure > 0.0 ? rate * d * std::sqrt(rho * force->mvv2e * force->nktv2p / pressure) : 0.0;

@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 
 import clumps
-from case import main, require, require_close, require_equal
+from case import main, require, require_close, require_equal, require_same_snapshots
 from columns import outputs
-from deck import Deck, dump_local, shear, thermo
+from deck import Deck, dump_grains, dump_local, shear, thermo
 from oracle import network
 from packing import Grain, Packing, dense_packing, disc_packing
 from run import run
@@ -142,6 +142,24 @@ def empty_group(ranks):
         require_close(array, np.stack([middles, 0 * middles, 0 * middles], axis=1), 1e-14, "bins")
 
 
+def trajectory_untouched(ranks):
+    """The same bits with every number asked in every step, over neighbour lists, and without."""
+    packing = dense_packing(1.5, overlap=0.001, speed=2.0)
+    asked = [
+        "compute it all contact/force",
+        "compute state all packing",
+        "compute rows all contact/local strong cluster",
+        *dump_local("rows", 2, 1, "rows"),
+        *thermo(1, "c_it", "c_state"),
+    ]
+    found = []
+    for lines in ([], asked):
+        deck = Deck(packing, surface="ellipsoid")
+        deck.body = [shear(0.3), *lines, *dump_grains(packing, 50), "run 150"]
+        found.append(run(deck, ranks).dump("grains.dump"))
+    require_same_snapshots(*found, "with and without")
+
+
 def of_clumps(ranks):
     """A clump is one grain of a cluster, known by the lowest ID of its spheres; branches go between centres of mass."""
     names = ("strong_pressure", "strong_deviator", "N_strong", "clusters", "cluster_max")
@@ -224,6 +242,7 @@ CASES = {
     "discs": discs,
     "of-a-group": of_a_group,
     "empty-group": empty_group,
+    "trajectory-untouched": trajectory_untouched,
     "clumps": of_clumps,
     "chains": chains,
 }

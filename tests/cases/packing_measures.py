@@ -135,6 +135,14 @@ def blocky(ranks):
     packing = dense_packing(1.2, sizes=(0.9, 1.0), overlap=0.04, blockiness=(n1, n2))
     require_agreement(measured(sheared(packing), ranks), 4, OF_SPHEROIDS, fullness=fullness)
 
+    # compute fluctuation scales its lever by the same diameter
+    d = np.mean([2.0 * np.cbrt(fullness * math.prod(grain.semi_axes)) for grain in packing.grains])
+    deck = sheared(packing)
+    deck.body += ["compute own all fluctuation", f"compute given all fluctuation diameter {d!r}"]
+    deck.body += [*thermo(5, "c_own", "c_given"), "run 5"]
+    table = run(deck, ranks).thermo()[-1]
+    require_close(table["c_own"], table["c_given"], 1e-12, "lever")
+
 
 def discs(ranks):
     """Of two dimensions: areas, and rattlers have fewer than two contacts."""
