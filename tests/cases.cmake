@@ -495,18 +495,18 @@ add_cases(wall/triangle cases/wall_triangle.py LABEL case STYLES wall/triangle w
 add_cases(press/strain-small-box cases/small_box.py LABEL case STYLES press/strain gran/insitu RANKS 1 2 LONG_RANKS 4
   CASES refused warned)
 add_cases(press/strain-small-box cases/small_box.py LABEL case STYLES press/strain gran/insitu CASES
-  only-what-is-certain large-enough forecast-comes-true)
+  discs only-what-is-certain large-enough forecast-comes-true)
 
 # Standard numbers of a state
 add_cases(packing cases/packing_measures.py LABEL case STYLES packing RANKS 1 2 LONG_RANKS 4 CASES
   spheres oblate chains at-walls clumps)
 add_cases(packing cases/packing_measures.py LABEL case STYLES packing RANKS 1 LONG_RANKS 2 4 CASES
-  prolate blocky of-a-group in-regions empty-group inertial-number rigid-refused
+  prolate blocky discs of-a-group in-regions empty-group inertial-number rigid-refused
   clumps-between-walls)
 add_cases(contact/force cases/contact_force.py LABEL case STYLES contact/force contact/local RANKS 1 2 LONG_RANKS 4
-  CASES spheres prolate chains at-walls)
+  CASES spheres prolate chains at-walls clumps)
 add_cases(contact/force cases/contact_force.py LABEL case STYLES contact/force contact/local RANKS 1 LONG_RANKS 2 4
-  CASES oblate superquadric cohesive of-types in-a-region of-a-group empty-group)
+  CASES trajectory-untouched oblate superquadric cohesive of-types discs in-a-region of-a-group empty-group)
 
 # Includes between the folders of src/
 add_cases(suite-floors cases/floors.py LABEL case STYLES suite CASES

@@ -149,9 +149,10 @@ add_cases(layering+velocity/correlation-not-finite errors/not_finite.py LABEL er
   STYLES layering fluctuation velocity/memory velocity/correlation contact/direction contact/surface RANKS 1 2 CASES
   layering correlation-mesh)
 add_cases(layering+velocity/correlation-not-finite errors/not_finite.py LABEL error
-  STYLES layering fluctuation velocity/memory velocity/correlation contact/direction contact/surface CASES
+  STYLES layering fluctuation velocity/memory velocity/correlation contact/direction contact/surface contact/force
+  packing CASES
   fluctuation-profile fluctuation-layers memory-layers correlation contact-direction contact-surface
-  contact-surface-ellipsoid)
+  contact-surface-ellipsoid contact-force packing)
 
 # Restart files of other versions
 set(states run/guard setup/memory grain/record ledger/record press/strain)

@@ -148,8 +148,10 @@ void ComputeContactForce::find_clusters(double mean) {
     if (my.contacts[k].normal > mean) strong.push_back(my.links[k]);
   const std::vector<double> cluster = clusters(strong);
   std::map<double, double> grains;  // of each cluster, on this rank
-  for (int i = 0; i < atom->nlocal; i++)
-    if (cluster[i] > 0.0) grains[cluster[i]] += 1.0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double of_grain = cluster[number_of(i)];
+    if (of_grain > 0.0 && bodies().stands_for_itself_or_clump(i)) grains[of_grain] += 1.0;
+  }
   my.clusters = my.largest_cluster = 0.0;
   for (const auto &one : total(grains, world)) {
     my.clusters += 1.0;

@@ -137,6 +137,9 @@ ComputeContactLocal::ComputeContactLocal(LAMMPS *lmp, int &iarg, int narg, char 
 
 ComputeContactLocal::~ComputeContactLocal() {}
 
+/** Clusters are of clumps. */
+bool ComputeContactLocal::uses_bodies() const { return impl_->cluster >= 0; }
+
 bool ComputeContactLocal::reads_motion() const {
   return std::any_of(impl_->chosen.begin(), impl_->chosen.end(),
                      [](const Impl::Chosen &one) { return one.column->reads_motion; });
@@ -184,7 +187,7 @@ void ComputeContactLocal::end_contacts() {
     if (!(my.normal_forces[row] > mean)) continue;
     double *values = &my.values[row * my.width];
     if (my.strong >= 0) values[my.strong] = 1.0;
-    if (my.cluster >= 0) values[my.cluster] = cluster[my.links[row].i];
+    if (my.cluster >= 0) values[my.cluster] = cluster[number_of(my.links[row].i)];
   }
 }
 

@@ -30,6 +30,7 @@ class ComputeContactLocal : public grainscope::ContactNetworkCompute, public gra
 
  private:
   bool reads_motion() const override;
+  bool uses_bodies() const override;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 

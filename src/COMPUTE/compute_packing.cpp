@@ -10,6 +10,7 @@
 #include "atom.h"
 #include "domain.h"
 #include "force.h"
+#include "update.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -101,12 +102,6 @@ void ComputePacking::begin_contacts() {
   impl_->search.reset();
 }
 
-/** Number of the grain that local grain or ghost i is, or is part of. */
-int ComputePacking::number_of(int i) const {
-  const grainscope::Body *const body = bodies().of(i);
-  return body ? local_and_ghosts() + body->tag : i;
-}
-
 /** Rattlers are found among all grains of the group; those in a region, and contacts there, are counted. */
 void ComputePacking::add_contacts(grainscope::ContactSpan contacts) {
   ContactNetworkCompute::add_contacts(contacts);
@@ -117,17 +112,13 @@ void ComputePacking::add_contacts(grainscope::ContactSpan contacts) {
   });
 }
 
-/** 1 for the grains of the group: local ones and ghosts that are on their own, then clumps by their tags, which all ranks
- *  know. */
+/** 1 for the grains of the group, by their numbers. */
 std::vector<double> ComputePacking::grains_of_group() const {
-  int tags = 0;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (const grainscope::Body *body = bodies().of(i)) tags = std::max(tags, body->tag + 1);
-  MPI_Allreduce(MPI_IN_PLACE, &tags, 1, MPI_INT, MPI_MAX, world);
-  std::vector<double> held(local_and_ghosts() + tags);
-  for (int i = 0; i < local_and_ghosts(); i++)
+  std::vector<double> held(numbers_of_grains());
+  const int first = local_and_ghosts(), clumps = static_cast<int>(held.size()) - first;
+  for (int i = 0; i < first; i++)
     if (in_group(i) && bodies().stands_for_itself_or_clump(i)) held[number_of(i)] = 1.0;
-  MPI_Allreduce(MPI_IN_PLACE, held.data() + local_and_ghosts(), tags, MPI_DOUBLE, MPI_MAX, world);
+  MPI_Allreduce(MPI_IN_PLACE, held.data() + first, clumps, MPI_DOUBLE, MPI_MAX, world);
   return held;
 }
 
@@ -188,6 +179,10 @@ void ComputePacking::answer() {
   const double spread = std::sqrt(std::max(0.0, ratio(all.diameter2, n) - d * d));
 
   const double pressure = scope_.pressure_of(sums.total(1.0), domain->dimension) * force->nktv2p / omega + 0.0;
+  if (!std::isfinite(pressure))
+    grainscope::Arguments(lmp, name_ + " " + id)
+        .fail("step " + std::to_string(update->ntimestep) +
+              ": the pressure is not finite: look at overlaps and at the " + "material's constants");
   const grainscope::Plane &plane = scope_.shear_plane();
   const double rate = my.rate.given() ? my.rate.now() : std::fabs(box.velocity_gradient(plane.flow, plane.gradient));
   const double inertial = pressure > 0.0 ? rate * d * std::sqrt(rho * force->mvv2e * force->nktv2p / pressure) : 0.0;

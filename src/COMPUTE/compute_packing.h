@@ -35,7 +35,6 @@ class ComputePacking : public grainscope::ContactNetworkCompute, public grainsco
   bool reads_motion() const override { return false; }
   bool uses_bodies() const override { return true; }
   void answer() override;
-  int number_of(int i) const;
   std::vector<double> grains_of_group() const;
   void find_rattlers(std::vector<double> &held);
   void add_grain(int i, bool rattler);

@@ -29,21 +29,37 @@ bool ContactNetworkCompute::is_mine(const Contact &c) const {
 
 ContactNetworkCompute::Link ContactNetworkCompute::link(const Contact &c) { return {c.i, c.with_wall() ? -1 : c.j()}; }
 
-/** A rank knows the links that it keeps: the lowest numbers of their sets go from ghosts to owners and from owners to
- *  ghosts until no rank finds a lower one. */
+int ContactNetworkCompute::number_of(int i) const {
+  const Body *const body = bodies().of(i);
+  return body ? local_and_ghosts() + body->tag : i;
+}
+
+int ContactNetworkCompute::numbers_of_grains() const {
+  int tags = 0;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (const Body *const body = bodies().of(i)) tags = std::max(tags, body->tag + 1);
+  MPI_Allreduce(MPI_IN_PLACE, &tags, 1, MPI_INT, MPI_MAX, world);
+  return local_and_ghosts() + tags;
+}
+
+/** A rank knows the links that it keeps: the lowest numbers of their sets go from ghosts to owners, from owners to ghosts
+ *  and, of clumps, to all ranks, until no rank finds a lower one. */
 std::vector<double> ContactNetworkCompute::clusters(const std::vector<Link> &links) {
-  ConnectedSets sets(local_and_ghosts());
-  std::vector<double> lowest(local_and_ghosts(), HUGE_VAL);
+  const auto id = [this](int i) { return bodies().of(i) ? bodies().of(i)->first_id : atom->tag[i]; };
+  const int numbers = numbers_of_grains(), clumps = numbers - local_and_ghosts();
+  ConnectedSets sets(numbers);
+  std::vector<double> lowest(numbers, HUGE_VAL);
   for (const Link &one : links) {
-    lowest[one.i] = atom->tag[one.i];
+    lowest[number_of(one.i)] = id(one.i);
     if (one.j < 0) continue;
-    lowest[one.j] = atom->tag[one.j];
-    sets.join(one.i, one.j);
+    lowest[number_of(one.j)] = id(one.j);
+    sets.join(number_of(one.i), number_of(one.j));
   }
   sets.spread_lowest(lowest);
   do {
     lowest_to_owners(lowest);
     owners_to_ghosts(lowest);
+    MPI_Allreduce(MPI_IN_PLACE, lowest.data() + local_and_ghosts(), clumps, MPI_DOUBLE, MPI_MIN, world);
   } while (on_any_rank(sets.spread_lowest(lowest)));
   std::replace(lowest.begin(), lowest.end(), HUGE_VAL, 0.0);
   return lowest;

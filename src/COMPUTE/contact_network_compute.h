@@ -29,8 +29,13 @@ class ContactNetworkCompute : public ContactCompute {
     int i, j;
   };
   static Link link(const Contact &contact);
-  /** Of local grains and ghosts: the lowest ID in the set of grains that `links` connect, 0 where none ends. A wall
-   *  connects no grains. Collective. */
+  /** Number of the grain that local grain or ghost i is, or as a sphere of a clump is part of: local grains, ghosts,
+   *  then clumps, alike on all ranks. */
+  int number_of(int i) const;
+  /** How many numbers there are. Collective. */
+  int numbers_of_grains() const;
+  /** By these numbers: the lowest ID in the set of grains that `links` connect, 0 where none ends; a clump has the lowest
+   *  ID of its spheres. A wall connects no grains. Collective. */
   std::vector<double> clusters(const std::vector<Link> &links);
   int local_and_ghosts() const;
   /** From the owners of grains to their ghosts. Collective. */

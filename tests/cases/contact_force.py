@@ -5,11 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from case import main, require, require_close, require_equal
+import clumps
+from case import main, require, require_close, require_equal, require_same_snapshots
 from columns import outputs
-from deck import Deck, dump_local, shear, thermo
+from deck import Deck, dump_grains, dump_local, shear, thermo
 from oracle import network
-from packing import Grain, Packing, dense_packing
+from packing import Grain, Packing, dense_packing, disc_packing
 from run import run
 from wall_measures import BOX
 
@@ -45,9 +46,9 @@ def measured(deck, ranks, words="", group="union all", steps=60, every=20):
     return found
 
 
-def require_agreement(vector, array, rows):
+def require_agreement(vector, array, rows, dimension=3):
     ids, force, branch, fn, ft = rows[:, :2], rows[:, 2:5], rows[:, 5:8], rows[:, 8], rows[:, 9:12]
-    by_hand = network.force_statistics(fn, np.linalg.norm(ft, axis=1), force, branch, TAIL)
+    by_hand = network.force_statistics(fn, np.linalg.norm(ft, axis=1), force, branch, TAIL, dimension)
     strong = fn > fn.mean()
     labels, clusters = network.clusters(ids, strong)
     at_wall = ids[:, 1] == 0
@@ -106,6 +107,14 @@ def in_a_region(ranks):
         require(100 < one[0]["N_c"] < 500, "some of the contacts")
 
 
+def discs(ranks):
+    """Of two dimensions: the deviator is of the plane."""
+    deck = Deck(disc_packing(overlap=0.001, speed=1.0))
+    deck.body = [shear(0.3)]
+    for one in measured(deck, ranks):
+        require_agreement(*one, dimension=2)
+
+
 def of_a_group(ranks):
     packing = dense_packing(sizes=(0.9, 1.0, 1.1), atom_style="sphere", overlap=0.001, speed=1.0)
     deck = Deck(packing)
@@ -131,6 +140,62 @@ def empty_group(ranks):
         require_equal([float(table[w][row]) for w in C_IT.vector()], [0.0] * len(C_IT.vector()), "an empty group")
         array = np.array([float(table[word][row]) for word in C_IT.array(range(1, BINS + 1))]).reshape(BINS, 3)
         require_close(array, np.stack([middles, 0 * middles, 0 * middles], axis=1), 1e-14, "bins")
+
+
+def trajectory_untouched(ranks):
+    """The same bits with every number asked in every step, over neighbour lists, and without."""
+    packing = dense_packing(1.5, overlap=0.001, speed=2.0)
+    asked = [
+        "compute it all contact/force",
+        "compute state all packing",
+        "compute rows all contact/local strong cluster",
+        *dump_local("rows", 2, 1, "rows"),
+        *thermo(1, "c_it", "c_state"),
+    ]
+    found = []
+    for lines in ([], asked):
+        deck = Deck(packing, surface="ellipsoid")
+        deck.body = [shear(0.3), *lines, *dump_grains(packing, 50), "run 150"]
+        found.append(run(deck, ranks).dump("grains.dump"))
+    require_same_snapshots(*found, "with and without")
+
+
+def of_clumps(ranks):
+    """A clump is one grain of a cluster, known by the lowest ID of its spheres; branches go between centres of mass."""
+    names = ("strong_pressure", "strong_deviator", "N_strong", "clusters", "cluster_max")
+    words = " ".join(C_IT[name] for name in names)
+    columns = ("id_i", "id_j", "fn", "strong", "cluster")
+    lines = [
+        "compute it all contact/force",
+        f"fix it all ave/time 15 1 15 {words} file force.txt",
+        "compute chains all contact/local id fn strong cluster",
+        *dump_local("chains", len(columns), 15, "chains"),
+    ]
+    result, moments = clumps.measured(clumps.start(), ranks, 60, 15, lines)
+    table, chains_dump = result.averages("force.txt"), dict(result.dump("chains.dump"))
+    compared = 0
+    for moment in moments:
+        if moment.step % 15 or moment.step == 0:
+            continue
+        rows = np.stack([chains_dump[moment.step][f"c_chains[{k}]"] for k in range(1, len(columns) + 1)], axis=1)
+        ids, strong = moment.rows["id"], rows[:, 2] > rows[:, 2].mean()
+        require_equal(rows[:, :2], ids, "rows of the two dumps")
+        order = np.searchsorted(moment.grains["id"], ids)
+        lowest = moment.grains["id"].copy()
+        for body in range(moment.body.max() + 1):
+            lowest[moment.body == body] = moment.grains["id"][moment.body == body].min()
+        labels, found = network.clusters(lowest[order], strong)
+        require_equal(rows[:, 3], strong, "strong")
+        require_equal(rows[:, 4], labels, "cluster")
+        branch = moment.rows["branch"] - moment.arm(order[:, 0]) + moment.arm(order[:, 1])
+        force, zero = moment.rows["force"], np.zeros(len(rows))
+        by_hand = network.force_statistics(rows[:, 2], zero, force, branch, 1.0)
+        by_hand.update(clusters=len(found), cluster_max=max(found.values()))
+        row = list(table["TimeStep"]).index(moment.step)
+        for name in names:  # the table has six digits
+            require_close(float(table[C_IT[name]][row]), by_hand[name], 1e-5, name, max(abs(by_hand[name]), 1e-3))
+        compared += 1
+    require(compared >= 4, "several snapshots")
 
 
 def chains(ranks):
@@ -174,8 +239,11 @@ CASES = {
     "at-walls": at_walls,
     "of-types": of_types,
     "in-a-region": in_a_region,
+    "discs": discs,
     "of-a-group": of_a_group,
     "empty-group": empty_group,
+    "trajectory-untouched": trajectory_untouched,
+    "clumps": of_clumps,
     "chains": chains,
 }
 

@@ -11,7 +11,7 @@ from case import main, require, require_close, require_equal
 from columns import outputs
 from deck import DENSITY, Deck, dump_grains, dump_local, shear, thermo
 from oracle import network
-from packing import Grain, Packing, dense_packing
+from packing import Grain, Packing, dense_packing, disc_packing
 from refusal import require_refused
 from run import run
 from wall_measures import BOX
@@ -55,7 +55,7 @@ def measured(deck, ranks, words="", group="union all", steps=60, every=20):
     ]
 
 
-def expected(volume, grains, rows, limit, chosen, fullness=1.0, rate=RATE):
+def expected(volume, grains, rows, limit, chosen, fullness=1.0, rate=RATE, dimension=3):
     """By numpy; `chosen`: which rows of the dump of grains are in the group."""
     if "shapex" in grains:
         shapes = np.stack([grains[f"shape{a}"] for a in "xyz"], axis=1)[chosen]
@@ -63,6 +63,8 @@ def expected(volume, grains, rows, limit, chosen, fullness=1.0, rate=RATE):
         shapes = np.repeat(grains["radius"][chosen][:, None], 3, axis=1)
     solids = 4.0 / 3.0 * math.pi * shapes.prod(axis=1) * fullness
     diameters = np.cbrt(6.0 / math.pi * solids)
+    if dimension == 2:
+        solids, diameters = math.pi * shapes[:, 0] ** 2, 2.0 * shapes[:, 0]
     names = [f"c_rows[{k}]" for k in range(1, 9)]
     table = np.stack([rows[name] for name in names], axis=1).reshape(-1, 8)
     ids, force, branch = table[:, :2], table[:, 2:5], table[:, 5:8]
@@ -132,6 +134,23 @@ def blocky(ranks):
     require(1.5 < fullness < 1.8, "fullness")
     packing = dense_packing(1.2, sizes=(0.9, 1.0), overlap=0.04, blockiness=(n1, n2))
     require_agreement(measured(sheared(packing), ranks), 4, OF_SPHEROIDS, fullness=fullness)
+
+    # compute fluctuation scales its lever by the same diameter
+    d = np.mean([2.0 * np.cbrt(fullness * math.prod(grain.semi_axes)) for grain in packing.grains])
+    deck = sheared(packing)
+    deck.body += ["compute own all fluctuation", f"compute given all fluctuation diameter {d!r}"]
+    deck.body += [*thermo(5, "c_own", "c_given"), "run 5"]
+    table = run(deck, ranks).thermo()[-1]
+    require_close(table["c_own"], table["c_given"], 1e-12, "lever")
+
+
+def discs(ranks):
+    """Of two dimensions: areas, and rattlers have fewer than two contacts."""
+    for overlap in (-0.002, 0.02):
+        packing = disc_packing(overlap=overlap, speed=1.0)
+        found = measured(sheared(packing), ranks)
+        require_agreement(found, 2, OF_SPHERES, dimension=2)
+        require(0.7 < found[0][0]["phi"] < 1.0, "areas of discs")
 
 
 def of_a_group(ranks):
@@ -288,6 +307,7 @@ CASES = {
     "prolate": agrees(1.5, words="rate 0.3"),
     "oblate": agrees(0.67, words="rattlers 3", limit=3, surface="ellipsoid"),
     "blocky": blocky,
+    "discs": discs,
     "of-a-group": of_a_group,
     "empty-group": empty_group,
     "at-walls": at_walls,

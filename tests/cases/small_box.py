@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A box that fix press/strain would make too small for contact history: refused when the run is set up where that is
 certain, warned of once where it is likely, and no word where it is neither."""
+from dataclasses import replace
 import math
 
 from case import main, require
 from deck import Deck, thermo
-from packing import SKIN, dense_packing
+from packing import SKIN, dense_packing, disc_packing
 from refusal import require_refused
 from run import attempt, run
 
@@ -55,6 +56,19 @@ def warned(ranks):
     require(result.output.count(LIKELY) == 1, "one warning")
 
 
+def discs(ranks):
+    """Of two dimensions: by areas, warned of below 0.84."""
+    packing = disc_packing(sizes=(1.0,), overlap=-0.7, rows=4)
+    phi = len(packing.grains) * math.pi / (packing.edges[0] * NEEDED)
+    require(phi < 0.84, "a dilute packing")
+    deck = pressed(replace(packing, triclinic=False), "target 1e5 every/step 10", 5)
+    expected = (
+        f"at a solid fraction of 0.84 these 16 grains fill it up to a height of {NEEDED * phi / 0.84:.6g} along y"
+    )
+    output = " ".join(run(deck, ranks).output.split())
+    require(output.count(LIKELY) == 1 and expected in output, "one warning, of areas")
+
+
 def only_what_is_certain(ranks):
     """Dilute, but: the run is too short to get there, or the box too slow; the flow is fast; nothing shears; target or
     rate may change; the gain is given; grains attract or roll with friction; nobody moves them. That is warned of, and
@@ -100,6 +114,7 @@ def forecast_comes_true(ranks):
 CASES = {
     "refused": refused,
     "warned": warned,
+    "discs": discs,
     "only-what-is-certain": only_what_is_certain,
     "large-enough": large_enough,
     "forecast-comes-true": forecast_comes_true,

@@ -46,6 +46,8 @@ CASES = {
         "velocity/correlation method mesh", "c_gone", "compute velocity/correlation: step", GRAINS
     ),
     "contact-direction": guarded("contact/direction", "c_gone[1][2]"),
+    "contact-force": guarded("contact/force", "c_gone"),
+    "packing": guarded("packing", "c_gone"),
     "contact-surface": guarded("contact/surface", "c_gone[1][3]", SPHEROIDS),
     "contact-surface-ellipsoid": guarded("contact/surface", "c_gone[1][3]", SPHEROIDS, "ellipsoid"),
 }
