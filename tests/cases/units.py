@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""All measures in other units: where LIGGGHTS has no factors between force, energy and pressure, a deck means the same
+numbers in each of them, and every measure gives them to the last bit."""
+from dataclasses import replace
+
+from case import main, require, require_equal
+from deck import Deck, Material
+from everything import Questions, press
+from packing import dense_packing
+from run import run
+
+STEPS = 12
+
+
+def deck(units, atom_style):
+    packing = dense_packing(alpha=1.0 if atom_style == "sphere" else 1.5, atom_style=atom_style)
+    questions = Questions(packing)
+    surface = "ellipsoid" if atom_style == "superquadric" else "superquadric"
+    body = [press(1e5), *questions.defined(), *questions.output(), f"run {STEPS}"]
+    # LIGGGHTS refuses softer grains with units cgs
+    material = Material(young=(5e7,))
+    return Deck(
+        packing, body=body, material=material, extra="ledger on tangential_damping off", units=units, surface=surface
+    )
+
+
+def same_numbers(atom_style):
+    def case(ranks):
+        made = deck("si", atom_style)
+        expected = run(made, ranks)
+        for units in ("cgs", "micro", "lj"):
+            found = run(replace(made, units=units), ranks)
+            for one, other in zip(found.thermo(), expected.thermo()):
+                require(len(other["step"]) == STEPS + 1, "steps")
+                for name in other:
+                    require_equal(one[name], other[name], f"units {units}, {name}")
+            for name in ("grains.dump", "rows.dump"):
+                for (_, one), (_, other) in zip(found.dump(name), expected.dump(name)):
+                    for column in other:
+                        require_equal(one[column], other[column], f"units {units}, {name}, {column}")
+
+    return case
+
+
+CASES = {"spheres": same_numbers("sphere"), "spheroids": same_numbers("superquadric")}
+
+if __name__ == "__main__":
+    main(CASES)
