@@ -583,6 +583,12 @@ add_cases(stress/contact-region cases/regions.py LABEL case STYLES stress/contac
   volumes-add-up nothing-there)
 add_cases(stress/contact+fabric-region cases/regions.py LABEL case STYLES stress/contact fabric dissipation
   RANKS 1 2 CASES refused)
+add_cases(stress/contact-region cases/region_shapes.py LABEL case STYLES stress/contact RANKS 1 4 LONG_RANKS 2 CASES
+  shapes)
+add_cases(stress/contact-region cases/region_shapes.py LABEL case STYLES stress/contact RANKS 1 LONG_RANKS 2 4 CASES
+  closed-forms faces-that-follow two-dimensions between-runs)
+add_cases(stress/contact+fabric+contact/grain-region cases/region_shapes.py LABEL case
+  STYLES stress/contact fabric contact/grain RANKS 1 LONG_RANKS 2 CASES half-infinite-prism)
 
 # Clumps
 set(of_clumps stress/contact fluctuation displacement/shear velocity/correlation velocity/memory layering contact/grain)
@@ -592,3 +598,11 @@ add_cases(stress/contact+fluctuation+displacement/shear-clumps cases/clumps.py L
   RANKS 2 LONG_RANKS 1 4 CASES crosses-faces trajectory-untouched)
 add_cases(nematic+energy/ledger+press/strain-clumps cases/clumps.py LABEL case
   STYLES nematic energy/ledger press/strain gran/insitu RANKS 1 2 CASES refused)
+
+# Flows that are not the box's, groups whose grains come and go
+add_cases(fluctuation-flows cases/flows.py LABEL case STYLES fluctuation RANKS 1 2 LONG_RANKS 4 CASES mean-flows)
+add_cases(fluctuation-flows cases/flows.py LABEL case STYLES fluctuation RANKS 1 LONG_RANKS 2 CASES solid-rotation)
+add_cases(velocity/memory+displacement/shear-flows cases/flows.py LABEL case
+  STYLES velocity/memory displacement/shear RANKS 1 2 LONG_RANKS 4 CASES grains-that-come-and-go)
+add_cases(velocity/memory+displacement/shear-flows cases/flows.py LABEL case
+  STYLES velocity/memory displacement/shear RANKS 1 LONG_RANKS 2 CASES over-time empty-start)

@@ -7,7 +7,9 @@
 #include "strain_source.h"
 #include "requirements.h"
 #include "atom.h"
+#include "comm.h"
 #include "domain.h"
+#include "error.h"
 #include "fix_deform.h"
 #include "group.h"
 #include "modify.h"
@@ -26,12 +28,16 @@ namespace {
 const char *const name = "compute displacement/shear";
 constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
 
-grainscope::Outputs declared() {
+/** `time`: instead of strain. */
+grainscope::Outputs declared(bool time) {
   grainscope::Outputs outputs;
-  outputs.vector.add({"strain", "-", intensive, "strain since the start"})
+  outputs.vector.add({"strain", time ? "time" : "-", intensive, "strain since the start"})
       .add_each("x y z", {"d2_*", "distance^2", intensive, "<d_*^2>, mean square displacement"})
-      .add_each("x y z", {"D_*", "distance^2", intensive, "half the slope of <d_*^2> over strain"})
-      .add({"N", "-", whole, "grains followed"});
+      .add_each("x y z",
+                {"D_*", time ? "distance^2/time" : "distance^2", intensive, "half the slope of <d_*^2> over strain"})
+      .add({"N", "-", whole, "grains followed"})
+      .add({"N_start", "-", whole, "grains followed at the start"})
+      .add({"N_other", "-", whole, "grains of the group that are not followed"});
   outputs.scalar = {outputs.vector[2]};
   return outputs;
 }
@@ -41,7 +47,7 @@ enum { POSITION = 0, DISPLACEMENT = 3, TRACKED = 6, WIDTH };
 
 /** What all ranks share: whether it has started, strain at the start and at the last call, that call's step and box,
  *  and the sums of the fit: calls, strain, strain^2, and for x, y, z <d^2> and strain <d^2>; then the last means and
- *  the number of grains. */
+ *  the number of grains, at the start too, and of those of the group that are not followed. */
 enum {
   STARTED = 0,
   STRAIN_0,
@@ -55,6 +61,8 @@ enum {
   STRAIN_SQUARE = SQUARE + 3,
   MEAN = STRAIN_SQUARE + 3,
   GRAINS = MEAN + 3,
+  GRAINS_0,
+  OTHERS,
   SHARED
 };
 
@@ -111,9 +119,10 @@ ComputeDisplacementShear::ComputeDisplacementShear(LAMMPS *lmp, int &iarg, int n
     if (keyword == "strain") impl_->strain.read(arguments);
   }
   grainscope::require_box(lmp, arguments);
-  declare(this, declared());
+  declare(this, declared(impl_->strain.is_time()));
   impl_->record =
-      FixGrainRecord::make(lmp, id, igroup, WIDTH, SHARED, std::string(name) + " " + group->names[igroup], STEP);
+      FixGrainRecord::make(lmp, id, igroup, WIDTH, SHARED,
+                           std::string(name) + (impl_->strain.is_time() ? " time " : " ") + group->names[igroup], STEP);
 }
 
 ComputeDisplacementShear::~ComputeDisplacementShear() { FixGrainRecord::forget(lmp, id); }
@@ -170,7 +179,11 @@ void ComputeDisplacementShear::begin(double strain) {
   impl_->record->take_box_flips(forgotten);
   shared[STARTED] = 1.0;
   shared[STRAIN_0] = shared[STRAIN_1] = strain;
-  shared[GRAINS] = grains;
+  shared[GRAINS] = shared[GRAINS_0] = grains;
+  if (grains == 0.0 && comm->me == 0)
+    error->warning(FLERR, (std::string(name) + " " + id + ": there is no grain in group '" + group->names[igroup] +
+                           "' when it starts, and it follows those that are there then")
+                              .c_str());
   Map<Matrix3d>(shared + EDGES) = box.edges;
 }
 
@@ -207,16 +220,21 @@ void ComputeDisplacementShear::advance() {
 void ComputeDisplacementShear::follow(double strain) {
   advance();
   double *shared = impl_->shared();
-  double sums[4] = {0.0, 0.0, 0.0, 0.0};
+  const grainscope::Bodies bodies = bodies_now();
+  double sums[5] = {};  // squares, grains that are followed, others of the group
   for (int i = 0; i < atom->nlocal; i++) {
     const double *record = impl_->record->of(i);
-    if (record[TRACKED] == 0.0) continue;
+    if (record[TRACKED] == 0.0) {
+      if ((atom->mask[i] & groupbit) && bodies.stands_for_itself_or_clump(i)) sums[4] += 1.0;
+      continue;
+    }
     Map<Vector3d>(sums + 0) += Map<const Vector3d>(record + DISPLACEMENT).cwiseAbs2();
     sums[3] += 1.0;
   }
-  MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, world);
   for (int k = 0; k < 3; k++) shared[MEAN + k] = sums[3] > 0.0 ? sums[k] / sums[3] : 0.0;
   shared[GRAINS] = sums[3];
+  shared[OTHERS] = sums[4];
   shared[STRAIN_1] = strain;
 }
 
@@ -270,8 +288,8 @@ void ComputeDisplacementShear::compute_vector() {
   for (int k = 0; k < 3 && spread > 0.0; k++)
     slopes[k] = 0.5 * (n * shared[STRAIN_SQUARE + k] - shared[STRAIN] * shared[SQUARE + k]) / spread;
   const double *d2 = shared + MEAN;
-  put_vector(
-      {shared[STRAIN_1] - shared[STRAIN_0], d2[0], d2[1], d2[2], slopes[0], slopes[1], slopes[2], shared[GRAINS]});
+  put_vector({shared[STRAIN_1] - shared[STRAIN_0], d2[0], d2[1], d2[2], slopes[0], slopes[1], slopes[2], shared[GRAINS],
+              shared[GRAINS_0], shared[OTHERS]});
   scalar = d2[1];
 }
 

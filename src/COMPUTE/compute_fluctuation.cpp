@@ -4,7 +4,9 @@
 #include "fluctuations.h"
 #include "range_warning.h"
 #include "requirements.h"
+#include "scope.h"
 #include "atom.h"
+#include "domain.h"
 #include "update.h"
 #include <algorithm>
 #include <cmath>
@@ -26,6 +28,9 @@ const int sums_of_layer = 5;  // mass, grains, momentum
 // A third of what a flow has that is sheared in one thin layer only, 1/(2 sqrt 3).
 const double straight_enough = 0.1;
 
+/** Axes that grains spin about. */
+int spins_of(int dimension) { return dimension == 2 ? 1 : 3; }
+
 bool is_positive(double x) { return x > 0.0; }
 
 grainscope::Outputs declared(int layers) {
@@ -41,7 +46,15 @@ grainscope::Outputs declared(int layers) {
       .add({"rate", "1/time", intensive, "shear rate of the box"})
       .add({"rate_measured", "1/time", intensive, "shear rate of the grains"})
       .add({"deviation", "-", intensive, "deviation of the velocity profile from the box's flow, over |rate| L"})
-      .add({"deviation_by_chance", "-", intensive, "what noise alone would give"});
+      .add({"deviation_by_chance", "-", intensive, "what noise alone would give"})
+      .add_each("x y z", {"T_*", "velocity^2", intensive, "granular temperature *, sum m dv_*^2 over sum m"})
+      .add({"T", "velocity^2", intensive, "translational granular temperature, mean of those of the axes"})
+      .add({"T_rot", "velocity^2", intensive,
+            "rotational granular temperature, sum dw.J dw over 3 sum m, in two dimensions over sum m"})
+      .add({"lever_measured", "-", intensive, "rms |dv| over |rate_measured| d_eq"})
+      .add({"N_grains", "-", whole, "grains"})
+      .add_each("xx xy xz yx yy yz zx zy zz",
+                {"L_*", "1/time", intensive, "velocity gradient L_* of 'flow gradient', dv_a/dx_b"});
   grainscope::OutputList columns = {
       {"position", "distance", intensive, "middle of the layer along the gradient, from the box centre"},
       {"N", "-", whole, "grains of the layer"}};
@@ -54,6 +67,8 @@ grainscope::Outputs declared(int layers) {
 
 struct ComputeFluctuation::Impl {
   grainscope::RangeWarning bent;
+  explicit Impl(LAMMPS *lmp) : scope(lmp, "compute fluctuation", grainscope::Scope::region) {}
+  grainscope::Scope scope;
   MeanFlow flow;
   int layers = 10;
   double diameter = 0.0;  // 0: the mean of the group
@@ -66,10 +81,11 @@ struct ComputeFluctuation::Impl {
 };
 
 ComputeFluctuation::ComputeFluctuation(LAMMPS *lmp, int &iarg, int narg, char **arg)
-    : Compute(lmp, iarg, narg, arg), impl_(new Impl) {
+    : Compute(lmp, iarg, narg, arg), impl_(new Impl(lmp)) {
   grainscope::Arguments arguments(lmp, "compute fluctuation", iarg, narg, arg);
   while (!arguments.done()) {
-    const std::string keyword = arguments.keyword({"plane", "layers", "diameter", "flow"});
+    const std::string keyword = arguments.keyword(impl_->scope.with({"plane", "layers", "diameter", "flow"}));
+    impl_->scope.read(arguments, keyword);
     if (keyword == "plane") impl_->flow.plane.read(arguments);
     if (keyword == "layers") impl_->layers = arguments.whole_number(keyword, 1, 10000);
     if (keyword == "diameter") impl_->diameter = arguments.number(keyword, "a positive length", is_positive);
@@ -81,13 +97,17 @@ ComputeFluctuation::ComputeFluctuation(LAMMPS *lmp, int &iarg, int narg, char **
 
 ComputeFluctuation::~ComputeFluctuation() {}
 
-void ComputeFluctuation::init() { grainscope::require_grains(lmp, grainscope::Arguments(lmp, "compute fluctuation")); }
+void ComputeFluctuation::init() {
+  grainscope::require_grains(lmp, grainscope::Arguments(lmp, "compute fluctuation"));
+  impl_->scope.init();
+}
 
 void ComputeFluctuation::compute_array() {
   invoked_array = update->ntimestep;
   const BoxState box(lmp);
+  impl_->scope.update(box);
   const int across = impl_->flow.plane.gradient;
-  const Fluctuations motion(lmp, groupbit, box, impl_->with(MeanFlow::Kind::box));
+  const Fluctuations motion(lmp, {groupbit, impl_->scope.within()}, box, impl_->with(MeanFlow::Kind::box));
   // Per layer m, grains, m u; then grains that no layer holds.
   std::vector<double> sums(sums_of_layer * impl_->layers + 1, 0.0);
   for (const Fluctuations::Grain &g : motion.local()) {
@@ -114,9 +134,10 @@ void ComputeFluctuation::compute_array() {
 void ComputeFluctuation::compute_vector() {
   invoked_vector = update->ntimestep;
   const BoxState box(lmp);
+  impl_->scope.update(box);
   const int along = impl_->flow.plane.flow, across = impl_->flow.plane.gradient;
-  const Fluctuations motion(lmp, groupbit, box, impl_->flow);
-  double sums[9] = {};  // dv dv, dw dw, twice E_tr, E_rot, diameters
+  const Fluctuations motion(lmp, {groupbit, impl_->scope.within()}, box, impl_->flow);
+  double sums[13] = {};  // dv dv, dw dw, twice E_tr, E_rot, diameters, m dv dv, m
   for (const Fluctuations::Grain &g : motion.local()) {
     const Vector3d dv = motion.velocity(g), dw = motion.spin(g);
     Map<Vector3d>(sums + 0) += dv.cwiseAbs2();
@@ -124,8 +145,10 @@ void ComputeFluctuation::compute_vector() {
     sums[6] += g.mass * dv.squaredNorm();
     sums[7] += motion.rotational_energy(g, dw);
     sums[8] += motion.equivalent_diameter(g);
+    Map<Vector3d>(sums + 9) += g.mass * dv.cwiseAbs2();
+    sums[12] += g.mass;
   }
-  MPI_Allreduce(MPI_IN_PLACE, sums, 9, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, sums, 13, MPI_DOUBLE, MPI_SUM, world);
   std::fill(vector, vector + size_vector, 0.0);
   scalar = 0.0;
   const double n = motion.grains();
@@ -136,11 +159,19 @@ void ComputeFluctuation::compute_vector() {
   vector[7] = sums[7];
   vector[8] = vector[6] > 0.0 ? vector[7] / vector[6] : 0.0;
   vector[10] = box.velocity_gradient(along, across);
-  vector[11] = Fluctuations(lmp, groupbit, box, impl_->with(MeanFlow::Kind::fit)).slope()[along];
+  vector[11] =
+      Fluctuations(lmp, {groupbit, impl_->scope.within()}, box, impl_->with(MeanFlow::Kind::fit)).slope()[along];
+  for (int k = 0; k < 3; k++) vector[14 + k] = sums[9 + k] / sums[12];
+  vector[17] = (vector[14] + vector[15] + vector[16]) / domain->dimension;
+  vector[18] = 2.0 * sums[7] / (spins_of(domain->dimension) * sums[12]);
+  const double diameter = impl_->diameter > 0.0 ? impl_->diameter : sums[8] / n;
+  const double speed = std::sqrt((sums[0] + sums[1] + sums[2]) / n);
+  if (vector[11] != 0.0) vector[19] = speed / (std::fabs(vector[11]) * diameter);
+  vector[20] = n;
+  for (int k = 0; k < 9; k++) vector[21 + k] = motion.gradient()(k / 3, k % 3);
   const double rate = std::fabs(vector[10]);
   if (rate == 0.0) return;
-  const double diameter = impl_->diameter > 0.0 ? impl_->diameter : sums[8] / n;
-  scalar = vector[9] = std::sqrt((sums[0] + sums[1] + sums[2]) / n) / (rate * diameter);
+  scalar = vector[9] = speed / (rate * diameter);
 
   compute_array();
   double squares = 0.0, layers = 0.0;

@@ -9,6 +9,7 @@
 #include "mesh_correlation.h"
 #include "require_finite.h"
 #include "requirements.h"
+#include "scope.h"
 #include "velocity_component.h"
 #include "comm.h"
 #include "domain.h"
@@ -77,12 +78,14 @@ struct ComputeVelocityCorrelation::Impl {
     }
   };
 
+  explicit Impl(LAMMPS *lmp) : scope(lmp, name, grainscope::Scope::region) {}
   grainscope::VelocityComponent component;
   int bins = 19;
   double range = 0.0;  // 0: half the smallest height of the box
   int mesh_per_bin = 4;
   bool running = false;
   grainscope::MeanFlow flow;
+  grainscope::Scope scope;
   std::unique_ptr<grainscope::MeshCorrelation> mesh;  // of method mesh
   bigint measured = -1;                               // the step of the last measurement
   Totals totals;
@@ -104,12 +107,13 @@ struct ComputeVelocityCorrelation::Impl {
 };
 
 ComputeVelocityCorrelation::ComputeVelocityCorrelation(LAMMPS *lmp, int &iarg, int narg, char **arg)
-    : Compute(lmp, iarg, narg, arg), impl_(new Impl) {
+    : Compute(lmp, iarg, narg, arg), impl_(new Impl(lmp)) {
   Arguments arguments(lmp, name, iarg, narg, arg);
   bool mesh_given = false;
   while (!arguments.done()) {
-    const std::string keyword =
-        arguments.keyword({"component", "bins", "range", "method", "mesh", "flow", "plane", "average"});
+    const std::string keyword = arguments.keyword(
+        impl_->scope.with({"component", "bins", "range", "method", "mesh", "flow", "plane", "average"}));
+    impl_->scope.read(arguments, keyword);
     if (keyword == "component") impl_->component.read(arguments);
     if (keyword == "bins") impl_->bins = arguments.whole_number(keyword, 1, 10000);
     if (keyword == "range") impl_->range = arguments.number(keyword, "a positive length", is_positive);
@@ -141,8 +145,8 @@ void ComputeVelocityCorrelation::Impl::make_record(LAMMPS *lmp, const char *id, 
   std::ostringstream meaning;
   meaning.precision(17);
   meaning << name << ' ' << lmp->group->names[igroup] << ' ' << component.spin << component.axis << ' ' << bins << ' '
-          << range << ' ' << (mesh ? mesh_per_bin : 0) << ' ' << static_cast<int>(flow.kind) << ' ' << flow.rate << ' '
-          << flow.layers << ' ' << flow.plane.flow << flow.plane.gradient;
+          << range << ' ' << (mesh ? mesh_per_bin : 0) << ' ' << flow.text();
+  if (scope.within()) meaning << ' ' << scope.within()->id();
   record = FixGrainRecord::make(lmp, id, igroup, 1, SUMS + 2 * bins, meaning.str(), STEP);
 }
 
@@ -179,6 +183,7 @@ void ComputeVelocityCorrelation::init() {
   const Arguments errors(lmp, name);
   grainscope::require_grains(lmp, errors);
   impl_->measured = -1;
+  impl_->scope.init();
   if (impl_->running) impl_->record = FixGrainRecord::find(lmp, id);
   if (impl_->mesh && !(domain->xperiodic && domain->yperiodic && domain->zperiodic))
     errors.fail("'method' must be direct in a box that is not periodic in all three directions, got 'mesh'");
@@ -219,7 +224,8 @@ ComputeVelocityCorrelation::Impl::Totals ComputeVelocityCorrelation::Impl::measu
   const grainscope::BoxState box(lmp);
   const PeriodicCell cell = grainscope::periodic_cell(box);
   const DistanceBins distances{range > 0.0 ? range : half_smallest_height(cell), bins};
-  const Fluctuations motion(lmp, groupbit, box, flow);
+  scope.update(box);
+  const Fluctuations motion(lmp, {groupbit, scope.within()}, box, flow);
   PointValues points;
   double smallest = std::numeric_limits<double>::infinity();
   Totals now;

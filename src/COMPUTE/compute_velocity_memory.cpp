@@ -6,9 +6,12 @@
 #include "fix_grain_record.h"
 #include "fluctuations.h"
 #include "requirements.h"
+#include "scope.h"
 #include "strain_source.h"
 #include "velocity_component.h"
 #include "atom.h"
+#include "comm.h"
+#include "error.h"
 #include "group.h"
 #include "update.h"
 #include <algorithm>
@@ -23,21 +26,25 @@ namespace {
 const char *const name = "compute velocity/memory";
 constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
 
-/** What all ranks share: number of samples, strain of the first, number of the next multiple; then the strains of the
+/** What all ranks share: number of samples, strain of the first, number of the next multiple, grains of the last
+ *  sample and new ones among them; then the strains of the
  *  last `lags` samples (sample k at k modulo lags); then for each lag the sums of strains between samples, of products,
  *  and the number of products. */
-enum { SAMPLES = 0, STRAIN_0, NEXT, PAST };
+enum { SAMPLES = 0, STRAIN_0, NEXT, NOW, NEW, PAST };
 enum { STRAIN = 0, PRODUCTS, PAIRS, SUMS };
 
-grainscope::Outputs declared(int rows) {
+/** `unit`: of the strain, or time, that lags are measured in. */
+grainscope::Outputs declared(int rows, const char *unit) {
   grainscope::Outputs outputs;
-  outputs.vector = {{"g", "-", intensive, "strain of the fit exp(-lag/g)"},
-                    {"g_error", "-", intensive, "standard error of g"},
+  outputs.vector = {{"g", unit, intensive, "strain of the fit exp(-lag/g)"},
+                    {"g_error", unit, intensive, "standard error of g"},
                     {"samples", "-", intensive, "samples"},
-                    {"lags", "-", intensive, "lags in the fit"}};
+                    {"lags", "-", intensive, "lags in the fit"},
+                    {"N", "-", whole, "grains of the last sample"},
+                    {"N_new", "-", whole, "of these, grains that the sample before did not have"}};
   outputs.scalar = {outputs.vector.front()};
   outputs.set_array(rows, "lag, from 0 on",
-                    {{"lag", "-", intensive, "mean strain between the samples"},
+                    {{"lag", unit, intensive, "mean strain between the samples"},
                      {"C", "-", intensive, "correlation at the lag"},
                      {"products", "(velocity or 1/time)^2", whole, "sum of products"},
                      {"pairs", "-", whole, "number of products"}});
@@ -47,8 +54,9 @@ grainscope::Outputs declared(int rows) {
 }
 
 struct ComputeVelocityMemory::Impl {
-  explicit Impl(LAMMPS *lmp) : strain(lmp, name) {}
+  explicit Impl(LAMMPS *lmp) : strain(lmp, name), scope(lmp, name, grainscope::Scope::region) {}
   grainscope::StrainSource strain;
+  grainscope::Scope scope;
   grainscope::MeanFlow flow;
   grainscope::VelocityComponent component;
   double every = 0.01;
@@ -63,8 +71,9 @@ struct ComputeVelocityMemory::Impl {
     std::ostringstream meaning;
     meaning.precision(17);
     meaning << name << ' ' << lmp->group->names[igroup] << ' ' << component.spin << component.axis << ' ' << every
-            << ' ' << lags << ' ' << static_cast<int>(flow.kind) << ' ' << flow.rate << ' ' << flow.layers << ' '
-            << flow.plane.flow << flow.plane.gradient;
+            << ' ' << lags << ' ' << flow.text();
+    if (scope.within()) meaning << ' ' << scope.within()->id();
+    if (strain.is_time()) meaning << " time";
     record = FixGrainRecord::make(lmp, id, igroup, lags + 1, PAST + lags + (lags + 1) * SUMS, meaning.str());
   }
 };
@@ -73,7 +82,9 @@ ComputeVelocityMemory::ComputeVelocityMemory(LAMMPS *lmp, int &iarg, int narg, c
     : Compute(lmp, iarg, narg, arg), impl_(new Impl(lmp)) {
   grainscope::Arguments arguments(lmp, name, iarg, narg, arg);
   while (!arguments.done()) {
-    const std::string keyword = arguments.keyword({"component", "every", "lags", "strain", "flow", "plane"});
+    const std::string keyword =
+        arguments.keyword(impl_->scope.with({"component", "every", "lags", "strain", "flow", "plane"}));
+    impl_->scope.read(arguments, keyword);
     if (keyword == "component") impl_->component.read(arguments);
     if (keyword == "every")
       impl_->every = arguments.number(keyword, "a positive strain", [](double x) { return x > 0.0; });
@@ -84,7 +95,7 @@ ComputeVelocityMemory::ComputeVelocityMemory(LAMMPS *lmp, int &iarg, int narg, c
   }
   grainscope::require_grains(lmp, arguments);
   grainscope::require_box(lmp, arguments);
-  declare(this, declared(impl_->lags + 1));
+  declare(this, declared(impl_->lags + 1, impl_->strain.is_time() ? "time" : "-"));
   impl_->make_record(lmp, id, igroup);
 }
 
@@ -92,6 +103,7 @@ ComputeVelocityMemory::~ComputeVelocityMemory() { FixGrainRecord::forget(lmp, id
 
 void ComputeVelocityMemory::init() {
   impl_->strain.init();
+  impl_->scope.init();
   impl_->record = FixGrainRecord::find(lmp, id);
 }
 
@@ -106,6 +118,14 @@ void ComputeVelocityMemory::sample_if_due() {
   sample(strain);
 }
 
+/** A grain that is not of this sample begins anew when it is of one again: it was not seen in between. */
+void ComputeVelocityMemory::forget_others(const Fluctuations &motion) {
+  std::vector<char> chosen(atom->nlocal, 0);
+  for (const Fluctuations::Grain &g : motion.local()) chosen[g.index] = 1;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (!chosen[i]) impl_->record->of(i)[impl_->lags] = 0.0;
+}
+
 void ComputeVelocityMemory::sample(double strain) {
   const int lags = impl_->lags;
   const long count = grainscope::whole_count(impl_->shared()[SAMPLES], 1e15);
@@ -114,10 +134,17 @@ void ComputeVelocityMemory::sample(double strain) {
                                           grainscope::Arguments::text(impl_->shared()[SAMPLES]));
   const int known = std::min<long>(count, lags);   // lags that reach back to a sample
   std::vector<double> sums(2 * (known + 1), 0.0);  // products, pairs
-  const Fluctuations motion(lmp, groupbit, grainscope::BoxState(lmp), impl_->flow);
+  const grainscope::BoxState box(lmp);
+  impl_->scope.update(box);
+  const Fluctuations motion(lmp, {groupbit, impl_->scope.within()}, box, impl_->flow);
+  forget_others(motion);
+  double grains[2] = {static_cast<double>(motion.local().size()), 0.0};  // and new ones
   for (const Fluctuations::Grain &g : motion.local()) {
     double *past = impl_->record->of(g.index), &first = past[lags];
-    if (first == 0.0) first = count + 1;
+    if (first == 0.0) {
+      first = count + 1;
+      grains[1] += 1.0;
+    }
     const double now = impl_->component.of(motion, g);
     sums[0] += now * now;
     sums[1] += 1.0;
@@ -128,6 +155,11 @@ void ComputeVelocityMemory::sample(double strain) {
     past[count % lags] = now;
   }
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, grains, 2, MPI_DOUBLE, MPI_SUM, world);
+  impl_->shared()[NOW] = grains[0];
+  impl_->shared()[NEW] = grains[1];
+  if (count == 0 && grains[0] == 0.0 && comm->me == 0)
+    error->warning(FLERR, (std::string(name) + " " + id + ": there is no grain in the first sample").c_str());
   for (int lag = 0; lag <= known; lag++) {
     double *s = impl_->sums(lag);
     if (lag > 0) s[STRAIN] += strain - impl_->past()[(count - lag) % lags];
@@ -165,7 +197,8 @@ void ComputeVelocityMemory::compute_vector() {
     c.push_back(array[k][1]);
   }
   const grainscope::DecayFit fit = grainscope::fit_decay(lag, c);
-  put_vector({fit.length, fit.error, impl_->shared()[SAMPLES], static_cast<double>(fit.points)});
+  put_vector({fit.length, fit.error, impl_->shared()[SAMPLES], static_cast<double>(fit.points), impl_->shared()[NOW],
+              impl_->shared()[NEW]});
   scalar = fit.length;
 }
 

@@ -12,6 +12,10 @@ ComputeStyle(velocity/memory,ComputeVelocityMemory)
 #include "outputs.h"
 #include <memory>
 
+namespace grainscope {
+class Fluctuations;
+}
+
 namespace LAMMPS_NS {
 
 class FixGrainRecord;
@@ -35,6 +39,7 @@ class ComputeVelocityMemory : public Compute, public grainscope::DeclaresOutputs
   std::unique_ptr<Impl> impl_;
 
   void sample_if_due();
+  void forget_others(const grainscope::Fluctuations &motion);
   void sample(double strain);
   void fill_array();
 };

@@ -5,6 +5,7 @@
 #include "fix_press_strain.h"
 #include "input.h"
 #include "modify.h"
+#include "update.h"
 #include "variable.h"
 #include <cmath>
 
@@ -12,12 +13,13 @@ namespace grainscope {
 
 namespace {
 
-const char *const requirement = "f_ID[n] or v_name";
+const char *const requirement = "f_ID[n], v_name or time";
 
 }
 
 void StrainSource::read(Arguments &arguments) {
   text_ = arguments.word(requirement);
+  if (is_time()) return;
   if (text_.size() > 2 && text_.compare(0, 2, "v_") == 0) {
     name_ = text_.substr(2);
     return;
@@ -50,6 +52,7 @@ void StrainSource::init() {
 void StrainSource::find(const Arguments &errors) {
   fix_ = nullptr;
   variable_ = -1;
+  if (is_time()) return;
   if (text_.empty()) {
     find_press_strain(errors);
   } else if (text_[0] == 'v') {
@@ -69,6 +72,7 @@ double StrainSource::now() {
   const Arguments errors(lmp, style_);
   if (!ready_) errors.fail("was not set up: do not use 'pre no' in the first run with it");
   find(errors);  // again: `run every` may have changed what there is
+  if (is_time()) return update->get_cur_time();
   const double strain = fix_ ? fix_->compute_vector(element_) : input->variable->compute_equal(variable_);
   if (!std::isfinite(strain)) errors.fail("strain", "finite", text_ + " = " + Arguments::text(strain));
   return strain;

@@ -14,14 +14,15 @@ namespace grainscope {
 class Arguments;
 
 /** Where a compute takes the shear strain from: an element of a fix's vector, an equal-style variable, or the strain of
- *  the deck's only fix press/strain. */
+ *  the deck's only fix press/strain; or the time that has passed, in its place. */
 class StrainSource : private LAMMPS_NS::Pointers {
  public:
   /** `style` is for messages. */
   StrainSource(LAMMPS_NS::LAMMPS *lmp, const std::string &style) : Pointers(lmp), style_(style) {}
 
-  /** Reads what follows the keyword 'strain': f_ID[n] or v_name. */
+  /** Reads what follows the keyword 'strain': f_ID[n], v_name or time. */
   void read(Arguments &arguments);
+  bool is_time() const { return text_ == "time"; }
   /** Finds it, or errors. Before each run: fixes and variables come and go. */
   void init();
   /** The strain now, a finite number. Collective. */

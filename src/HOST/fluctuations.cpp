@@ -8,7 +8,10 @@
 #include "atom.h"
 #include "domain.h"
 #include "lammps.h"
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <mpi.h>
+#include <sstream>
 
 namespace grainscope {
 
@@ -16,6 +19,8 @@ using Eigen::Map;
 using Eigen::Vector3d;
 
 namespace {
+
+const double rounding = 1e-12;  // of sums of squares
 
 void sum_over_ranks(const LAMMPS_NS::LAMMPS *lmp, double *values, int n) {
   MPI_Allreduce(MPI_IN_PLACE, values, n, MPI_DOUBLE, MPI_SUM, lmp->world);
@@ -29,10 +34,21 @@ void require_layers(LAMMPS_NS::LAMMPS *lmp, const std::string &who, double grain
 }
 
 void MeanFlow::read(Arguments &arguments) {
-  const std::string name = arguments.choice("flow", {"box", "rate", "fit", "layers"});
-  kind = name == "box" ? Kind::box : name == "rate" ? Kind::rate : name == "fit" ? Kind::fit : Kind::layers;
+  const std::vector<std::string> names = {"box", "none", "rate", "fit", "gradient", "layers", "cells"};
+  const std::string name = arguments.choice("flow", names);
+  kind = static_cast<Kind>(std::find(names.begin(), names.end(), name) - names.begin());
   if (kind == Kind::rate) rate = arguments.number("flow rate", "a shear rate", [](double) { return true; });
   if (kind == Kind::layers) layers = arguments.whole_number("flow layers", 1, 10000);
+  if (kind == Kind::cells)
+    for (int &number : cells) number = arguments.whole_number("flow cells", 1, 1000);
+}
+
+std::string MeanFlow::text() const {
+  std::ostringstream all;
+  all.precision(17);
+  all << static_cast<int>(kind) << ' ' << rate << ' ' << layers << ' ' << plane.flow << plane.gradient;
+  if (kind == Kind::cells) all << ' ' << cells[0] << ' ' << cells[1] << ' ' << cells[2];
+  return all.str();
 }
 
 /** The same, clumps as one grain each. */
@@ -75,12 +91,13 @@ Fluctuations::Fluctuations(LAMMPS_NS::LAMMPS *lmp, ChosenGrains chosen, const Bo
 }
 
 Fluctuations::Fluctuations(LAMMPS_NS::LAMMPS *lmp, ChosenGrains chosen, const BoxState &box, const MeanFlow &flow)
-    : lmp_(lmp), bodies_(lmp, "mean flow"), means_(flow.kind == MeanFlow::Kind::layers ? flow.layers : 1) {
+    : lmp_(lmp), bodies_(lmp, "mean flow"), means_(flow.means()) {
   bodies_.update(box);
   const int along = flow.plane.flow, across = flow.plane.gradient;
   switch (flow.kind) {
     case MeanFlow::Kind::box:
-    case MeanFlow::Kind::layers: collect(chosen, [&](const Vector3d &x) { return box.flow(x); }); break;
+    case MeanFlow::Kind::layers:
+    case MeanFlow::Kind::cells: collect(chosen, [&](const Vector3d &x) { return box.flow(x); }); break;
     case MeanFlow::Kind::rate:
       collect(chosen, [&](const Vector3d &x) {
         Vector3d shear = Vector3d::Zero();
@@ -88,12 +105,15 @@ Fluctuations::Fluctuations(LAMMPS_NS::LAMMPS *lmp, ChosenGrains chosen, const Bo
         return shear;
       });
       break;
+    case MeanFlow::Kind::none:
     case MeanFlow::Kind::fit:
+    case MeanFlow::Kind::gradient:
       collect(chosen, [](const Vector3d &) { return Vector3d(Vector3d::Zero()); });
-      subtract_line(across);
+      if (flow.kind == MeanFlow::Kind::fit) subtract_line(across);
+      if (flow.kind == MeanFlow::Kind::gradient) subtract_gradient();
       break;
   }
-  if (flow.kind == MeanFlow::Kind::layers) find_layers(box, across, flow.layers);
+  if (flow.means() > 1) find_layers(box, flow);
   find_means();
 }
 
@@ -115,14 +135,19 @@ double Fluctuations::equivalent_diameter(const Grain &grain) const {
                     : grainscope::equivalent_diameter(*lmp_->atom, grain.index);
 }
 
-void Fluctuations::find_layers(const BoxState &box, int gradient, int layers) {
+void Fluctuations::find_layers(const BoxState &box, const MeanFlow &flow) {
+  std::array<int, 3> cells{{1, 1, 1}};
+  if (flow.kind == MeanFlow::Kind::cells) cells = flow.cells;
+  else cells[flow.plane.gradient] = flow.layers;
   double outside = 0.0;
   for (Grain &g : local_) {
-    g.layer = box.layer(place(g), gradient, layers);
+    const Vector3d x = place(g);
+    const std::array<int, 3> at{{box.layer(x, 0, cells[0]), box.layer(x, 1, cells[1]), box.layer(x, 2, cells[2])}};
+    g.layer = std::min({at[0], at[1], at[2]}) < 0 ? -1 : at[0] + cells[0] * (at[1] + cells[1] * at[2]);
     if (g.layer < 0) outside += 1.0;
   }
   sum_over_ranks(lmp_, &outside, 1);
-  require_layers(lmp_, "flow layers", outside);
+  require_layers(lmp_, flow.kind == MeanFlow::Kind::cells ? "flow cells" : "flow layers", outside);
 }
 
 /** Of all grains, without their spins: what the pressure is measured with in every step. */
@@ -165,6 +190,35 @@ Eigen::Matrix3d Fluctuations::momentum_flux() const {
   }
   sum_over_ranks(lmp_, sums, 6);
   return symmetric_tensor(sums);
+}
+
+/** Takes the gradient out that fits best: v = u + L (x - <x>), least squares by mass. Where grains do not spread along
+ *  an axis, as in two dimensions, nothing is known along it: the smallest gradient that fits. */
+void Fluctuations::subtract_gradient() {
+  double first[7] = {};  // m x, m v, m
+  for (const Grain &g : local_) {
+    Map<Vector3d>(first + 0) += g.mass * place(g);
+    Map<Vector3d>(first + 3) += g.mass * g.u;
+    first[6] += g.mass;
+  }
+  sum_over_ranks(lmp_, first, 7);
+  if (first[6] == 0.0) return;
+  const Vector3d middle = Map<Vector3d>(first + 0) / first[6], mean = Map<Vector3d>(first + 3) / first[6];
+
+  double second[18] = {};  // m dx dx, m du dx, in columns
+  for (const Grain &g : local_) {
+    const Vector3d dx = place(g) - middle;
+    Map<Eigen::Matrix3d>(second + 0) += g.mass * dx * dx.transpose();
+    Map<Eigen::Matrix3d>(second + 9) += g.mass * (g.u - mean) * dx.transpose();
+  }
+  sum_over_ranks(lmp_, second, 18);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread{Eigen::Matrix3d(Map<Eigen::Matrix3d>(second + 0))};
+  Vector3d inverse = Vector3d::Zero();
+  for (int k = 0; k < 3; k++)
+    if (spread.eigenvalues()[k] > rounding * spread.eigenvalues()[2]) inverse[k] = 1.0 / spread.eigenvalues()[k];
+  gradient_ = Map<Eigen::Matrix3d>(second + 9) * spread.eigenvectors() * inverse.asDiagonal() *
+              spread.eigenvectors().transpose();
+  for (Grain &g : local_) g.u -= gradient_ * (place(g) - middle);
 }
 
 /** Takes the slope of the fitted line out; its height goes with the mean. */

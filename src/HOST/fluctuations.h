@@ -5,6 +5,7 @@
 #include "bodies.h"
 #include "box_state.h"
 #include "plane.h"
+#include <array>
 #include <string>
 #include <vector>
 
@@ -25,26 +26,31 @@ struct ChosenGrains {
   ChosenGrains(int groupbit, const RegionSolid *region = nullptr) : groupbit(groupbit), region(region) {}
 };
 
-/** What is taken for the mean flow: the affine flow of the box; a given rate; the straight line fitted to the
- *  velocities; or the mean of each of `layers` layers across the gradient. The group's mean (by mass) is taken out in
- *  each case. */
+/** What is taken for the mean flow: the affine flow of the box; nothing; a given rate; the straight line fitted to the
+ *  velocities; the velocity gradient fitted to them; the mean of each of `layers` layers across the gradient; or of each
+ *  cell of the box. The grains' mean (by mass) is taken out in each case. */
 struct MeanFlow {
-  enum class Kind { box, rate, fit, layers } kind = Kind::box;
+  enum class Kind { box, none, rate, fit, gradient, layers, cells } kind = Kind::box;
   double rate = 0.0;
   int layers = 0;
+  std::array<int, 3> cells{{1, 1, 1}};
   Plane plane;
 
-  /** Reads what follows the keyword 'flow': box, rate G, fit or layers n. */
+  /** How many means there are. */
+  int means() const { return kind == Kind::layers ? layers : kind == Kind::cells ? cells[0] * cells[1] * cells[2] : 1; }
+  /** All that it says, for what must not change in a restart. */
+  std::string text() const;
+  /** Reads what follows the keyword 'flow': box, none, rate G, fit, gradient, layers n or cells nx ny nz. */
   void read(Arguments &arguments);
 };
 
 /** How the grains of a group move and spin against a mean flow, a clump as one grain: u = v - flow, dv = u - <u> by
- *  mass, dw = omega - <omega>, where the means are those of the group, or with flow layers of each layer. Collective. */
+ *  mass, dw = omega - <omega>, where the means are those of the grains, or with flow layers and cells of each layer and cell. Collective. */
 class Fluctuations {
  public:
   struct Grain {
     int index;  // local index of the host; of a clump, of the sphere that stands for it
-    int layer;  // 0 without layers
+    int layer;  // or cell; 0 without
     double mass;
     Eigen::Vector3d u;
     const Body *body;  // null for a grain on its own
@@ -72,6 +78,8 @@ class Fluctuations {
   Eigen::Matrix3d momentum_flux() const;
   /** Slope of the fitted line, d<v>/dx_gradient; zero for other mean flows. */
   const Eigen::Vector3d &slope() const { return slope_; }
+  /** The fitted velocity gradient, dv_a/dx_b; zero for other mean flows. */
+  const Eigen::Matrix3d &gradient() const { return gradient_; }
 
  private:
   struct Mean {
@@ -81,16 +89,18 @@ class Fluctuations {
   LAMMPS_NS::LAMMPS *lmp_;
   Bodies bodies_;
   std::vector<Grain> local_;
-  std::vector<Mean> means_;  // of each layer
+  std::vector<Mean> means_;  // of each layer or cell
   double grains_ = 0.0;
   Eigen::Vector3d slope_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d gradient_ = Eigen::Matrix3d::Zero();
 
   Eigen::Vector3d own_spin(const Grain &grain) const;
   template <class Flow>
   void collect(ChosenGrains chosen, Flow flow);
   template <class Flow>
   void collect_with_bodies(ChosenGrains chosen, Flow flow);
-  void find_layers(const BoxState &box, int gradient, int layers);
+  void find_layers(const BoxState &box, const MeanFlow &flow);
+  void subtract_gradient();
   void subtract_line(int gradient);
   void find_mean_velocity();
   void find_means();

@@ -1,117 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "region_solid.h"
 #include "arguments.h"
-#include "private_member.h"
+#include "region_shape.h"
 #include "atom.h"
 #include "domain.h"
-#include "modify.h"
-#include "region_block.h"
-#include "region_cone.h"
-#include "region_cylinder.h"
-#include "region_intersect.h"
-#include "region_plane.h"
-#include "region_prism.h"
-#include "region_sphere.h"
-#include "region_union.h"
-#include "update.h"
+#include "region.h"
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 namespace grainscope {
 
-using Eigen::Map;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using namespace LAMMPS_NS;
-
-namespace {
-
-using Triple = double[3];
-using Triples = double[3][3];
-
-#define MEMBER GRAINSCOPE_PRIVATE_MEMBER
-MEMBER(RegBlock, double, xlo)
-MEMBER(RegBlock, double, xhi)
-MEMBER(RegBlock, double, ylo)
-MEMBER(RegBlock, double, yhi)
-MEMBER(RegBlock, double, zlo)
-MEMBER(RegBlock, double, zhi)
-MEMBER(RegSphere, double, xc)
-MEMBER(RegSphere, double, yc)
-MEMBER(RegSphere, double, zc)
-MEMBER(RegSphere, double, radius)
-MEMBER(RegCylinder, char, axis)
-MEMBER(RegCylinder, double, c1)
-MEMBER(RegCylinder, double, c2)
-MEMBER(RegCylinder, double, lo)
-MEMBER(RegCylinder, double, hi)
-MEMBER(RegCylinder, double, radius)
-MEMBER(RegCone, char, axis)
-MEMBER(RegCone, double, c1)
-MEMBER(RegCone, double, c2)
-MEMBER(RegCone, double, lo)
-MEMBER(RegCone, double, hi)
-MEMBER(RegCone, double, radiuslo)
-MEMBER(RegCone, double, radiushi)
-MEMBER(RegPlane, double, xp)
-MEMBER(RegPlane, double, yp)
-MEMBER(RegPlane, double, zp)
-MEMBER(RegPlane, Triple, normal)
-MEMBER(RegPrism, double, xlo)
-MEMBER(RegPrism, double, ylo)
-MEMBER(RegPrism, double, zlo)
-MEMBER(RegPrism, Triples, h)
-MEMBER(RegUnion, int, nregion)
-MEMBER(RegUnion, int *, list)
-MEMBER(RegIntersect, int, nregion)
-MEMBER(RegIntersect, int *, list)
-MEMBER(Region, int, moveflag)
-MEMBER(Region, int, rotateflag)
-MEMBER(Region, Triple, point)
-MEMBER(Region, Triple, runit)
-MEMBER(Region, double, dx)
-MEMBER(Region, double, dy)
-MEMBER(Region, double, dz)
-MEMBER(Region, double, theta)
-#undef MEMBER
-
-/** low <= normal . (x - corner) < high, of a normal of any length. */
-void add_slab(std::vector<HalfSpace> &sides, const Vector3d &normal, double low, double high) {
-  const double size = normal.norm();
-  sides.push_back({-normal / size, -low / size});
-  sides.push_back({normal / size, high / size, true});
-}
-
-Solid block(RegBlock *b) {
-  std::vector<HalfSpace> sides;
-  add_slab(sides, Vector3d::UnitX(), xlo_of(b), xhi_of(b));
-  add_slab(sides, Vector3d::UnitY(), ylo_of(b), yhi_of(b));
-  add_slab(sides, Vector3d::UnitZ(), zlo_of(b), zhi_of(b));
-  return Solid::flat(sides);
-}
-
-Solid prism(RegPrism *p) {
-  const Matrix3d edges = Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(h_of(p)[0]), inverse = edges.inverse();
-  const Vector3d corner(xlo_of(p), ylo_of(p), zlo_of(p));
-  std::vector<HalfSpace> sides;
-  for (int k = 0; k < 3; k++) {
-    const Vector3d normal = inverse.row(k);
-    add_slab(sides, normal, normal.dot(corner), normal.dot(corner) + 1.0);
-  }
-  return Solid::flat(sides);
-}
-
-/** `first`, `second`: coordinates of the axis, in the order of x, y, z without its own. */
-Solid round(char axis, double first, double second, double lo, double hi, double radius_lo, double radius_hi) {
-  const int along = axis - 'x';
-  Vector3d origin = Vector3d::Zero();
-  origin[along == 0 ? 1 : 0] = first;
-  origin[along == 2 ? 1 : 2] = second;
-  return Solid::round(origin, Vector3d::Unit(along), lo, hi, radius_lo, radius_hi);
-}
-
-}
 
 RegionSolid::RegionSolid(LAMMPS *lmp, const std::string &style, const std::string &id)
     : Pointers(lmp), style_(style), id_(id) {
@@ -127,23 +29,36 @@ Region *RegionSolid::find(const std::string &id) const {
 void RegionSolid::init() {
   region_ = find(id_);
   region_->init();
+  require_sound(region_);
+  new_run_ = true;
+}
+
+/** Errors where the host itself is wrong about what is inside. */
+void RegionSolid::require_sound(Region *region) const {
+  for (Region *member : members_of(*domain, region)) require_sound(member);
+  if (ends_are_unseen(region))
+    Arguments(lmp, style_)
+        .fail("region '" + std::string(region->id) +
+              "': LIGGGHTS does not see where a prism ends that is INF on one side alone: give it two bounds, or two "
+              "INF");
 }
 
 /** The host asks a region's variables where it comes to need them, which may not be on all ranks: here they are asked. */
 void RegionSolid::evaluate(Region *region) const {
-  std::vector<int> members;
-  if (RegUnion *of = dynamic_cast<RegUnion *>(region)) members.assign(list_of(of), list_of(of) + nregion_of(of));
-  if (RegIntersect *of = dynamic_cast<RegIntersect *>(region))
-    members.assign(list_of(of), list_of(of) + nregion_of(of));
-  for (int member : members) evaluate(domain->regions[member]);
+  for (Region *member : members_of(*domain, region)) evaluate(member);
+  if (new_run_) region->prematch();  // variables may be others since the last run, which ended in the same step
   region->match(0.0, 0.0, 0.0);
 }
 
 void RegionSolid::update(const BoxState &box) {
   box_ = box;
   evaluate(region_);
-  known_ = shape_of(region_, solid_, why_not_);
+  new_run_ = false;
+  known_ = shape_of(*domain, region_, solid_, why_not_);
   if (box.dimension == 2) height_ = height_of_grains();
+  Solid cut = solid_;
+  std::string ignored;
+  if (box.dimension == 2 && known_ && solid_.section(height_, cut, ignored)) solid_ = cut;
 }
 
 /** z of the plane of the grains, the middle of the box without any. Collective. */
@@ -151,63 +66,6 @@ double RegionSolid::height_of_grains() const {
   double height = atom->nlocal > 0 ? atom->x[0][2] : -HUGE_VAL;
   MPI_Allreduce(MPI_IN_PLACE, &height, 1, MPI_DOUBLE, MPI_MAX, world);
   return std::isfinite(height) ? height : box_.centre[2];
-}
-
-bool RegionSolid::members_of(int number, const int *list, std::vector<Solid> &members, std::string &why) const {
-  for (int k = 0; k < number; k++) {
-    Solid one = Solid::common({});
-    if (!shape_of(domain->regions[list[k]], one, why)) return false;
-    members.push_back(one);
-  }
-  return true;
-}
-
-bool RegionSolid::shape_at_rest(Region *region, Solid &solid, std::string &why) const {
-  if (RegBlock *b = dynamic_cast<RegBlock *>(region)) {
-    solid = block(b);
-  } else if (RegPrism *p = dynamic_cast<RegPrism *>(region)) {
-    solid = prism(p);
-  } else if (RegPlane *p = dynamic_cast<RegPlane *>(region)) {
-    const Vector3d normal = Map<const Vector3d>(normal_of(p)).normalized();
-    solid = Solid::flat({{-normal, -normal.dot(Vector3d(xp_of(p), yp_of(p), zp_of(p)))}});
-  } else if (RegSphere *s = dynamic_cast<RegSphere *>(region)) {
-    solid = Solid::ball({xc_of(s), yc_of(s), zc_of(s)}, radius_of(s));
-  } else if (RegCylinder *c = dynamic_cast<RegCylinder *>(region)) {
-    solid = round(axis_of(c), c1_of(c), c2_of(c), lo_of(c), hi_of(c), radius_of(c), radius_of(c));
-  } else if (RegCone *c = dynamic_cast<RegCone *>(region)) {
-    solid = round(axis_of(c), c1_of(c), c2_of(c), lo_of(c), hi_of(c), radiuslo_of(c), radiushi_of(c));
-  } else {
-    std::vector<Solid> members;
-    RegUnion *all = dynamic_cast<RegUnion *>(region);
-    RegIntersect *shared = dynamic_cast<RegIntersect *>(region);
-    if (!all && !shared) {
-      why = "lines are cut by block, prism, plane, sphere, cylinder, cone, and unions and common parts of these, got "
-            "style " +
-            std::string(region->style);
-      return false;
-    }
-    if (all ? !members_of(nregion_of(all), list_of(all), members, why)
-            : !members_of(nregion_of(shared), list_of(shared), members, why))
-      return false;
-    solid = all ? Solid::united(members) : Solid::common(members);
-  }
-  return true;
-}
-
-bool RegionSolid::shape_of(Region *region, Solid &solid, std::string &why) const {
-  if (!shape_at_rest(region, solid, why)) return false;
-  if (!region->interior) solid = solid.complement();
-  if (!region->dynamic_check()) return true;
-  const Vector3d about = Map<const Vector3d>(point_of(region));
-  Matrix3d turn = Matrix3d::Identity();
-  Vector3d shift = Vector3d::Zero();
-  if (rotateflag_of(region)) {
-    turn = Eigen::AngleAxisd(theta_of(region), Map<const Vector3d>(runit_of(region))).toRotationMatrix();
-    shift = about - turn * about;
-  }
-  if (moveflag_of(region)) shift += Vector3d(dx_of(region), dy_of(region), dz_of(region));
-  solid = solid.moved(turn, shift);
-  return true;
 }
 
 bool RegionSolid::has(const Vector3d &x) const {
@@ -250,21 +108,36 @@ double RegionSolid::part(const Vector3d &from, const Vector3d &to) const {
 void RegionSolid::require_parts() const {
   Solid ignored = Solid::common({});
   std::string why;
-  if (!shape_of(region_, ignored, why)) Arguments(lmp, style_).fail("region '" + id_ + "': " + why);
+  if (!shape_of(*domain, region_, ignored, why)) Arguments(lmp, style_).fail("region '" + id_ + "': " + why);
 }
+
+/** Across a face that follows the grains the region goes on, by `beyond` lengths of the box. */
+bool RegionSolid::volume_within(double beyond, double &value, std::string &why) const {
+  Vector3d corner = box_.centre - 0.5 * box_.edges.rowwise().sum();
+  Matrix3d edges = box_.edges;
+  for (int k = 0; k < 3; k++) {
+    const double below = follows_grains(k, 0) ? beyond : 0.0, above = follows_grains(k, 1) ? beyond : 0.0;
+    corner -= below * box_.edges.col(k);
+    edges.col(k) *= 1.0 + below + above;
+  }
+  Solid cut = solid_;
+  if (box_.dimension == 2 && !solid_.section(height_, cut, why)) return false;
+  return cut.volume_within(Polyhedron(corner, edges), value, why);
+}
+
+/** Boundary s or m. */
+bool RegionSolid::follows_grains(int k, int side) const { return domain->boundary[k][side] > 1; }
 
 bool RegionSolid::volume(double &value, std::string &why) const {
   if (!known_) {
     why = why_not_;
     return false;
   }
-  const Vector3d corner = box_.centre - 0.5 * box_.edges.rowwise().sum();
-  if (domain->dimension == 3) {
-    if (!solid_.volume_within(Polyhedron(corner, box_.edges), value, why)) return false;
-  } else {
-    Solid cut = solid_;
-    if (!solid_.section(height_, cut, why) || !cut.volume_within(Polyhedron(corner, box_.edges), value, why))
-      return false;
+  if (!volume_within(100.0, value, why)) return false;
+  double further = value;
+  if (domain->nonperiodic == 2 && (!volume_within(200.0, further, why) || std::fabs(further - value) > 1e-9 * value)) {
+    why = "it does not end where the box follows the grains, boundary s or m: bounds instead of INF and EDGE";
+    return false;
   }
   if (value > 0.0) return true;
   why = "nothing of it lies in the box";

@@ -41,15 +41,16 @@ class RegionSolid : private LAMMPS_NS::Pointers {
   std::string style_, id_;
   LAMMPS_NS::Region *region_ = nullptr;
   BoxState box_;
-  bool known_ = false;  // the shape
+  bool known_ = false;   // the shape
+  bool new_run_ = true;  // not yet updated in it
   std::string why_not_;
   Solid solid_ = Solid::common({});
   double height_ = 0.0;  // z of the plane of two dimensions
 
   LAMMPS_NS::Region *find(const std::string &id) const;
-  bool shape_of(LAMMPS_NS::Region *region, Solid &solid, std::string &why) const;
-  bool shape_at_rest(LAMMPS_NS::Region *region, Solid &solid, std::string &why) const;
-  bool members_of(int number, const int *list, std::vector<Solid> &members, std::string &why) const;
+  void require_sound(LAMMPS_NS::Region *region) const;
+  bool volume_within(double beyond, double &value, std::string &why) const;
+  bool follows_grains(int k, int side) const;
   void evaluate(LAMMPS_NS::Region *region) const;
   double height_of_grains() const;
 };

@@ -9,6 +9,7 @@ from case import main, require, require_close, require_equal
 from columns import outputs
 from deck import Deck, Material, dump_grains, dump_local, thermo
 from everything import press
+import meshes
 from oracle.state import ROW_WIDTH, chosen_rows, rows_of
 from packing import Grain, disc_packing
 from rank_sweep import Start, sweep
@@ -112,7 +113,7 @@ def walls(ranks):
 
 
 def ring(ranks):
-    """A cylinder across the plane is a circle; a mesh has no length, and says so."""
+    """A cylinder across the plane is a circle; a mesh has no length, and says so where none is given."""
     packing = replace(disc_packing(sizes=(1.0,), speed=0.1), triclinic=False)
     inside = [g for g in packing.grains if math.hypot(g.position[0] - 9.8, g.position[1] - 8.5) < 4.0]
     deck = Deck(replace(packing, grains=inside), boundary="f f p")
@@ -125,6 +126,27 @@ def ring(ranks):
     ]
     table = run(replace(deck, body=body), ranks).thermo()[0]
     require_close(table[C_WALL[1, "area_w"]], [12.0 * math.pi] * 2, 1e-15, "length of a circle")
+
+    packing = replace(deck.packing, edges=(*packing.edges[:2], 10.0), origin=(0.0, 0.0, -5.0))
+    deck = replace(deck, packing=packing)  # a shallower box fails an assertion of LIGGGHTS's lists of triangles
+    lowest = min(g.position[1] for g in inside)
+    line = meshes.rectangle((5.0, lowest - 0.99, -0.4), (10.0, 0.0, 0.0), (0.0, 0.0, 0.8))
+    for more, length in (("", 0.0), (" area line 10.0", 10.0)):
+        body = [
+            "fix line all mesh/surface file line.stl type 1",
+            f"fix wall {wall} mesh n_meshes 1 meshes line",
+            "compute w all wall/contact" + more,
+            *thermo(1, *(C_WALL[1, n] for n in ("N_w", "F_n_w", *WALL_COLUMNS))),
+            "run 1",
+        ]
+        result = run(replace(deck, body=body), ranks, folder=meshes.folder_with(line=line))
+        table = result.thermo()[0]
+        said = "a mesh has no length in two dimensions" in " ".join(result.output.split())
+        require(said == (length == 0.0), f"said of a mesh without a length: {said}")
+        require(table[C_WALL[1, "N_w"]][0] > 0.0, "nothing touches the mesh")
+        require_equal(table[C_WALL[1, "area_w"]], [length] * 2, "length of a mesh")
+        expected = table[C_WALL[1, "F_n_w"]] / length if length else [0.0, 0.0]
+        require_close(table[C_WALL[1, "p_w"]], expected, 1e-15, "p of a mesh", 1e6)
 
 
 def regions(ranks):

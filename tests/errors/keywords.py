@@ -26,14 +26,22 @@ VOLUME = Keyword(
 PRESSURE = Keyword("pressure", choice("x", "y", "z", "mean"))
 AXIS = Keyword("axis", choice("auto", "symmetry", "long", "short"))
 FLOW = [
-    Keyword("flow", Kind("box, rate, fit or layers", ("box", "fit"), ("q", "", "nan", "1e999", "BOX", "5"))),
+    Keyword(
+        "flow",
+        Kind(
+            "box, none, rate, fit, gradient, layers or cells",
+            ("box", "none", "fit", "gradient"),
+            ("q", "", "nan", "1e999", "BOX", "5"),
+        ),
+    ),
     Keyword("flow rate", number("a shear rate", ("0", "-1e300", "1e300"), ())),
     Keyword("flow layers", whole(1, 10000)),
+    Keyword("flow cells 1 1", whole(1, 1000), "flow cells"),
 ]
 LENGTH = number("a positive length", ("1e-300", "1e300"), ("0", "-1", "-0.0", "1e-999"))
 REFERENCE = Kind(
-    "f_ID[n] or v_name",
-    ("v_strain", "f_press[1]"),
+    "f_ID[n], v_name or time",
+    ("v_strain", "f_press[1]", "time"),
     NOT_NUMBERS
     + (
         "0.1",
@@ -253,7 +261,7 @@ STYLES = [
         sort="column",
         order=(*COLUMNS, "region", "types", "walls"),
     ),
-    compute("fluctuation", PLANE, Keyword("layers", whole(1, 10000)), Keyword("diameter", LENGTH), *FLOW),
+    compute("fluctuation", PLANE, Keyword("layers", whole(1, 10000)), Keyword("diameter", LENGTH), *FLOW, REGION),
     compute("layering", Keyword("axis", choice("x", "y", "z")), Keyword("layers", even(2, 1000))),
     compute(
         "velocity/correlation",
@@ -265,7 +273,8 @@ STYLES = [
         *FLOW,
         PLANE,
         Keyword("average", choice("one", "running")),
-        order=("component", "bins", "range", "method", "mesh", "flow", "plane", "average"),
+        REGION,
+        order=("component", "bins", "range", "method", "mesh", "flow", "plane", "average", "region"),
         more=[
             ("compute c all velocity/correlation mesh 4", "'mesh' needs 'method mesh'"),
             ("compute c all velocity/correlation mesh 4 method mesh mesh 4", "'mesh' is given twice"),
@@ -279,7 +288,8 @@ STYLES = [
         STRAIN,
         *FLOW,
         PLANE,
-        order=("component", "every", "lags", "strain", "flow", "plane"),
+        REGION,
+        order=("component", "every", "lags", "strain", "flow", "plane", "region"),
     ),
     compute("displacement/shear", Keyword("start", number("a strain", ("0", "-5", "1e300"), ())), STRAIN),
     PRESS,
