@@ -499,10 +499,12 @@ add_cases(press/strain-small-box cases/small_box.py LABEL case STYLES press/stra
 
 # Standard numbers of a state
 add_cases(packing cases/packing_measures.py LABEL case STYLES packing RANKS 1 2 LONG_RANKS 4 CASES
-  spheres oblate chains at-walls clumps)
+  spheres oblate chains at-walls)
+add_cases(packing cases/packing_clumps.py LABEL case STYLES packing RANKS 1 2 LONG_RANKS 4 CASES clumps)
+add_cases(packing cases/packing_clumps.py LABEL case STYLES packing RANKS 1 LONG_RANKS 2 4 CASES
+  rigid-refused clumps-between-walls)
 add_cases(packing cases/packing_measures.py LABEL case STYLES packing RANKS 1 LONG_RANKS 2 4 CASES
-  prolate blocky discs of-a-group in-regions empty-group inertial-number rigid-refused
-  clumps-between-walls)
+  prolate blocky discs of-a-group in-regions empty-group inertial-number)
 add_cases(contact/force cases/contact_force.py LABEL case STYLES contact/force contact/local RANKS 1 2 LONG_RANKS 4
   CASES spheres prolate chains at-walls clumps)
 add_cases(contact/force cases/contact_force.py LABEL case STYLES contact/force contact/local RANKS 1 LONG_RANKS 2 4

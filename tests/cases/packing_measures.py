@@ -6,13 +6,11 @@ import math
 import numpy as np
 from scipy.special import beta
 
-import clumps
 from case import main, require, require_close, require_equal
 from columns import outputs
 from deck import DENSITY, Deck, dump_grains, dump_local, shear, thermo
 from oracle import network
 from packing import Grain, Packing, dense_packing, disc_packing
-from refusal import require_refused
 from run import run
 from wall_measures import BOX
 
@@ -20,7 +18,6 @@ MEASURE = outputs("packing")
 C_IT = MEASURE.of("it")
 # Sums of some hundred terms; of spheroids the two owners of a contact differ by 1e-7 in its force, and one writes it.
 OF_SPHERES, OF_SPHEROIDS = 1e-12, 1e-6
-SIX_DIGITS = 1e-5  # of the tables of fix ave/time
 RATE = 0.3
 ROWS = ["compute rows chosen contact/local id force branch"]
 LOOSE = {"overlap": -0.002, "speed": 1.0, "minimum": 200}  # contacts open and close: there are rattlers
@@ -255,53 +252,6 @@ def inertial_number(ranks):
         require_close(other, 2.0 * 2.0 * math.sqrt(DENSITY / mean), 1e-12, "I of the mean pressure")
 
 
-def of_clumps(walls):
-    """A clump is one grain: its spheres hold it together, and its volume is what LIGGGHTS says."""
-
-    def case(ranks):
-        words = " ".join(C_IT.vector())
-        lines = [
-            "compute it all packing rattlers 2 volume 500",
-            f"fix it all ave/time 15 1 15 {words} file packing.txt",
-        ]
-        result, moments = clumps.measured(clumps.start(walls), ranks, 60, 15, lines)
-        table = result.averages("packing.txt")
-        compared = 0
-        for moment in moments:
-            if moment.step % 15 or moment.step == 0:
-                continue
-            row = list(table["TimeStep"]).index(moment.step)
-            found = {name: float(table[C_IT[name]][row]) for name in MEASURE.names("vector")}
-            mass = clumps.own(moment)[0]
-            ids = np.concatenate([1000 + np.arange(len(moment.bodies["xcm"])), moment.grains["id"][moment.body < 0]])
-            ends = moment.rows["id"].astype(int)
-            grain = np.where(moment.body >= 0, 1000 + moment.body, moment.grains["id"]).astype(int)
-            of_id = dict(zip(moment.grains["id"].astype(int), grain))
-            pairs = np.array([[of_id[i], of_id[j] if j else 0] for i, j in ends])
-            held = network.backbone(ids, pairs, 2)
-            between, with_walls = network.backbone_contacts(held, pairs)
-            numbers = [len(mass), len(mass) - len(held), between, with_walls]
-            names = ("N", "N_rattlers", "N_c_backbone", "N_w_backbone")
-            require_equal([found[name] for name in names], numbers, ", ".join(names))
-            require(0 < len(held) < len(ids), "some are rattlers")
-            # LIGGGHTS has the volume of a clump of its mass and density
-            require_close(found["V_s"], mass.sum() / 1000.0, SIX_DIGITS, "volume of the grains")
-            require_close(found["d"], np.cbrt(6.0 / math.pi * mass / 1000.0).mean(), SIX_DIGITS, "d")
-            require_close(found["rho"], 1000.0, SIX_DIGITS, "rho")
-            require_close(found["phi"], found["V_s"] / 500.0, SIX_DIGITS, "phi")
-            compared += 1
-        require(compared >= 4, "several snapshots")
-
-    return case
-
-
-def rigid_refused(ranks):
-    deck = Deck(dense_packing(atom_style="sphere"))
-    rigid = "fix body all rigid single"
-    deck.body = ["unfix integrate", rigid, "compute it all packing", "thermo_style custom step c_it", "run 1"]
-    require_refused(deck, ranks, "compute packing", "fix body")
-
-
 CASES = {
     "spheres": agrees(1.0, "sphere"),
     "prolate": agrees(1.5, words="rate 0.3"),
@@ -314,9 +264,6 @@ CASES = {
     "in-regions": in_regions,
     "chains": chains,
     "inertial-number": inertial_number,
-    "clumps": of_clumps(False),
-    "clumps-between-walls": of_clumps(True),
-    "rigid-refused": rigid_refused,
 }
 
 if __name__ == "__main__":
