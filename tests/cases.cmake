@@ -476,7 +476,7 @@ add_cases(suite-starts cases/starts.py LABEL case STYLES suite CASES
   only-our-errors-count rows-are-counted-from-the-first-step)
 add_cases(suite-starts cases/starts.py LABEL long STYLES suite CASES side-by-side)
 add_cases(suite-order cases/suite.py LABEL case STYLES suite CASES
-  every-style-has-tests names-begin-with-a-style unknown-word-refused short-words)
+  every-style-has-tests names-begin-with-a-style unknown-word-refused short-words what-works-where)
 add_cases(study-runs cases/study_runs.py LABEL case STYLES study RANKS 1 LONG_RANKS 2 4 CASES
   longer-strain-continues-basic)
 add_cases(build-bare-debian cases/bare_debian.py LABEL long STYLES build CASES
@@ -583,6 +583,10 @@ add_cases(stress/contact+nematic+contact/grain-region cases/regions.py LABEL cas
   STYLES stress/contact nematic contact/grain dissipation RANKS 1 4 LONG_RANKS 2 CASES places)
 add_cases(stress/contact-region cases/regions.py LABEL case STYLES stress/contact RANKS 1 LONG_RANKS 2 4 CASES
   volumes-add-up nothing-there)
+add_cases(contact/direction+contact/surface+contact/local-region cases/regions.py LABEL case
+  STYLES contact/direction contact/surface contact/local RANKS 1 2 LONG_RANKS 4 CASES bins-and-rows)
+add_cases(velocity/correlation-region cases/flows.py LABEL case STYLES velocity/correlation RANKS 1 LONG_RANKS 2
+  CASES correlation-in-a-region)
 add_cases(stress/contact+fabric-region cases/regions.py LABEL case STYLES stress/contact fabric dissipation
   RANKS 1 2 CASES refused)
 add_cases(stress/contact-region cases/region_shapes.py LABEL case STYLES stress/contact RANKS 1 4 LONG_RANKS 2 CASES
@@ -598,6 +602,8 @@ add_cases(stress/contact+fluctuation+displacement/shear-clumps cases/clumps.py L
   RANKS 1 2 LONG_RANKS 4 CASES as-grains between-walls)
 add_cases(stress/contact+fluctuation+displacement/shear-clumps cases/clumps.py LABEL case STYLES ${of_clumps}
   RANKS 2 LONG_RANKS 1 4 CASES crosses-faces trajectory-untouched)
+add_cases(dissipation+fabric+contact/direction-clumps cases/clumps.py LABEL case
+  STYLES dissipation fabric contact/direction contact/local RANKS 1 2 LONG_RANKS 4 CASES losses)
 add_cases(nematic+energy/ledger+press/strain-clumps cases/clumps.py LABEL case
   STYLES nematic energy/ledger press/strain gran/insitu RANKS 1 2 CASES refused)
 
@@ -610,4 +616,4 @@ add_cases(velocity/memory+displacement/shear-flows cases/flows.py LABEL case
   STYLES velocity/memory displacement/shear RANKS 1 LONG_RANKS 2 CASES over-time empty-start)
 
 # Other units
-add_cases(every-style-units cases/units.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 CASES spheres spheroids)
+add_cases(every-style-units cases/units.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 CASES spheres spheroids walls)

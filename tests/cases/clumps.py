@@ -276,6 +276,50 @@ def crosses_faces(ranks):
     require(crossed > 20, f"{crossed} faces crossed")
 
 
+def losses(ranks):
+    """What is of contacts, by rows of contacts between spheres and their velocities at the end of the step."""
+    words = "id normal branch point fn_damping un ft ut"
+    lines = [line + " tangential_damping off" if line.startswith("pair_style") else line for line in start()]
+    now, step = (outputs("dissipation").of(ID) for ID in ("now", "step"))
+    fabric, rose = outputs("fabric").of("fabric"), outputs("contact/direction").of("rose")
+    asked = [*now.vector(), *step.vector(), fabric["F_xy"], *(rose[k, "N_c"] for k in range(1, 13))]
+    lines += [
+        "compute now all dissipation mode instantaneous",
+        "compute step all dissipation mode step",
+        "compute fabric all fabric",
+        "compute rose all contact/direction bins 12",
+        f"compute all all contact/local {words}",
+        *dump_local("all", 19, 10, "all"),
+        "dump grains all custom 10 grains.dump id x y z vx vy vz omegax omegay omegaz",
+        'dump_modify grains sort id format "%d ' + " ".join(["%.17g"] * 9) + '"',
+        *thermo(10, "step", *asked),
+        "run 60",
+    ]
+    result = run("\n".join(lines) + "\n", ranks, folder=folder())
+    printed = result.thermo()[-1]
+    seen = 0
+    for (step_number, rows), (_, grains) in zip(result.dump("all.dump"), result.dump("grains.dump")):
+        at = list(printed["step"]).index(step_number)
+        rows, grains = table(rows), table(grains)
+        n, branch, point = rows[:, 2:5], rows[:, 5:8], rows[:, 8:11]
+        damping, un, ft, ut = rows[:, 11], rows[:, 12], rows[:, 13:16], rows[:, 16:19]
+        i, j = (np.searchsorted(grains[:, 0], rows[:, k]) for k in (0, 1))
+        arm = point - grains[i, 1:4]
+        u = grains[i, 4:7] + np.cross(grains[i, 7:10], arm)
+        u -= grains[j, 4:7] + np.cross(grains[j, 7:10], arm + branch)
+        size = np.abs(damping * un).sum() or 1.0
+        require_close(printed[now["P_n"]][at], -(damping * un).sum(), EXACT, "P_n at this instant", size)
+        expected = -(damping[:, None] * n * u).sum()
+        require_close(printed[step["P_n"]][at], expected, EXACT, "P_n over the step", size)
+        require_equal(printed[now["N_c"]][at], len(rows), "contacts")
+        tensor = np.einsum("ca,cb->ab", n, n) / len(rows)
+        require_close(printed[fabric["F_xy"]][at], tensor[0, 1], EXACT, "F_xy", 1.0)
+        counted = sum(printed[rose[k, "N_c"]][at] for k in range(1, 13))
+        require_equal(counted, 2 * len(rows), "contacts by direction")
+        seen += np.abs(ft).sum() > 0.0 and np.abs(ut).sum() > 0.0
+    require(seen > 3, "snapshots with friction")
+
+
 def trajectory_untouched(ranks):
     grains = "dump after all custom 40 after.dump id x y z vx vy vz omegax omegay omegaz fx fy fz"
     wanted = [grains, 'dump_modify after sort id format "%d ' + " ".join(["%.17g"] * 12) + '"']
@@ -308,6 +352,7 @@ CASES = {
     "as-grains": as_grains(False),
     "between-walls": as_grains(True),
     "crosses-faces": crosses_faces,
+    "losses": losses,
     "trajectory-untouched": trajectory_untouched,
     "refused": refused,
 }

@@ -132,6 +132,32 @@ def over_time(ranks):
     require(table[d["D_y"]][-1] > 0.0 and table[d["d2_y"]][-1] > 0.0, "something has moved")
 
 
+def correlation_in_a_region(ranks):
+    """Pairs of which both are in the region, against their mean; none in a region without grains."""
+    far = "region far block INF INF INF INF 1000.0 1001.0 units box"
+    deck = replace(BOX.deck, body=[*BOX.deck.body, REGION, far])
+    words = "velocity/correlation component vy bins 5 range 6.0 flow none region"
+    part, none = (Watched(f"c_{name}", f"{words} {name}", True, 5, (5, 4)) for name in ("part", "far"))
+    moments = list(moments_of(run(watched_deck(deck, [part, none], settle=60), ranks)))
+    for moment in moments:
+        grains = moment.grains
+        mine = grains.x[:, 1] <= 4.0
+        x, v = grains.x[mine], grains.v[mine, 1] - np.average(grains.v[mine, 1], weights=grains.mass[mine])
+        i, j = np.triu_indices(len(x), 1)
+        r = np.linalg.norm(x[i] - x[j], axis=1)
+        found = moment.array(part)
+        for k in range(5):
+            pairs = (r >= 1.2 * k) & (r < 1.2 * (k + 1))
+            if 1.2 * (k + 1) <= 2.0 * grains.radius.min():
+                pairs[:] = False
+            require_equal(found[k, 3], pairs.sum(), f"pairs of bin {k}")
+            products = (v[i] * v[j])[pairs].sum()
+            require_close(found[k, 2], products, EXACT, f"products of bin {k}", (v**2).sum())
+        require_equal(moment.vector(part)[3], mine.sum(), "grains")
+        require_close(moment.vector(part)[2], (v**2).mean(), EXACT, "<dv^2>")
+        require_equal(moment.vector(none), np.zeros(5), "nothing in the empty region")
+
+
 EDGE_OF_PART = 4.0  # grains with a smaller x are in the region
 
 
@@ -229,6 +255,7 @@ CASES = {
     "mean-flows": mean_flows,
     "solid-rotation": solid_rotation,
     "over-time": over_time,
+    "correlation-in-a-region": correlation_in_a_region,
     "grains-that-come-and-go": grains_that_come_and_go,
     "empty-start": empty_start,
 }

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_equal
-from deck import Deck, thermo
+from deck import Deck, dump_local, thermo
 from packing import dense_packing
 from refusal import require_refused
 from run import run
@@ -281,6 +281,42 @@ def places(ranks):
     require(all(count > 20 for count in seen.values()), f"contacts seen {seen}")
 
 
+def bins_and_rows(ranks):
+    """Directions, places on the surface and rows: of a pair of types, in a region that moves, in one without grains."""
+    packing = dense_packing(alpha=1.5, types=2)
+    wide = replace(packing, edges=(*packing.edges[:2], 2.5 * packing.edges[2]))
+    far = f"region far sphere 5.0 5.0 {1.75 * packing.edges[2]} 2.0 units box"
+    deck = Deck(wide, body=[*MOTION, region_line("moving"), far], surface="ellipsoid")
+    where = {"in_12": "region moving types 1 2", "in": "region moving", "of_2": "types 2 *", "far": "region far"}
+    rose = {n: Watched(f"rose_{n}", f"contact/direction bins 12 {w}", array=(12, 9)) for n, w in where.items()}
+    surface = {n: Watched(f"surface_{n}", f"contact/surface volume 1 {w}", True, 3, (10, 17)) for n, w in where.items()}
+    surface = {n: replace(w, scalar=False) for n, w in surface.items()}
+    for name, words in where.items():
+        deck.body.append(f"compute rows_{name} all contact/local {words} id")
+        deck.body += dump_local(f"rows_{name}", 2, 5, f"rows_{name}")
+    result = run(watched_deck(deck, [*rose.values(), *surface.values()], settle=20), ranks)
+    own = {name: dict(result.dump(f"rows_{name}.dump")) for name in where}
+    seen = 0
+    for moment in moments_of(result):
+        rows, ids = moment.rows, moment.rows["id"].astype(int)
+        types = 1 + (ids - 1) % 2
+        inside = is_inside("moving", moment, deck.dt(), rows["point"])
+        chosen = {
+            "in_12": inside & (types[:, 0] != types[:, 1]),
+            "in": inside,
+            "of_2": (types == 2).any(axis=1),
+            "far": np.zeros(len(ids), dtype=bool),
+        }
+        seen += chosen["in_12"].sum()
+        for name, mine in chosen.items():
+            require_equal(moment.array(rose[name])[:, 1].sum(), 2 * mine.sum(), f"{name}: directions")
+            require_equal(moment.array(surface[name])[:, 2].sum(), 2 * mine.sum(), f"{name}: on surfaces")
+            columns = list(own[name][moment.step].values()) if moment.step in own[name] else [[], []]
+            found = sorted(tuple(sorted(map(int, pair))) for pair in zip(*columns))
+            require_equal(found, sorted(tuple(sorted(pair)) for pair in ids[mine].tolist()), f"{name}: rows")
+    require(seen > 40, f"{seen} contacts")
+
+
 def nothing_there(ranks):
     """A region of the box without grains gives 0 everywhere."""
     packing = dense_packing(minimum=30)
@@ -327,6 +363,7 @@ CASES = {
     "volumes-add-up": volumes_add_up,
     "places": places,
     "nothing-there": nothing_there,
+    "bins-and-rows": bins_and_rows,
     "refused": refused,
 }
 

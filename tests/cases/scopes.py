@@ -232,6 +232,15 @@ def mixtures_of_shapes(ranks):
     require_equal([*vector[:6], vector[15], warned], [0.0] * 8, "no grain has a shortest axis")
 
 
+def angle_of_grains(turn, shape, plane, ranks):
+    """The mean of theta of contact/grain over two grains that do not touch."""
+    placed = [Grain((5.0 * k + 2.5, 5.0, 5.0), shape, turn) for k in range(2)]
+    theta = outputs("contact/grain").of("g")["theta"]
+    body = [f"compute g all contact/grain plane {plane}", f"compute r all reduce ave {theta}"]
+    deck = Deck(Packing((10.0, 10.0, 10.0), placed), body=[*body, *thermo(1, "c_r"), "run 0"])
+    return run(deck, ranks).thermo()[0]["c_r"][0]
+
+
 def angles_in_planes(ranks):
     """theta of a long grain turned by 30 degrees from x towards z, and of a flat one."""
     half = math.radians(30.0) / 2.0
@@ -240,6 +249,8 @@ def angles_in_planes(ranks):
     for shape, angle in ((LONG, 30.0), (FLAT, -60.0)):
         _, vector, _ = orders([(shape, turn)] * 2, "plane xz", ranks)
         require_close(np.degrees(vector[10:12]), [angle, angle], 1e-12, f"theta of {shape}", 90.0)
+        of_grains = np.degrees(angle_of_grains(turn, shape, "xz", ranks))
+        require_close(of_grains, angle, 1e-12, f"theta of grains of {shape}", 90.0)
     _, vector, _ = orders([(LONG, turn)] * 2, "plane yz", ranks)
     require_close(np.degrees(vector[10]), 90.0, 1e-12, "theta in yz", 90.0)
 

@@ -7,6 +7,7 @@ import re
 import subprocess
 
 from case import main, require
+import where
 
 SOURCE = Path(os.environ["GRAINSCOPE_SOURCE"])
 KINDS = {"unit", "case", "mpi", "error", "example", "doc", "long", "hours"}
@@ -58,6 +59,12 @@ def names_begin_with_a_style(ranks):
     require(not bad, f"{len(bad)} tests: {'; '.join(bad[:20])}")
 
 
+def what_works_where(ranks):
+    """The page is what the table says, and the tests that it names are there."""
+    require(where.PAGE.read_text() == where.page(), f"{where.PAGE.name} is old: tests/tools/where.py BUILD --write")
+    require(not where.missing(os.environ["GRAINSCOPE_BUILD"]), where.missing(os.environ["GRAINSCOPE_BUILD"]))
+
+
 def asked(*words):
     """Exit code and words of scripts/test, which only says what it would run."""
     done = subprocess.run(
@@ -101,6 +108,7 @@ main(
     {
         "every-style-has-tests": every_style_has_tests,
         "names-begin-with-a-style": names_begin_with_a_style,
+        "what-works-where": what_works_where,
         "unknown-word-refused": unknown_word_refused,
         "short-words": short_words,
     }
