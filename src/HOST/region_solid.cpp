@@ -43,7 +43,7 @@ void RegionSolid::require_sound(Region *region) const {
               "INF");
 }
 
-/** The host asks a region's variables where it comes to need them, which may not be on all ranks: here they are asked. */
+/** The host asks a region's variables where it comes to need them, perhaps not on all ranks: here they are asked. */
 void RegionSolid::evaluate(Region *region) const {
   for (Region *member : members_of(*domain, region)) evaluate(member);
   if (new_run_) region->prematch();  // variables may be others since the last run, which ended in the same step

@@ -59,28 +59,16 @@ def in_plane(x):
 SHAPES = {
     "prism": ("prism 1 6 0.5 5.5 1 5 1.5 -0.8 1.1", lambda x, n, dt: in_prism(x)),
     "plane": ("plane 4 3 3 1 2 -1", lambda x, n, dt: in_plane(x)),
-    "cone_x": (
-        "cone x 2.9 2.7 2.2 0.7 1 6",
-        lambda x, n, dt: in_round(x, 0, (2.9, 2.7), 1.0, 6.0, 2.2, 0.7),
-    ),
-    "cone_y": (
-        "cone y 3.1 2.7 0.0 2.5 0.5 5",
-        lambda x, n, dt: in_round(x, 1, (3.1, 2.7), 0.5, 5.0, 0.0, 2.5),
-    ),
+    "cone_x": ("cone x 2.9 2.7 2.2 0.7 1 6", lambda x, n, dt: in_round(x, 0, (2.9, 2.7), 1.0, 6.0, 2.2, 0.7)),
+    "cone_y": ("cone y 3.1 2.7 0.0 2.5 0.5 5", lambda x, n, dt: in_round(x, 1, (3.1, 2.7), 0.5, 5.0, 0.0, 2.5)),
     "cone_z": (
         "cone z 3.1 2.6 2.4 0.0 0.5 5 side out",
         lambda x, n, dt: ~in_round(x, 2, (3.1, 2.6), 0.5, 5.0, 2.4, 0.0),
     ),
-    "pipe": (
-        "cylinder z 3 2.5 1.9 INF INF",
-        lambda x, n, dt: in_round(x, 2, (3.0, 2.5), -1e20, 1e20, 1.9, 1.9),
-    ),
+    "pipe": ("cylinder z 3 2.5 1.9 INF INF", lambda x, n, dt: in_round(x, 2, (3.0, 2.5), -1e20, 1e20, 1.9, 1.9)),
     "rod": ("cylinder x 3 2.5 1.9 1 7", lambda x, n, dt: in_round(x, 0, (3.0, 2.5), 1.0, 7.0, 1.9, 1.9)),
     "grows": ("sphere 3 2.8 2.7 v_radius", lambda x, n, dt: in_ball(x, (3.0, 2.8, 2.7), 1.0 + 0.01 * n)),
-    "flies": (
-        "block 1 4 1 4 1 4 move v_shift NULL NULL rotate v_angle 2 2 2 1 1 0",
-        in_moved_block,
-    ),
+    "flies": ("block 1 4 1 4 1 4 move v_shift NULL NULL rotate v_angle 2 2 2 1 1 0", in_moved_block),
 }
 TOGETHER = {
     "any": (
@@ -90,11 +78,7 @@ TOGETHER = {
     "all": ("intersect 2 flies cone_z", lambda x, n, dt: in_moved_block(x, n, dt) & SHAPES["cone_z"][1](x, n, dt)),
     "none": ("union 2 prism grows side out", lambda x, n, dt: ~(in_prism(x) | SHAPES["grows"][1](x, n, dt))),
 }
-VARIABLES = [
-    "variable radius equal 1.0+0.01*step",
-    "variable shift equal 0.01*step",
-    "variable angle equal 0.005*step",
-]
+VARIABLES = ["variable radius equal 1.0+0.01*step", "variable shift equal 0.01*step", "variable angle equal 0.005*step"]
 
 
 def region_lines():
