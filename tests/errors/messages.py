@@ -216,7 +216,7 @@ def exception(ranks):
 
 
 STRESS = "compute stress (stress/contact) gives a scalar and a vector of 36"
-MEMORY = "compute memory (velocity/memory) gives a scalar, a vector of 4 and an array of 5 rows and 4 columns"
+MEMORY = "compute memory (velocity/memory) gives a scalar, a vector of 6 and an array of 5 rows and 4 columns"
 GRAIN = "compute grain (contact/grain) gives 7 columns per grain"
 ROWS = "compute rows (contact/local) gives 3 columns per local row"
 COMPUTES = [
@@ -257,14 +257,14 @@ def beyond_the_end(ranks):
         require_refused(lines_with(place, "c_grain[8]"), ranks, f"c_grain[8]: {GRAIN}")
     for place in LOCAL_PLACES.values():
         require_refused(lines_with(place, "c_rows[4]"), ranks, "out-of-range", f"c_rows[4]: {ROWS}")
-    require_refused(lines_with(SLICE, "c_memory[5]"), ranks, f"c_memory[5]: {MEMORY}")
+    require_refused(lines_with(SLICE, "c_memory[7]"), ranks, f"c_memory[7]: {MEMORY}")
     for place in (PLACES["thermo"], PLACES["print"]):
         require_refused(lines_with(place, "c_memory[6][1]"), ranks, "out-of-range", f"c_memory[6][1]: {MEMORY}")
 
 
 def of_another_kind(ranks):
     """An index that something has, but not what is asked for."""
-    require_refused(lines_with(PLACES["thermo"], "c_memory[5]"), ranks, "out-of-range", f"c_memory[5]: {MEMORY}")
+    require_refused(lines_with(PLACES["thermo"], "c_memory[7]"), ranks, "out-of-range", f"c_memory[7]: {MEMORY}")
     for place, reference, words, what in (
         (PLACES["thermo"], "c_grain[1]", "does not compute vector", GRAIN),
         (PLACES["print"], "c_stress[1][1]", "Mismatched compute in variable formula", STRESS),
