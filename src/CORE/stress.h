@@ -21,7 +21,7 @@ struct StressSums {
     count(c);
   }
   /** `r`: the branch, or the part of it that counts, times the weight of the contact. */
-  void add_moments(const Contact &c, const Eigen::Vector3d &r) {
+  [[gnu::always_inline]] void add_moments(const Contact &c, const Eigen::Vector3d &r) {
     Eigen::Matrix<double, 6, 1> forces;
     forces << c.force, c.tangential_force;
     Moments(sums.data()).noalias() += forces * r.transpose();
