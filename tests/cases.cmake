@@ -614,6 +614,8 @@ add_cases(velocity/memory+displacement/shear-flows cases/flows.py LABEL case
   STYLES velocity/memory displacement/shear RANKS 1 2 LONG_RANKS 4 CASES grains-that-come-and-go)
 add_cases(velocity/memory+displacement/shear-flows cases/flows.py LABEL case
   STYLES velocity/memory displacement/shear RANKS 1 LONG_RANKS 2 CASES over-time empty-start)
+add_cases(velocity/memory+displacement/shear-time cases/passed_time.py LABEL case
+  STYLES velocity/memory displacement/shear RANKS 1 2 LONG_RANKS 4 CASES goes-on)
 
 # Other units
 add_cases(every-style-units cases/units.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 CASES spheres spheroids walls)

@@ -274,7 +274,7 @@ void ComputeDisplacementShear::measure(double strain) {
 
 void ComputeDisplacementShear::compute_vector() {
   invoked_vector = update->ntimestep;
-  const double strain = impl_->strain.now();
+  const double strain = impl_->strain.now(impl_->record->passed_time());
   double *shared = impl_->shared();
   const bool started = shared[STARTED] != 0.0;
   if (started ? shared[STEP] != update->ntimestep : std::fabs(strain) >= std::fabs(impl_->start) - 1e-9)

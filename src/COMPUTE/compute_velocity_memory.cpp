@@ -109,7 +109,7 @@ void ComputeVelocityMemory::init() {
 
 void ComputeVelocityMemory::sample_if_due() {
   double *shared = impl_->shared();
-  const double strain = impl_->strain.now();
+  const double strain = impl_->strain.now(impl_->record->passed_time());
   if (shared[SAMPLES] == 0.0) shared[STRAIN_0] = strain;
   // 1e-9: a strain that is a sum of steps errs by ulps.
   const double passed = std::fabs(strain - shared[STRAIN_0]) / impl_->every + 1e-9;

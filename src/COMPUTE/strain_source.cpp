@@ -5,7 +5,6 @@
 #include "fix_press_strain.h"
 #include "input.h"
 #include "modify.h"
-#include "update.h"
 #include "variable.h"
 #include <cmath>
 
@@ -68,11 +67,11 @@ void StrainSource::find(const Arguments &errors) {
   }
 }
 
-double StrainSource::now() {
+double StrainSource::now(double passed_time) {
   const Arguments errors(lmp, style_);
   if (!ready_) errors.fail("was not set up: do not use 'pre no' in the first run with it");
   find(errors);  // again: `run every` may have changed what there is
-  if (is_time()) return update->get_cur_time();
+  if (is_time()) return passed_time;
   const double strain = fix_ ? fix_->compute_vector(element_) : input->variable->compute_equal(variable_);
   if (!std::isfinite(strain)) errors.fail("strain", "finite", text_ + " = " + Arguments::text(strain));
   return strain;

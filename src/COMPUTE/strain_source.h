@@ -25,8 +25,8 @@ class StrainSource : private LAMMPS_NS::Pointers {
   bool is_time() const { return text_ == "time"; }
   /** Finds it, or errors. Before each run: fixes and variables come and go. */
   void init();
-  /** The strain now, a finite number. Collective. */
-  double now();
+  /** The strain now, a finite number; or the time that has passed, which the compute's record knows. Collective. */
+  double now(double passed_time);
 
  private:
   std::string style_;

@@ -8,6 +8,7 @@
 #include "domain.h"
 #include "error.h"
 #include "modify.h"
+#include "update.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -24,14 +25,15 @@ const grainscope::ComputeFix record{"grain/record", "_record", "memory", "holds 
 
 /** In restart files, with the shared numbers behind it. */
 struct SavedRecord {
-  static constexpr std::uint32_t version = 1;
+  static constexpr std::uint32_t version = 2;
   double meaning, flips[3], shared_numbers;
+  grainscope::PassedTime::State time;
 };
 
 }
 
 FixGrainRecord::FixGrainRecord(LAMMPS *lmp, int narg, char **arg)
-    : InternalFix(lmp, narg, arg, "the computes that need it") {
+    : InternalFix(lmp, narg, arg, "the computes that need it"), time_(update->ntimestep, update->dt) {
   width_ = atoi(arg[3]);
   shared_.assign(atoi(arg[4]), 0.0);
   meaning_ = atof(arg[5]);
@@ -50,10 +52,23 @@ FixGrainRecord::~FixGrainRecord() {
 int FixGrainRecord::setmask() { return FixConst::PRE_FORCE; }
 
 void FixGrainRecord::reset_timestep(bigint now, bigint before) {
+  time_.renumber(now, before);
   if (step_at_ < 0) return;
   double &step = shared_[step_at_];
   step = step == before ? now : -1.0;
 }
+
+void FixGrainRecord::setup_pre_force(int) {
+  time_.set_length(update->dt, update->ntimestep);
+  note_box();
+}
+
+void FixGrainRecord::pre_force(int) {
+  time_.set_length(update->dt, update->ntimestep - 1);
+  note_box();
+}
+
+double FixGrainRecord::passed_time() const { return time_.at(update->ntimestep); }
 
 /** Where a tilt changes by more than half an edge between two force evaluations, the box was flipped. */
 void FixGrainRecord::note_box() {
@@ -136,7 +151,8 @@ void FixGrainRecord::unpack_restart(int i, int nth) {
 
 void FixGrainRecord::write_restart(FILE *file) {
   if (comm->me != 0) return;
-  const SavedRecord saved{meaning_, {flips_[0], flips_[1], flips_[2]}, static_cast<double>(shared_.size())};
+  const SavedRecord saved{
+      meaning_, {flips_[0], flips_[1], flips_[2]}, static_cast<double>(shared_.size()), time_.state(update->ntimestep)};
   grainscope::write_state(file, saved, shared_.data(), shared_.size() * sizeof(double));
 }
 
@@ -150,6 +166,7 @@ void FixGrainRecord::restart(char *buffer) {
         "keywords that it had, or another ID";
     error->all(FLERR, message.c_str());
   }
+  time_.restore(saved.time, update->ntimestep);
   std::copy(saved.flips, saved.flips + 3, flips_);
   memcpy(shared_.data(), grainscope::state_block::tail(buffer), shared_.size() * sizeof(double));
 }

@@ -9,6 +9,7 @@ FixStyle(grain/record,FixGrainRecord)
 #define LMP_FIX_GRAIN_RECORD_H
 
 #include "internal_fix.h"
+#include "passed_time.h"
 #include <string>
 #include <vector>
 
@@ -17,16 +18,16 @@ namespace LAMMPS_NS {
 /** The memory of a compute: `width` numbers per grain, which follow the grain from rank to rank, and numbers that all
  *  ranks share; both are kept in restart files. New grains have zeros. It also notes the box of each force evaluation,
  *  the one that image flags count in (a fix that deforms the box at the end of the step moves it on before computes are
- *  asked), and counts box flips. Made by computes, not by input scripts: arguments are width, shared size, and a number
- *  that stands for what is remembered. */
+ *  asked), counts box flips, and knows the time that has passed. Made by computes, not by input scripts: arguments are
+ *  width, shared size, and a number that stands for what is remembered. */
 class FixGrainRecord : public grainscope::InternalFix {
  public:
   FixGrainRecord(class LAMMPS *lmp, int narg, char **arg);
   ~FixGrainRecord() override;
   int setmask() override;
   void reset_timestep(bigint now, bigint before) override;
-  void setup_pre_force(int) override { note_box(); }
-  void pre_force(int) override { note_box(); }
+  void setup_pre_force(int) override;
+  void pre_force(int) override;
 
   /** Makes the record of compute `id`, in its constructor; what a restart file holds of it is restored, and refused
    *  when `meaning` (style and keywords of the compute) was another. `step_at`: where the shared numbers hold a step,
@@ -40,6 +41,8 @@ class FixGrainRecord : public grainscope::InternalFix {
 
   double *of(int grain) { return &values_[static_cast<std::size_t>(grain) * width_]; }
   std::vector<double> &shared() { return shared_; }
+  /** Since the compute was defined, before restarts too. */
+  double passed_time() const;
   /** Edges (upper triangle: xx yy zz yz xz xy) of the box at the last force evaluation. */
   const double *edges() const { return edges_; }
   /** How often the box was flipped since this was asked last, by the tilts yz, xz, xy: in edges, positive where the
@@ -65,6 +68,7 @@ class FixGrainRecord : public grainscope::InternalFix {
   int width_;
   std::vector<double> values_, shared_;
   double meaning_;
+  grainscope::PassedTime time_;
   int step_at_ = -1;
   double edges_[6];
   double flips_[3] = {0.0, 0.0, 0.0};

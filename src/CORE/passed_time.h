@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_PASSED_TIME_H
+#define GRAINSCOPE_PASSED_TIME_H
+
+namespace grainscope {
+
+/** The time that has passed in a run, whose steps may change their length and be numbered anew. The host's own time is
+ *  not in restart files, and `reset_timestep` moves it. While the length stays, steps are counted and not summed. */
+class PassedTime {
+ public:
+  /** In restart files: the time before steps of length dt, and how many of these. */
+  struct State {
+    double before, steps, dt;
+  };
+
+  PassedTime(double step, double dt) : step_(step), dt_(dt) {}
+
+  /** At a step; steps are whole numbers. */
+  double at(double step) const { return before_ + (step - step_) * dt_; }
+  /** Steps after `last` have the length dt. */
+  void set_length(double dt, double last) {
+    if (dt == dt_) return;
+    before_ = at(last);
+    step_ = last;
+    dt_ = dt;
+  }
+  /** Step `before` is called `now`, and no time passes. */
+  void renumber(double now, double before) { step_ += now - before; }
+  State state(double step) const { return {before_, step - step_, dt_}; }
+  void restore(const State &state, double step) {
+    before_ = state.before;
+    step_ = step - state.steps;
+    dt_ = state.dt;
+  }
+
+ private:
+  double before_ = 0.0;  // what had passed at step_
+  double step_;
+  double dt_;
+};
+
+}
+
+#endif
