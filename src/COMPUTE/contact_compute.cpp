@@ -40,7 +40,10 @@ bool ContactCompute::wants_contacts() {
 
 void ContactCompute::begin_contacts() {
   scope_.update(observer_->box());
-  if (bodies_) bodies_->update(observer_->box());
+  if (bodies_) {
+    bodies_->update(observer_->box());
+    bodies_->require_whole(groupbit, Arguments(lmp, name_));
+  }
   for (Accumulator *one : sums_) one->reset();
 }
 

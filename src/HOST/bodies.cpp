@@ -124,6 +124,18 @@ void Bodies::update(const BoxState &box) {
   find_first_ids();
 }
 
+void Bodies::require_whole(int groupbit, const Arguments &errors) const {
+  if (!fix_ || groupbit == 1) return;  // all
+  std::vector<double> chosen(all_.size(), 0.0);
+  for (int i = 0; i < atom->nlocal; i++)
+    if (const Body *body = of(i)) chosen[body - all_.data()] += atom->mask[i] & groupbit ? 1.0 : 0.0;
+  MPI_Allreduce(MPI_IN_PLACE, chosen.data(), static_cast<int>(chosen.size()), MPI_DOUBLE, MPI_SUM, world);
+  for (std::size_t b = 0; b < all_.size(); b++)
+    if (chosen[b] > 0.0 && chosen[b] < all_[b].spheres)
+      errors.fail("its group has " + Arguments::text(chosen[b]) + " of the " + Arguments::text(all_[b].spheres) +
+                  " spheres of a clump (" + std::to_string(all_[b].tag) + "): a clump is in a group with all of them");
+}
+
 void Bodies::find_first_ids() {
   std::vector<int> first(all_.size(), std::numeric_limits<int>::max());
   for (int i = 0; i < atom->nlocal; i++)

@@ -44,6 +44,9 @@ class Bodies : private LAMMPS_NS::Pointers {
   /** All bodies as they are now, on all ranks. Collective. */
   void update(const BoxState &box);
 
+  /** Errors where a group has some spheres of a clump and not all. Collective, after update(). */
+  void require_whole(int groupbit, const Arguments &errors) const;
+
   /** Of local grain or ghost i: null where it is on its own. */
   const Body *of(int i) const;
   /** Local grain i is on its own, or stands for its clump. */

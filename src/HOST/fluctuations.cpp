@@ -69,7 +69,10 @@ void Fluctuations::collect_with_bodies(ChosenGrains chosen, Flow flow) {
 /** The grains of the group, with what their velocity has beside flow(x). */
 template <class Flow>
 inline void Fluctuations::collect(ChosenGrains chosen, Flow flow) {
-  if (bodies_.any()) return collect_with_bodies(chosen, flow);
+  if (bodies_.any()) {
+    bodies_.require_whole(chosen.groupbit, Arguments(lmp_, "mean flow"));
+    return collect_with_bodies(chosen, flow);
+  }
   const LAMMPS_NS::Atom *atom = lmp_->atom;
   local_.resize(atom->nlocal);
   Grain *grain = local_.data();

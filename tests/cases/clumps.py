@@ -332,6 +332,7 @@ def trajectory_untouched(ranks):
 
 
 REFUSED = {
+    "group part id 1 2\ncompute s part stress/contact volume auto\nthermo_style custom step c_s": "its group has",
     "pair_style gran/insitu model hertz tangential history setup neutral": "setup neutral: does not work with clumps",
     "compute n all nematic": "compute nematic: does not work with clumps (fix integrate, multisphere)",
     "compute l all energy/ledger": "multisphere",
