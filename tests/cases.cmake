@@ -506,7 +506,7 @@ add_cases(packing cases/packing_clumps.py LABEL case STYLES packing RANKS 1 LONG
 add_cases(packing cases/packing_measures.py LABEL case STYLES packing RANKS 1 LONG_RANKS 2 4 CASES
   prolate blocky discs of-a-group in-regions empty-group inertial-number)
 add_cases(contact/force cases/contact_force.py LABEL case STYLES contact/force contact/local RANKS 1 2 LONG_RANKS 4
-  CASES spheres prolate chains at-walls clumps)
+  CASES spheres prolate chains equal-forces at-walls clumps)
 add_cases(contact/force cases/contact_force.py LABEL case STYLES contact/force contact/local RANKS 1 LONG_RANKS 2 4
   CASES trajectory-untouched oblate superquadric cohesive of-types discs in-a-region of-a-group empty-group)
 
@@ -587,6 +587,8 @@ add_cases(contact/direction+contact/surface+contact/local-region cases/regions.p
   STYLES contact/direction contact/surface contact/local RANKS 1 2 LONG_RANKS 4 CASES bins-and-rows)
 add_cases(velocity/correlation-region cases/flows.py LABEL case STYLES velocity/correlation RANKS 1 LONG_RANKS 2
   CASES correlation-in-a-region)
+add_cases(stress/contact+fabric+fluctuation-region cases/regions.py LABEL case
+  STYLES stress/contact fabric fluctuation RANKS 1 2 LONG_RANKS 4 CASES without-set-up)
 add_cases(stress/contact+fabric-region cases/regions.py LABEL case STYLES stress/contact fabric dissipation
   RANKS 1 2 CASES refused)
 add_cases(stress/contact-region cases/region_shapes.py LABEL case STYLES stress/contact RANKS 1 4 LONG_RANKS 2 CASES
@@ -606,6 +608,9 @@ add_cases(dissipation+fabric+contact/direction-clumps cases/clumps.py LABEL case
   STYLES dissipation fabric contact/direction contact/local RANKS 1 2 LONG_RANKS 4 CASES losses)
 add_cases(nematic+energy/ledger+press/strain-clumps cases/clumps.py LABEL case
   STYLES nematic energy/ledger press/strain gran/insitu RANKS 1 2 CASES refused)
+add_cases(fluctuation+layering+displacement/shear-clumps cases/clumps.py LABEL case
+  STYLES fluctuation layering displacement/shear velocity/memory velocity/correlation RANKS 2 LONG_RANKS 1
+  CASES refused-of-a-part refused-bodies)
 
 # Flows that are not the box's, groups whose grains come and go
 add_cases(fluctuation-flows cases/flows.py LABEL case STYLES fluctuation RANKS 1 2 LONG_RANKS 4 CASES mean-flows)

@@ -130,7 +130,7 @@ void ComputeContactForce::end_contacts() {
   sum_over_ranks(my.all_moments.sums.data(), my.all_moments.sums.size());
   double largest[2] = {my.moments.largest_normal, my.moments.largest_tangential};
   MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, world);
-  my.all_moments.largest_normal = largest[0];
+  my.all_moments.largest_normal = my.all_moments.contacts() > 0.0 ? largest[0] : 0.0;
   my.all_moments.largest_tangential = largest[1];
 
   const double mean = my.all_moments.mean_normal();
@@ -145,7 +145,7 @@ void ComputeContactForce::find_clusters(double mean) {
   Impl &my = *impl_;
   std::vector<Link> strong;
   for (std::size_t k = 0; k < my.links.size(); k++)
-    if (my.contacts[k].normal > mean) strong.push_back(my.links[k]);
+    if (grainscope::is_strong(my.contacts[k].normal, mean)) strong.push_back(my.links[k]);
   const std::vector<double> cluster = clusters(strong);
   std::map<double, double> grains;  // of each cluster, on this rank
   for (int i = 0; i < atom->nlocal; i++) {

@@ -181,10 +181,10 @@ void ComputeContactLocal::end_contacts() {
   const double mean = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
   std::vector<Link> strong;
   for (std::size_t row = 0; row < my.links.size(); row++)
-    if (my.normal_forces[row] > mean) strong.push_back(my.links[row]);
+    if (grainscope::is_strong(my.normal_forces[row], mean)) strong.push_back(my.links[row]);
   const std::vector<double> cluster = my.cluster < 0 ? std::vector<double>() : clusters(strong);
   for (std::size_t row = 0; row < my.links.size(); row++) {
-    if (!(my.normal_forces[row] > mean)) continue;
+    if (!grainscope::is_strong(my.normal_forces[row], mean)) continue;
     double *values = &my.values[row * my.width];
     if (my.strong >= 0) values[my.strong] = 1.0;
     if (my.cluster >= 0) values[my.cluster] = cluster[number_of(my.links[row].i)];

@@ -130,6 +130,7 @@ ComputeDisplacementShear::~ComputeDisplacementShear() { FixGrainRecord::forget(l
 void ComputeDisplacementShear::init() {
   impl_->strain.init();
   impl_->record = FixGrainRecord::find(lmp, id);
+  grainscope::Bodies(lmp, name).require_lasting();
   require_flow_of_all();
 }
 
@@ -156,7 +157,7 @@ void ComputeDisplacementShear::require_flow_of_all() {
 /** Collective. */
 grainscope::Bodies ComputeDisplacementShear::bodies_now() const {
   grainscope::Bodies bodies(lmp, name);
-  bodies.update(grainscope::BoxState(lmp));
+  bodies.update(grainscope::BoxState(lmp), groupbit);
   return bodies;
 }
 

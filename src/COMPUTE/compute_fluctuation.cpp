@@ -20,6 +20,7 @@ using grainscope::MeanFlow;
 
 namespace {
 
+const char *const name = "compute fluctuation";
 constexpr auto intensive = grainscope::Extent::intensive, extensive = grainscope::Extent::extensive;
 constexpr auto whole = grainscope::Extent::whole;
 
@@ -67,7 +68,7 @@ grainscope::Outputs declared(int layers) {
 
 struct ComputeFluctuation::Impl {
   grainscope::RangeWarning bent;
-  explicit Impl(LAMMPS *lmp) : scope(lmp, "compute fluctuation", grainscope::Scope::region) {}
+  explicit Impl(LAMMPS *lmp) : scope(lmp, name, grainscope::Scope::region) {}
   grainscope::Scope scope;
   MeanFlow flow;
   int layers = 10;
@@ -82,7 +83,7 @@ struct ComputeFluctuation::Impl {
 
 ComputeFluctuation::ComputeFluctuation(LAMMPS *lmp, int &iarg, int narg, char **arg)
     : Compute(lmp, iarg, narg, arg), impl_(new Impl(lmp)) {
-  grainscope::Arguments arguments(lmp, "compute fluctuation", iarg, narg, arg);
+  grainscope::Arguments arguments(lmp, name, iarg, narg, arg);
   while (!arguments.done()) {
     const std::string keyword = arguments.keyword(impl_->scope.with({"plane", "layers", "diameter", "flow"}));
     impl_->scope.read(arguments, keyword);
@@ -98,8 +99,9 @@ ComputeFluctuation::ComputeFluctuation(LAMMPS *lmp, int &iarg, int narg, char **
 ComputeFluctuation::~ComputeFluctuation() {}
 
 void ComputeFluctuation::init() {
-  grainscope::require_grains(lmp, grainscope::Arguments(lmp, "compute fluctuation"));
+  grainscope::require_grains(lmp, grainscope::Arguments(lmp, name));
   impl_->scope.init();
+  grainscope::Bodies(lmp, name);
 }
 
 void ComputeFluctuation::compute_array() {
@@ -107,7 +109,7 @@ void ComputeFluctuation::compute_array() {
   const BoxState box(lmp);
   impl_->scope.update(box);
   const int across = impl_->flow.plane.gradient;
-  const Fluctuations motion(lmp, {groupbit, impl_->scope.within()}, box, impl_->with(MeanFlow::Kind::box));
+  const Fluctuations motion(lmp, {name, groupbit, impl_->scope.within()}, box, impl_->with(MeanFlow::Kind::box));
   // Per layer m, grains, m u; then grains that no layer holds.
   std::vector<double> sums(sums_of_layer * impl_->layers + 1, 0.0);
   for (const Fluctuations::Grain &g : motion.local()) {
@@ -122,7 +124,7 @@ void ComputeFluctuation::compute_array() {
     Map<Vector3d>(at + 2) += g.mass * motion.velocity(g);
   }
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM, world);
-  grainscope::require_layers(lmp, "compute fluctuation", sums.back());
+  grainscope::require_layers(lmp, name, sums.back());
   const double length = box.edges(across, across);
   for (int k = 0; k < impl_->layers; k++) {
     const double *at = &sums[sums_of_layer * k];
@@ -136,7 +138,7 @@ void ComputeFluctuation::compute_vector() {
   const BoxState box(lmp);
   impl_->scope.update(box);
   const int along = impl_->flow.plane.flow, across = impl_->flow.plane.gradient;
-  const Fluctuations motion(lmp, {groupbit, impl_->scope.within()}, box, impl_->flow);
+  const Fluctuations motion(lmp, {name, groupbit, impl_->scope.within()}, box, impl_->flow);
   double sums[13] = {};  // dv dv, dw dw, twice E_tr, E_rot, diameters, m dv dv, m
   for (const Fluctuations::Grain &g : motion.local()) {
     const Vector3d dv = motion.velocity(g), dw = motion.spin(g);
@@ -160,7 +162,7 @@ void ComputeFluctuation::compute_vector() {
   vector[8] = vector[6] > 0.0 ? vector[7] / vector[6] : 0.0;
   vector[10] = box.velocity_gradient(along, across);
   vector[11] =
-      Fluctuations(lmp, {groupbit, impl_->scope.within()}, box, impl_->with(MeanFlow::Kind::fit)).slope()[along];
+      Fluctuations(lmp, {name, groupbit, impl_->scope.within()}, box, impl_->with(MeanFlow::Kind::fit)).slope()[along];
   for (int k = 0; k < 3; k++) vector[14 + k] = sums[9 + k] / sums[12];
   vector[17] = (vector[14] + vector[15] + vector[16]) / domain->dimension;
   vector[18] = 2.0 * sums[7] / (spins_of(domain->dimension) * sums[12]);
@@ -181,7 +183,7 @@ void ComputeFluctuation::compute_vector() {
   }
   const double unit = rate * box.edges(across, across);
   vector[12] = std::sqrt(squares / layers) / unit;
-  vector[13] = vector[along] * std::sqrt(impl_->layers / n) / unit;
+  vector[13] = vector[along] * std::sqrt(layers / n) / unit;
   const double limit = std::max(straight_enough, 2.0 * vector[13]);
   impl_->bent.watch(lmp, vector[12] > limit,
                     "compute fluctuation: the velocity profile is off the box's flow by %.3g of rate x L (rms over "

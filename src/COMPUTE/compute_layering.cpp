@@ -13,6 +13,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 
+const char *const name = "compute layering";
 constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
 
 grainscope::Outputs declared(int lags) {
@@ -38,7 +39,7 @@ struct ComputeLayering::Impl {
 
 ComputeLayering::ComputeLayering(LAMMPS *lmp, int &iarg, int narg, char **arg)
     : Compute(lmp, iarg, narg, arg), impl_(new Impl) {
-  grainscope::Arguments arguments(lmp, "compute layering", iarg, narg, arg);
+  grainscope::Arguments arguments(lmp, name, iarg, narg, arg);
   while (!arguments.done()) {
     const std::string keyword = arguments.keyword({"axis", "layers"});
     if (keyword == "axis") {
@@ -52,15 +53,15 @@ ComputeLayering::ComputeLayering(LAMMPS *lmp, int &iarg, int narg, char **arg)
 
 ComputeLayering::~ComputeLayering() {}
 
-void ComputeLayering::init() {}
+void ComputeLayering::init() { grainscope::Bodies(lmp, name); }
 
 void ComputeLayering::compute_array() {
   invoked_array = update->ntimestep;
   const grainscope::BoxState box(lmp);
   const int m = impl_->layers;
   std::vector<double> counts(m + 1, 0.0);  // of each layer; then grains that none holds
-  grainscope::Bodies bodies(lmp, "compute layering");
-  bodies.update(box);
+  grainscope::Bodies bodies(lmp, name);
+  bodies.update(box, groupbit);
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit) || !bodies.stands_for_itself_or_clump(i)) continue;
     const Eigen::Vector3d x = Eigen::Map<const Eigen::Vector3d>(atom->x[i]) - bodies.arm(i);
@@ -68,7 +69,7 @@ void ComputeLayering::compute_array() {
     counts[layer < 0 ? m : layer] += 1.0;
   }
   MPI_Allreduce(MPI_IN_PLACE, counts.data(), m + 1, MPI_DOUBLE, MPI_SUM, world);
-  grainscope::require_layers(lmp, "compute layering", counts[m]);
+  grainscope::require_layers(lmp, name, counts[m]);
   counts.pop_back();
   impl_->grains = 0.0;
   for (double count : counts) impl_->grains += count;

@@ -157,7 +157,7 @@ void ComputeStressContact::answer() {
   MPI_Allreduce(MPI_IN_PLACE, &largest_overlap, 1, MPI_DOUBLE, MPI_MAX, world);
 
   const grainscope::BoxState &box = observer_->box();
-  const grainscope::Fluctuations motion(lmp, {groupbit, scope_.within()}, box);
+  const grainscope::Fluctuations motion(lmp, {name_, groupbit, scope_.within()}, box);
   // Forces over areas are in pressure units only where force->nktv2p is 1; cgs and si both are.
   const double unit = force->nktv2p / scope_.volume_now(box);
   const Eigen::Matrix3d total = all.total(1.0) * unit;

@@ -184,6 +184,7 @@ void ComputeVelocityCorrelation::init() {
   grainscope::require_grains(lmp, errors);
   impl_->measured = -1;
   impl_->scope.init();
+  grainscope::Bodies(lmp, name);
   if (impl_->running) impl_->record = FixGrainRecord::find(lmp, id);
   if (impl_->mesh && !(domain->xperiodic && domain->yperiodic && domain->zperiodic))
     errors.fail("'method' must be direct in a box that is not periodic in all three directions, got 'mesh'");
@@ -225,7 +226,7 @@ ComputeVelocityCorrelation::Impl::Totals ComputeVelocityCorrelation::Impl::measu
   const PeriodicCell cell = grainscope::periodic_cell(box);
   const DistanceBins distances{range > 0.0 ? range : half_smallest_height(cell), bins};
   scope.update(box);
-  const Fluctuations motion(lmp, {groupbit, scope.within()}, box, flow);
+  const Fluctuations motion(lmp, {name, groupbit, scope.within()}, box, flow);
   PointValues points;
   double smallest = std::numeric_limits<double>::infinity();
   Totals now;

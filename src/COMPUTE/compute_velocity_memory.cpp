@@ -104,6 +104,7 @@ ComputeVelocityMemory::~ComputeVelocityMemory() { FixGrainRecord::forget(lmp, id
 void ComputeVelocityMemory::init() {
   impl_->strain.init();
   impl_->scope.init();
+  grainscope::Bodies(lmp, name).require_lasting();
   impl_->record = FixGrainRecord::find(lmp, id);
 }
 
@@ -118,7 +119,7 @@ void ComputeVelocityMemory::sample_if_due() {
   sample(strain);
 }
 
-/** A grain that is not of this sample begins anew when it is of one again: it was not seen in between. */
+/** A grain that is not of this sample counts from the next one that it is of: it was not seen in between. */
 void ComputeVelocityMemory::forget_others(const Fluctuations &motion) {
   std::vector<char> chosen(atom->nlocal, 0);
   for (const Fluctuations::Grain &g : motion.local()) chosen[g.index] = 1;
@@ -136,7 +137,7 @@ void ComputeVelocityMemory::sample(double strain) {
   std::vector<double> sums(2 * (known + 1), 0.0);  // products, pairs
   const grainscope::BoxState box(lmp);
   impl_->scope.update(box);
-  const Fluctuations motion(lmp, {groupbit, impl_->scope.within()}, box, impl_->flow);
+  const Fluctuations motion(lmp, {name, groupbit, impl_->scope.within()}, box, impl_->flow);
   forget_others(motion);
   double grains[2] = {static_cast<double>(motion.local().size()), 0.0};  // and new ones
   for (const Fluctuations::Grain &g : motion.local()) {

@@ -40,10 +40,7 @@ bool ContactCompute::wants_contacts() {
 
 void ContactCompute::begin_contacts() {
   scope_.update(observer_->box());
-  if (bodies_) {
-    bodies_->update(observer_->box());
-    bodies_->require_whole(groupbit, Arguments(lmp, name_));
-  }
+  if (bodies_) bodies_->update(observer_->box(), groupbit);
   for (Accumulator *one : sums_) one->reset();
 }
 

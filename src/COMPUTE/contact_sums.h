@@ -95,8 +95,6 @@ class TypePairSums : public ContactCompute::Accumulator {
     Way::add(contacts, of, [this](const Contact &c) -> Kernel & { return rows_[pairs_.index(c.type_i, c.type_j)]; });
   }
   const TypePairs &pairs() const { return pairs_; }
-  /** Of this rank, by the numbers of the pairs. */
-  const std::vector<Kernel> &mine() const { return rows_; }
   /** Of all ranks. Collective. */
   std::vector<Kernel> total(const ContactCompute &of) const {
     std::vector<Kernel> all = rows_;

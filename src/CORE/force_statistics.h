@@ -12,6 +12,13 @@
 
 namespace grainscope {
 
+/** Forces that differ by less than this share of the mean are taken for equal to it, so that rounding, which is not the
+ *  same on one rank and on four, does not choose the strong contacts of a lattice where all forces are the same. */
+const double equal_forces = 1e-9;
+
+/** F_n > <F_n>. */
+inline bool is_strong(double normal, double mean) { return normal > mean + equal_forces * std::fabs(mean); }
+
 /** What is kept of a contact until the mean force is known. */
 struct ContactForce {
   double normal = 0.0, tangential = 0.0;
@@ -26,7 +33,7 @@ struct ContactForce {
 
 /** Moments of the contact forces. */
 struct ForceMoments {
-  double largest_normal = 0.0, largest_tangential = 0.0;  // magnitudes; of this rank
+  double largest_normal = -HUGE_VAL, largest_tangential = 0.0;  // of this rank
   std::array<double, 7> sums{};
 
   void reset() { *this = ForceMoments(); }
@@ -68,7 +75,7 @@ class ForceDistribution {
 
   /** `mean`: <F_n>. */
   void add(const ContactForce &c, double mean) {
-    const bool strong = c.normal > mean;
+    const bool strong = is_strong(c.normal, mean);
     add_moment(0, c);
     if (strong) add_moment(1, c);
     if (strong) other(STRONG) += 1.0;
@@ -77,11 +84,11 @@ class ForceDistribution {
     const double f = c.normal / mean;
     const int bin = bin_index(f / most_ * bins_, bins_);
     if (bin >= 0) numbers_[bin] += 1.0;
-    if (f > tail_) {
+    if (f > tail_ + equal_forces) {
       other(TAIL) += 1.0;
       other(TAIL_SUM) += f - tail_;
     }
-    if (f > 0.0 && f < 1.0) {
+    if (f > 0.0 && f < 1.0 - equal_forces) {
       other(WEAK) += 1.0;
       other(WEAK_SUM) -= std::log(f);
     }

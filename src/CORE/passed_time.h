@@ -4,7 +4,7 @@
 
 namespace grainscope {
 
-/** The time that has passed in a run, whose steps may change their length and be numbered anew. The host's own time is
+/** The time that has passed in a run, whose steps may change their length and be renumbered. The host's own time is
  *  not in restart files, and `reset_timestep` moves it. While the length stays, steps are counted and not summed. */
 class PassedTime {
  public:

@@ -177,7 +177,8 @@ double FixPressStrain::kinetic_pressure() const {
   if (!impl_->settings.kinetic) return 0.0;
   const grainscope::BoxState &box = impl_->observer->box();
   const int axis = impl_->settings.axis;
-  return Fluctuations(lmp, groupbit, box).momentum_flux()(axis, axis) * force->mvv2e * force->nktv2p / box.volume;
+  return Fluctuations(lmp, {"fix press/strain", groupbit}, box).momentum_flux()(axis, axis) * force->mvv2e *
+         force->nktv2p / box.volume;
 }
 
 void FixPressStrain::end_of_step() {
@@ -208,7 +209,8 @@ void FixPressStrain::take_input() {
   my.window_steps = 0.0;
 
   if (my.settings.remove_momentum) {
-    const Eigen::Vector3d drift = Fluctuations(lmp, my.momentum_groupbit, my.observer->box()).drift();
+    const Eigen::Vector3d drift =
+        Fluctuations(lmp, {"fix press/strain", my.momentum_groupbit}, my.observer->box()).drift();
     for (int i = 0; i < atom->nlocal; i++)
       if (atom->mask[i] & my.momentum_groupbit)
         for (int k = 0; k < 3; k++) atom->v[i][k] -= drift[k];

@@ -4,6 +4,7 @@
 #include "atom.h"
 #include "domain.h"
 #include "fix_multisphere.h"
+#include "fix_multisphere_break.h"
 #include "modify.h"
 #include "multisphere.h"
 #include <algorithm>
@@ -33,30 +34,29 @@ enum {
   NUMBERS = AXES + 9
 };
 
-bool is_multisphere(const LAMMPS_NS::Fix *fix) { return !strncmp(fix->style, "multisphere", 11); }
+const FixMultisphere *multisphere(const LAMMPS_NS::Fix *fix) { return dynamic_cast<const FixMultisphere *>(fix); }
 bool is_rigid(const LAMMPS_NS::Fix *fix) { return !strncmp(fix->style, "rigid", 5); }
 
 const LAMMPS_NS::Fix *fix_of_bodies(const LAMMPS_NS::LAMMPS *lmp) {
   for (int k = 0; k < lmp->modify->nfix; k++) {
     const LAMMPS_NS::Fix *const fix = lmp->modify->fix[k];
-    if (is_multisphere(fix) || is_rigid(fix)) return fix;
+    if (multisphere(fix) || is_rigid(fix)) return fix;
   }
   return nullptr;
 }
 
 }
 
-Bodies::Bodies(LAMMPS_NS::LAMMPS *lmp, const std::string &style) : Pointers(lmp) {
+Bodies::Bodies(LAMMPS_NS::LAMMPS *lmp, const std::string &style) : Pointers(lmp), style_(style) {
   for (int k = 0; k < modify->nfix; k++) {
     LAMMPS_NS::Fix *const fix = modify->fix[k];
     if (is_rigid(fix))
       Arguments(lmp, style)
           .fail("knows clumps of fix multisphere, not the bodies of fix " + std::string(fix->id) + " (" + fix->style +
                 "): they would count sphere by sphere");
-    FixMultisphere *const multisphere = is_multisphere(fix) ? dynamic_cast<FixMultisphere *>(fix) : nullptr;
-    if (!multisphere) continue;
+    if (!multisphere(fix)) continue;
     if (fix_) Arguments(lmp, style).fail("knows the clumps of one fix multisphere, got a second one");
-    fix_ = multisphere;
+    fix_ = dynamic_cast<FixMultisphere *>(fix);
   }
   if (fix_ && domain->dimension == 2)
     Arguments(lmp, style).fail("knows the clumps of fix multisphere in three dimensions only");
@@ -90,7 +90,7 @@ void Bodies::gather(std::vector<double> &numbers) const {
   }
 }
 
-void Bodies::update(const BoxState &box) {
+void Bodies::update(const BoxState &box, int groupbit) {
   if (!fix_) return;
   box_ = box;
   std::vector<double> mine;
@@ -122,18 +122,39 @@ void Bodies::update(const BoxState &box) {
     place_[body.tag] = static_cast<int>(b);
   }
   find_first_ids();
+  require_small();
+  require_whole(groupbit);
 }
 
-void Bodies::require_whole(int groupbit, const Arguments &errors) const {
-  if (!fix_ || groupbit == 1) return;  // all
+/** So that the nearest image of a clump's centre is the right one for each of its spheres. */
+void Bodies::require_small() const {
+  const double diameter = 2.0 * fix_->max_r_bound();
+  for (int k = 0; k < 3; k++)
+    if (box_.periodic[k] && diameter > 0.5 * box_.height(k))
+      Arguments(lmp, style_)
+          .fail("clumps must be at most half as large as the box along periodic edges, " +
+                Arguments::text(0.5 * box_.height(k)) + " along " + std::string(1, 'x' + k) + ", got one of " +
+                Arguments::text(diameter));
+}
+
+void Bodies::require_lasting() const {
+  if (dynamic_cast<LAMMPS_NS::FixMultisphereBreak *>(fix_))
+    Arguments(lmp, style_)
+        .fail("follows clumps that last, not those of fix " + std::string(fix_->id) + " (" + fix_->style +
+              "), which may break");
+}
+
+void Bodies::require_whole(int groupbit) const {
+  if (groupbit == 1) return;  // all
   std::vector<double> chosen(all_.size(), 0.0);
   for (int i = 0; i < atom->nlocal; i++)
     if (const Body *body = of(i)) chosen[body - all_.data()] += atom->mask[i] & groupbit ? 1.0 : 0.0;
   MPI_Allreduce(MPI_IN_PLACE, chosen.data(), static_cast<int>(chosen.size()), MPI_DOUBLE, MPI_SUM, world);
   for (std::size_t b = 0; b < all_.size(); b++)
     if (chosen[b] > 0.0 && chosen[b] < all_[b].spheres)
-      errors.fail("its group has " + Arguments::text(chosen[b]) + " of the " + Arguments::text(all_[b].spheres) +
-                  " spheres of a clump (" + std::to_string(all_[b].tag) + "): a clump is in a group with all of them");
+      Arguments(lmp, style_)
+          .fail("its group has " + Arguments::text(chosen[b]) + " of the " + Arguments::text(all_[b].spheres) +
+                " spheres of a clump (" + std::to_string(all_[b].tag) + "): a clump is in a group with all of them");
 }
 
 void Bodies::find_first_ids() {
@@ -159,7 +180,6 @@ bool Bodies::stands_for_itself_or_clump(int i) const {
   return !body || body->first_id == atom->tag[i];
 }
 
-/** A clump is smaller than half the box, so that the nearest image of its centre is the right one. */
 Vector3d Bodies::arm(int i) const {
   const Body *body = of(i);
   if (!body) return Vector3d::Zero();

@@ -41,11 +41,11 @@ class Bodies : private LAMMPS_NS::Pointers {
   Bodies(LAMMPS_NS::LAMMPS *lmp, const std::string &style);
 
   bool any() const { return fix_; }
-  /** All bodies as they are now, on all ranks. Collective. */
-  void update(const BoxState &box);
-
-  /** Errors where a group has some spheres of a clump and not all. Collective, after update(). */
-  void require_whole(int groupbit, const Arguments &errors) const;
+  /** All bodies as they are now, on all ranks. Errors where the group has some spheres of a clump and not all, and where
+   *  a clump is larger than half the box along a periodic edge. Collective. */
+  void update(const BoxState &box, int groupbit);
+  /** Errors where clumps break, for what follows each of them by the sphere that stands for it. */
+  void require_lasting() const;
 
   /** Of local grain or ghost i: null where it is on its own. */
   const Body *of(int i) const;
@@ -55,6 +55,7 @@ class Bodies : private LAMMPS_NS::Pointers {
   Eigen::Vector3d arm(int i) const;
 
  private:
+  std::string style_;
   LAMMPS_NS::FixMultisphere *fix_ = nullptr;
   BoxState box_;
   std::vector<Body> all_;
@@ -62,6 +63,8 @@ class Bodies : private LAMMPS_NS::Pointers {
 
   void gather(std::vector<double> &numbers) const;
   void find_first_ids();
+  void require_whole(int groupbit) const;
+  void require_small() const;
 };
 
 /** Fix multisphere or rigid. */

@@ -53,7 +53,7 @@ std::string MeanFlow::text() const {
 
 /** The same, clumps as one grain each. */
 template <class Flow>
-void Fluctuations::collect_with_bodies(ChosenGrains chosen, Flow flow) {
+void Fluctuations::collect_with_bodies(const ChosenGrains &chosen, Flow flow) {
   const LAMMPS_NS::Atom *atom = lmp_->atom;
   for (int i = 0, n = atom->nlocal; i < n; i++) {
     if (!(atom->mask[i] & chosen.groupbit) || !bodies_.stands_for_itself_or_clump(i)) continue;
@@ -68,11 +68,8 @@ void Fluctuations::collect_with_bodies(ChosenGrains chosen, Flow flow) {
 
 /** The grains of the group, with what their velocity has beside flow(x). */
 template <class Flow>
-inline void Fluctuations::collect(ChosenGrains chosen, Flow flow) {
-  if (bodies_.any()) {
-    bodies_.require_whole(chosen.groupbit, Arguments(lmp_, "mean flow"));
-    return collect_with_bodies(chosen, flow);
-  }
+inline void Fluctuations::collect(const ChosenGrains &chosen, Flow flow) {
+  if (bodies_.any()) return collect_with_bodies(chosen, flow);
   const LAMMPS_NS::Atom *atom = lmp_->atom;
   local_.resize(atom->nlocal);
   Grain *grain = local_.data();
@@ -85,17 +82,18 @@ inline void Fluctuations::collect(ChosenGrains chosen, Flow flow) {
   local_.resize(grain - local_.data());
 }
 
-Fluctuations::Fluctuations(LAMMPS_NS::LAMMPS *lmp, ChosenGrains chosen, const BoxState &box)
-    : lmp_(lmp), bodies_(lmp, "mean flow"), means_(1) {
-  bodies_.update(box);
+Fluctuations::Fluctuations(LAMMPS_NS::LAMMPS *lmp, const ChosenGrains &chosen, const BoxState &box)
+    : lmp_(lmp), bodies_(lmp, chosen.who), means_(1) {
+  bodies_.update(box, chosen.groupbit);
   const AffineFlow affine = box;  // a copy, which no store of a grain may change
   collect(chosen, [&affine](const Vector3d &x) { return affine.flow(x); });
   find_mean_velocity();
 }
 
-Fluctuations::Fluctuations(LAMMPS_NS::LAMMPS *lmp, ChosenGrains chosen, const BoxState &box, const MeanFlow &flow)
-    : lmp_(lmp), bodies_(lmp, "mean flow"), means_(flow.means()) {
-  bodies_.update(box);
+Fluctuations::Fluctuations(LAMMPS_NS::LAMMPS *lmp, const ChosenGrains &chosen, const BoxState &box,
+                           const MeanFlow &flow)
+    : lmp_(lmp), bodies_(lmp, chosen.who), means_(flow.means()) {
+  bodies_.update(box, chosen.groupbit);
   const int along = flow.plane.flow, across = flow.plane.gradient;
   switch (flow.kind) {
     case MeanFlow::Kind::box:

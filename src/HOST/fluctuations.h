@@ -20,10 +20,12 @@ class RegionSolid;
 
 /** Grains of a group, and where it is given with their centres in a region. */
 struct ChosenGrains {
+  std::string who;  // asks, for messages
   int groupbit;
   const RegionSolid *region = nullptr;
 
-  ChosenGrains(int groupbit, const RegionSolid *region = nullptr) : groupbit(groupbit), region(region) {}
+  ChosenGrains(const std::string &who, int groupbit, const RegionSolid *region = nullptr)
+      : who(who), groupbit(groupbit), region(region) {}
 };
 
 /** What is taken for the mean flow: the affine flow of the box; nothing; a given rate; the straight line fitted to the
@@ -57,8 +59,8 @@ class Fluctuations {
   };
 
   /** Against the affine flow of the box; spins are not asked for. */
-  Fluctuations(LAMMPS_NS::LAMMPS *lmp, ChosenGrains chosen, const BoxState &box);
-  Fluctuations(LAMMPS_NS::LAMMPS *lmp, ChosenGrains chosen, const BoxState &box, const MeanFlow &flow);
+  Fluctuations(LAMMPS_NS::LAMMPS *lmp, const ChosenGrains &chosen, const BoxState &box);
+  Fluctuations(LAMMPS_NS::LAMMPS *lmp, const ChosenGrains &chosen, const BoxState &box, const MeanFlow &flow);
 
   /** This rank's grains of the group. */
   const std::vector<Grain> &local() const { return local_; }
@@ -96,9 +98,9 @@ class Fluctuations {
 
   Eigen::Vector3d own_spin(const Grain &grain) const;
   template <class Flow>
-  void collect(ChosenGrains chosen, Flow flow);
+  void collect(const ChosenGrains &chosen, Flow flow);
   template <class Flow>
-  void collect_with_bodies(ChosenGrains chosen, Flow flow);
+  void collect_with_bodies(const ChosenGrains &chosen, Flow flow);
   void find_layers(const BoxState &box, const MeanFlow &flow);
   void subtract_gradient();
   void subtract_line(int gradient);

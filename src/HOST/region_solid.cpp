@@ -5,6 +5,7 @@
 #include "atom.h"
 #include "domain.h"
 #include "region.h"
+#include "update.h"
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -31,6 +32,7 @@ void RegionSolid::init() {
   region_->init();
   require_sound(region_);
   new_run_ = true;
+  first_step_ = lmp->update->firststep;
 }
 
 /** Errors where the host itself is wrong about what is inside. */
@@ -52,9 +54,11 @@ void RegionSolid::evaluate(Region *region) const {
 
 void RegionSolid::update(const BoxState &box) {
   box_ = box;
+  if (find(id_) != region_ || lmp->update->firststep != first_step_) init();
   evaluate(region_);
   new_run_ = false;
   known_ = shape_of(*domain, region_, solid_, why_not_);
+  if (needs_parts_) require_known(known_, why_not_);
   if (box.dimension == 2) height_ = height_of_grains();
   Solid cut = solid_;
   std::string ignored;
@@ -105,10 +109,15 @@ double RegionSolid::part(const Vector3d &from, const Vector3d &to) const {
   return sum;
 }
 
-void RegionSolid::require_parts() const {
+void RegionSolid::require_parts() {
+  needs_parts_ = true;
   Solid ignored = Solid::common({});
   std::string why;
-  if (!shape_of(*domain, region_, ignored, why)) Arguments(lmp, style_).fail("region '" + id_ + "': " + why);
+  require_known(shape_of(*domain, region_, ignored, why), why);
+}
+
+void RegionSolid::require_known(bool known, const std::string &why) const {
+  if (!known) Arguments(lmp, style_).fail("region '" + id_ + "': " + why);
 }
 
 /** Across a face that follows the grains the region goes on, by `beyond` lengths of the box. */

@@ -25,14 +25,15 @@ class RegionSolid : private LAMMPS_NS::Pointers {
   const std::string &id() const { return id_; }
   /** Before each run: finds it again. */
   void init();
-  /** Before use in a step: where it is now. Collective. */
+  /** Before use in a step: where it is now. The host does not set up every run (`run pre no`), and between runs the ID
+   *  may become another region's: it is found again. Collective. */
   void update(const BoxState &box);
 
   bool has(const Eigen::Vector3d &x) const;
   /** The share of a line that lies inside, from 0 to 1; of a line across periodic faces each part where it belongs. */
   double part(const Eigen::Vector3d &from, const Eigen::Vector3d &to) const;
-  /** Errors where the shape is not known by which lines are cut. */
-  void require_parts() const;
+  /** Errors where the shape is not known by which lines are cut, from now on whenever it is found again. */
+  void require_parts();
   /** Of what lies in the box, in two dimensions the area in the plane of the grains; false where it is not known, and
    *  why. */
   bool volume(double &value, std::string &why) const;
@@ -40,7 +41,9 @@ class RegionSolid : private LAMMPS_NS::Pointers {
  private:
   std::string style_, id_;
   LAMMPS_NS::Region *region_ = nullptr;
+  LAMMPS_NS::bigint first_step_ = -1;  // of the run in which it was found
   BoxState box_;
+  bool needs_parts_ = false;
   bool known_ = false;   // the shape
   bool new_run_ = true;  // not yet updated in it
   std::string why_not_;
@@ -48,6 +51,7 @@ class RegionSolid : private LAMMPS_NS::Pointers {
   double height_ = 0.0;  // z of the plane of two dimensions
 
   LAMMPS_NS::Region *find(const std::string &id) const;
+  void require_known(bool known, const std::string &why) const;
   void require_sound(LAMMPS_NS::Region *region) const;
   bool volume_within(double beyond, double &value, std::string &why) const;
   bool follows_grains(int k, int side) const;

@@ -72,7 +72,7 @@ int FixSetupMemory::setmask() { return FixConst::PRE_EXCHANGE | FixConst::PRE_FO
 
 void FixSetupMemory::init() {
   grainscope::require_no_bodies(lmp, grainscope::Arguments(lmp, "pair_style gran/insitu setup neutral"),
-                                "a run that begins counts the forces on them anew: 'setup host'");
+                                "a run that begins counts the forces on them again: 'setup host'");
   impl_->running = false;
   impl_->memory->evaluation.give_up_repetition();
   next_reneighbor = -1;

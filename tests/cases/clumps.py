@@ -10,7 +10,8 @@ import numpy as np
 
 from case import main, require, require_close, require_equal
 from columns import outputs
-from deck import Material, dump_local, thermo
+from deck import Deck, Material, dump_local, thermo
+from packing import dense_packing
 from refusal import require_refused
 from run import run
 
@@ -331,6 +332,46 @@ def trajectory_untouched(ranks):
             require_equal(found[name], expected[name], name)
 
 
+FOLLOWED = ("displacement/shear strain v_strain", "velocity/memory component vy strain v_strain every 1e-3 lags 4")
+OF_GRAINS = (
+    "fluctuation flow box",
+    "velocity/correlation component vy bins 4 range 4.0",
+    "layering axis z layers 6",
+    *FOLLOWED,
+)
+
+
+def refused_of_a_part(ranks):
+    """A group that has one sphere of a clump."""
+    for measure in OF_GRAINS:
+        asked = ["variable strain equal step*1e-3", "group part id 1 2", f"compute it part {measure}"]
+        text = "\n".join([*start(), *asked, "thermo_style custom step c_it[1]", "run 1"]) + "\n"
+        if measure.startswith("layering"):
+            text = text.replace("c_it[1]", "c_it")
+        require_refused(
+            text, ranks, f"compute {measure.split()[0]}", "its group has", "spheres of a clump", folder=folder()
+        )
+
+
+def refused_bodies(ranks):
+    """Before the run, by the name of the measure: bodies that are not known, that may break, that are too large."""
+    for measure in OF_GRAINS:
+        deck = Deck(dense_packing(atom_style="sphere", minimum=30))
+        asked = ["variable strain equal step*1e-3", f"compute it all {measure}", "run 0"]
+        deck.body = ["unfix integrate", "fix body all rigid single", *asked]
+        name = f"compute {measure.split()[0]}"
+        require_refused(deck, ranks, name, "not the bodies of fix body (rigid)")
+        if measure not in FOLLOWED:
+            continue
+        breaking = "fix integrate all multisphere/break trigger_name v_strain trigger_threshold 1e30"
+        lines = [breaking if line == "fix integrate all multisphere" else line for line in start()]
+        lines = ["variable strain equal step*1e-3", *lines, f"compute it all {measure}", "run 0"]
+        require_refused("\n".join(lines) + "\n", ranks, name, "may break", folder=folder())
+    lines = [line.replace("scale 1.0", "scale 2.6") for line in start(singles=2, clumps=2)]
+    lines += ["compute it all fluctuation", "thermo_style custom step c_it", "run 0"]
+    require_refused("\n".join(lines) + "\n", ranks, "half as large as the box", "4.5 along x", folder=folder())
+
+
 REFUSED = {
     "group part id 1 2\ncompute s part stress/contact volume auto\nthermo_style custom step c_s": "its group has",
     "pair_style gran/insitu model hertz tangential history setup neutral": "setup neutral: does not work with clumps",
@@ -356,6 +397,8 @@ CASES = {
     "losses": losses,
     "trajectory-untouched": trajectory_untouched,
     "refused": refused,
+    "refused-of-a-part": refused_of_a_part,
+    "refused-bodies": refused_bodies,
 }
 
 if __name__ == "__main__":

@@ -198,6 +198,29 @@ def of_clumps(ranks):
     require(compared >= 4, "several snapshots")
 
 
+def equal_forces(ranks):
+    """A lattice whose forces are the same but for rounding has no strong contacts and no weak part."""
+    edge, size = 8, 1.99
+    places = [tuple(size * (k + 0.5) for k in cell) for cell in np.ndindex(edge, edge, edge)]
+    packing = Packing((edge * size,) * 3, [Grain(at) for at in places], atom_style="sphere")
+    deck = Deck(packing)
+    deck.body = [
+        f"compute it all contact/force bins {BINS} tail 1.0",
+        "compute rows all contact/local fn strong cluster",
+        *thermo(1, *C_IT.vector()),
+        *dump_local("rows", 3, 1, "rows"),
+        "run 0",
+    ]
+    result = run(deck, ranks)
+    table = result.thermo()[-1]
+    numbers = [table[C_IT[name]][0] for name in ("N_c", "N_strong", "N_tail", "N_weak", "clusters")]
+    require_equal(numbers, [3 * edge**3, 0, 0, 0, 0], "contacts that are all the same")
+    ((_, rows),) = result.dump("rows.dump")
+    require(len(np.unique(rows["c_rows[1]"])) > 1, "forces that differ by rounding")
+    require_equal(rows["c_rows[2]"], 0.0, "strong")
+    require_equal(rows["c_rows[3]"], 0.0, "cluster")
+
+
 def chains(ranks):
     """Lines of spheres along x with two overlaps: the deep contacts are strong. A line of five over all ranks, a pair
     through the periodic face, and light contacts between them."""
@@ -244,6 +267,7 @@ CASES = {
     "empty-group": empty_group,
     "trajectory-untouched": trajectory_untouched,
     "clumps": of_clumps,
+    "equal-forces": equal_forces,
     "chains": chains,
 }
 

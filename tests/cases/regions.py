@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_equal
+from columns import outputs
 from deck import Deck, dump_local, thermo
 from packing import dense_packing
 from refusal import require_refused
@@ -355,6 +356,33 @@ def refused(ranks):
     require_refused(Deck(dense_packing(minimum=30), body=gone), ranks, "'region' must be a region that is defined")
 
 
+def without_set_up(ranks):
+    """A region is known by its ID: one that takes it between runs is measured, also in a run that is not set up."""
+    here, there = ("block 0.0 4.0 0.0 4.0 0.0 4.0 units box", "block 2.0 6.0 1.0 5.0 1.0 6.0 units box")
+    measures = ("stress/contact", "fabric", "fluctuation")
+    start = [f"region place {here}", f"region here {here}", f"region there {there}"]
+    for k, measure in enumerate(measures):
+        start += [f"compute {id_}{k} all {measure} region {id_}" for id_ in ("place", "here", "there")]
+    asked = []
+    for k, (measure, element) in enumerate(zip(measures, ("sxx", "N_c", "N_grains"))):
+        asked += [outputs(measure).of(f"{id_}{k}")[element] for id_ in ("place", "here", "there")]
+    start += [*thermo(5, *asked), "run 5"]
+    other = ["region place delete", whole_line("between"), f"region place {there}"]
+    result = run(Deck(dense_packing(), body=[*start, *other, "run 5 pre no", "run 0 pre no"]), ranks)
+    first, *later = result.thermo()
+    for k in range(3):
+        names = asked[3 * k : 3 * k + 3]
+        require_equal(first[names[0]], first[names[1]], "as it was made")
+        require((first[names[1]] != first[names[2]]).all(), "places that differ")
+        for table in later:
+            require_equal(table[names[0]][-1:], table[names[2]][-1:], "another region of that ID")
+    gone = [*start, "region place delete", "run 5 pre no"]
+    require_refused(Deck(dense_packing(), body=gone), ranks, "'region' must be a region that is defined, got 'place'")
+    wedge = "region place wedge axis z center 3 3 radius 2 bounds 0 5 angle0 0 angle 60 units box"
+    bad = [*start, "region place delete", wedge, "run 5 pre no"]
+    require_refused(Deck(dense_packing(), body=bad), ranks, "compute stress/contact", "region 'place'", "wedge")
+
+
 FLOW = deforming(0.4)
 SHEARED = Deck(dense_packing())
 CASES = {
@@ -364,6 +392,7 @@ CASES = {
     "places": places,
     "nothing-there": nothing_there,
     "bins-and-rows": bins_and_rows,
+    "without-set-up": without_set_up,
     "refused": refused,
 }
 
