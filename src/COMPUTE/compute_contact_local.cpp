@@ -4,6 +4,7 @@
 #include "contact_measures.h"
 #include "contact_observer.h"
 #include "contact_sums.h"
+#include "force_statistics.h"
 #include "atom.h"
 #include "update.h"
 #include <algorithm>
