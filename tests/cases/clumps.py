@@ -363,11 +363,12 @@ def refused_bodies(ranks):
         require_refused(deck, ranks, name, "not the bodies of fix body (rigid)")
         if measure not in FOLLOWED:
             continue
-        breaking = "fix integrate all multisphere/break trigger_name v_strain trigger_threshold 1e30"
+        breaking = "fix integrate all multisphere/break trigger_name v_never trigger_threshold 1e30"
         lines = [breaking if line == "fix integrate all multisphere" else line for line in start()]
-        lines = ["variable strain equal step*1e-3", *lines, f"compute it all {measure}", "run 0"]
+        lines = lines[: lines.index("run 1")]  # the first run is refused: what would break is not there yet
+        lines = ["variable never atom 0", asked[0], *lines, f"compute it all {measure}", "run 1"]
         require_refused("\n".join(lines) + "\n", ranks, name, "may break", folder=folder())
-    lines = [line.replace("scale 1.0", "scale 2.6") for line in start(singles=2, clumps=2)]
+    lines = [line.replace("scale 1.0", "scale 3.0") for line in start(singles=2, clumps=2)]
     lines += ["compute it all fluctuation", "thermo_style custom step c_it", "run 0"]
     require_refused("\n".join(lines) + "\n", ranks, "half as large as the box", "4.5 along x", folder=folder())
 

@@ -217,8 +217,8 @@ def equal_forces(ranks):
     require_equal(numbers, [3 * edge**3, 0, 0, 0, 0], "contacts that are all the same")
     ((_, rows),) = result.dump("rows.dump")
     require(len(np.unique(rows["c_rows[1]"])) > 1, "forces that differ by rounding")
-    require_equal(rows["c_rows[2]"], 0.0, "strong")
-    require_equal(rows["c_rows[3]"], 0.0, "cluster")
+    require_equal(rows["c_rows[2]"], np.zeros(3 * edge**3), "strong")
+    require_equal(rows["c_rows[3]"], np.zeros(3 * edge**3), "cluster")
 
 
 def chains(ranks):

@@ -105,5 +105,5 @@ def fluctuation(grains, chosen, box, flow=("box",), plane=(0, 1), layers=10, dia
         deq = diameter or equivalent_diameter(grains, chosen)
         vector[9] = math.sqrt(np.mean(np.sum(dv**2, axis=1))) / (abs(rate) * deq)
         vector[12] = math.sqrt(np.mean(means[counts > 0, a] ** 2)) / (abs(rate) * length)
-        vector[13] = math.sqrt(np.mean(dv[:, a] ** 2) / (count / layers)) / (abs(rate) * length)
+        vector[13] = math.sqrt(np.mean(dv[:, a] ** 2) / (count / (counts > 0).sum())) / (abs(rate) * length)
     return vector, array
