@@ -615,6 +615,8 @@ add_cases(fluctuation+layering+displacement/shear-clumps cases/clumps.py LABEL c
 # Flows that are not the box's, groups whose grains come and go
 add_cases(fluctuation-flows cases/flows.py LABEL case STYLES fluctuation RANKS 1 2 LONG_RANKS 4 CASES mean-flows)
 add_cases(fluctuation-flows cases/flows.py LABEL case STYLES fluctuation RANKS 1 LONG_RANKS 2 CASES solid-rotation)
+add_cases(displacement/shear-flows cases/flows.py LABEL case STYLES displacement/shear RANKS 1 2 LONG_RANKS 4
+  CASES displacements-against-flows solid-turns sheared-flight)
 add_cases(velocity/memory+displacement/shear-flows cases/flows.py LABEL case
   STYLES velocity/memory displacement/shear RANKS 1 2 LONG_RANKS 4 CASES grains-that-come-and-go)
 add_cases(velocity/memory+displacement/shear-flows cases/flows.py LABEL case

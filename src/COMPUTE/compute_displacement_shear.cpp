@@ -4,7 +4,10 @@
 #include "bodies.h"
 #include "box_state.h"
 #include "fix_grain_record.h"
+#include "grain_shape.h"
+#include "scope.h"
 #include "strain_source.h"
+#include "unwrapped_box.h"
 #include "requirements.h"
 #include "atom.h"
 #include "comm.h"
@@ -17,8 +20,11 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 using namespace LAMMPS_NS;
+using grainscope::Fluctuations;
+using Kind = grainscope::MeanFlow::Kind;
 using Eigen::Map;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -45,13 +51,14 @@ grainscope::Outputs declared(bool time) {
 /** What is kept of a grain: X of the last call, d, and whether it was there at the start. */
 enum { POSITION = 0, DISPLACEMENT = 3, TRACKED = 6, WIDTH };
 
-/** What all ranks share: whether it has started, strain at the start and at the last call, that call's step and box,
- *  and the sums of the fit: calls, strain, strain^2, and for x, y, z <d^2> and strain <d^2>; then the last means and
- *  the number of grains, at the start too, and of those of the group that are not followed. */
+/** What all ranks share: whether it has started, strain at the start and at the last call, that call's time, step and
+ *  box, and the sums of the fit: calls, strain, strain^2, and for x, y, z <d^2> and strain <d^2>; then the last means
+ *  and the number of grains, at the start too, and of those of the group that are not followed. */
 enum {
   STARTED = 0,
   STRAIN_0,
   STRAIN_1,
+  TIME_1,
   STEP,
   EDGES,
   CALLS = EDGES + 9,
@@ -66,69 +73,53 @@ enum {
   SHARED
 };
 
-const int no_remap = 0;          // of the host's numbers for none x v
-const int last_that_stands = 1;  // of the host's numbers for p f s m
+const int no_remap = 0;  // of the host's numbers for none x v
 
-/** The box now, and where grains are in it. */
-struct Box {
-  Box(const Domain &domain, const FixGrainRecord &record)
-      : edges(grainscope::upper_triangular(domain.h)), wrapped(grainscope::upper_triangular(record.edges())) {
-    // The point that the flow leaves at rest: middle heights, and along the flow a place that does not follow the tilt.
-    rest = Map<const Vector3d>(domain.boxlo) + 0.5 * edges.diagonal();
-    for (int k = 0; k < 3; k++) {
-      follows_grains[k] = domain.boundary[k][0] > last_that_stands || domain.boundary[k][1] > last_that_stands;
-      if (!follows_grains[k]) continue;
-      edges.col(k) /= edges(k, k);
-      middle[k] = rest[k];
-      rest[k] = 0.0;
-    }
-  }
-  /** Position of grain i, or of its clump, from the point at rest (from 0 across faces that follow the grains), unwrapped
-   *  with the edges that its image flags count. */
-  Vector3d position(const Atom &atom, int i, const grainscope::Bodies &bodies) const {
-    if (const grainscope::Body *body = bodies.of(i)) return body->centre + wrapped * body->boxes - rest;
-    const tagint image = atom.image[i];
-    const Vector3d boxes((image & IMGMASK) - IMGMAX, (image >> IMGBITS & IMGMASK) - IMGMAX,
-                         (image >> IMG2BITS) - IMGMAX);
-    return Map<const Vector3d>(atom.x[i]) + wrapped * boxes - rest;
-  }
-
-  Matrix3d edges, wrapped;
-  Vector3d rest;
-  bool follows_grains[3];              // faces across this edge move with the outermost grain, and no other with them
-  Vector3d middle = Vector3d::Zero();  // of such edges now
-};
+/** Mean flows that hold the box's own flow too. */
+bool moves_with_box(Kind flow) {
+  return flow == Kind::none || flow == Kind::rate || flow == Kind::fit || flow == Kind::gradient;
+}
 
 }
 
 struct ComputeDisplacementShear::Impl {
-  explicit Impl(LAMMPS *lmp) : strain(lmp, name) {}
+  explicit Impl(LAMMPS *lmp) : strain(lmp, name), scope(lmp, name, grainscope::Scope::region) {}
   grainscope::StrainSource strain;
+  grainscope::Scope scope;
+  grainscope::MeanFlow flow;
   double start = 0.0;
   FixGrainRecord *record = nullptr;
 
   double *shared() { return record->shared().data(); }
+  void make_record(LAMMPS *lmp, const char *id, int igroup) {
+    std::string meaning = std::string(name) + (strain.is_time() ? " time " : " ") + lmp->group->names[igroup];
+    if (flow.kind != grainscope::MeanFlow::Kind::box) meaning += " flow " + flow.text();
+    if (scope.within()) meaning += " region " + scope.within()->id();
+    record = FixGrainRecord::make(lmp, id, igroup, WIDTH, SHARED, meaning, STEP);
+  }
 };
 
 ComputeDisplacementShear::ComputeDisplacementShear(LAMMPS *lmp, int &iarg, int narg, char **arg)
     : Compute(lmp, iarg, narg, arg), impl_(new Impl(lmp)) {
   grainscope::Arguments arguments(lmp, name, iarg, narg, arg);
   while (!arguments.done()) {
-    const std::string keyword = arguments.keyword({"start", "strain"});
+    const std::string keyword = arguments.keyword(impl_->scope.with({"start", "strain", "flow", "plane"}));
+    impl_->scope.read(arguments, keyword);
     if (keyword == "start") impl_->start = arguments.number(keyword, "a strain", [](double) { return true; });
     if (keyword == "strain") impl_->strain.read(arguments);
+    if (keyword == "flow") impl_->flow.read(arguments);
+    if (keyword == "plane") impl_->flow.plane.read(arguments);
   }
   grainscope::require_box(lmp, arguments);
   declare(this, declared(impl_->strain.is_time()));
-  impl_->record =
-      FixGrainRecord::make(lmp, id, igroup, WIDTH, SHARED,
-                           std::string(name) + (impl_->strain.is_time() ? " time " : " ") + group->names[igroup], STEP);
+  impl_->make_record(lmp, id, igroup);
 }
 
 ComputeDisplacementShear::~ComputeDisplacementShear() { FixGrainRecord::forget(lmp, id); }
 
 void ComputeDisplacementShear::init() {
   impl_->strain.init();
+  impl_->scope.init();
   impl_->record = FixGrainRecord::find(lmp, id);
   grainscope::Bodies(lmp, name).require_lasting();
   require_flow_of_all();
@@ -162,13 +153,14 @@ grainscope::Bodies ComputeDisplacementShear::bodies_now() const {
 }
 
 void ComputeDisplacementShear::begin(double strain) {
-  const Box box(*domain, *impl_->record);
+  const grainscope::UnwrappedBox box(*domain, *impl_->record);
   const grainscope::Bodies bodies = bodies_now();
+  impl_->scope.update(grainscope::BoxState(lmp));
   double grains = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
     double *record = impl_->record->of(i);
     std::fill(record, record + WIDTH, 0.0);
-    if (!(atom->mask[i] & groupbit) || !bodies.stands_for_itself_or_clump(i)) continue;
+    if (!has(i, bodies)) continue;
     Map<Vector3d>(record + POSITION) = box.position(*atom, i, bodies);
     record[TRACKED] = 1.0;
     grains += 1.0;
@@ -180,17 +172,31 @@ void ComputeDisplacementShear::begin(double strain) {
   impl_->record->take_box_flips(forgotten);
   shared[STARTED] = 1.0;
   shared[STRAIN_0] = shared[STRAIN_1] = strain;
+  shared[TIME_1] = impl_->record->passed_time();
   shared[GRAINS] = shared[GRAINS_0] = grains;
-  if (grains == 0.0 && comm->me == 0)
+  if (grains == 0.0 && comm->me == 0) {
+    const std::string in_region = impl_->scope.within() ? " and region '" + impl_->scope.within()->id() + "'" : "";
     error->warning(FLERR, (std::string(name) + " " + id + ": there is no grain in group '" + group->names[igroup] +
-                           "' when it starts, and it follows those that are there then")
+                           "'" + in_region + " when it starts, and it follows those that are there then")
                               .c_str());
+  }
   Map<Matrix3d>(shared + EDGES) = box.edges;
+}
+
+/** Grain i is on its own or stands for its clump, is in the group and, where one is given, in the region. */
+bool ComputeDisplacementShear::has(int i, const grainscope::Bodies &bodies) const {
+  if (!(atom->mask[i] & groupbit) || !bodies.stands_for_itself_or_clump(i)) return false;
+  return impl_->scope.has_place(centre(i, bodies));
+}
+
+Vector3d ComputeDisplacementShear::centre(int i, const grainscope::Bodies &bodies) const {
+  const grainscope::Body *body = bodies.of(i);
+  return body ? body->centre : Vector3d(Map<const Vector3d>(atom->x[i]));
 }
 
 /** Carries every grain's displacement on to now. */
 void ComputeDisplacementShear::advance() {
-  const Box box(*domain, *impl_->record);
+  const grainscope::UnwrappedBox box(*domain, *impl_->record);
   const grainscope::Bodies bodies = bodies_now();
   double *shared = impl_->shared();
   Matrix3d before = Map<Matrix3d>(shared + EDGES);
@@ -204,29 +210,65 @@ void ComputeDisplacementShear::advance() {
 
   const Matrix3d to_s1 = before.inverse(), to_s2 = after.inverse(), mean = 0.5 * (before + after);
   const double turn = 2.0 * IMGMAX;  // the host's image flags count modulo this
+  const grainscope::MeanFlow &flow = impl_->flow;
+  std::vector<Fluctuations::Grain> moved;
+  std::vector<Vector3d> places(flow.kind == Kind::box ? 0 : atom->nlocal);
   for (int i = 0; i < atom->nlocal; i++) {
     double *record = impl_->record->of(i);
     if (record[TRACKED] == 0.0) continue;
     const Vector3d now = box.position(*atom, i, bodies);
     Map<Vector3d> last(record + POSITION), d(record + DISPLACEMENT);
-    Vector3d ds = to_s2 * (now - box.middle) - to_s1 * (last - box.middle);
+    const Vector3d s2 = to_s2 * (now - box.middle), s1 = to_s1 * (last - box.middle);
+    Vector3d ds = s2 - s1;
     for (int k = 0; k < 3; k++)
       if (!box.follows_grains[k]) ds[k] = std::remainder(ds[k], turn);
-    d += mean * ds;
     last = now;
+    if (flow.kind == Kind::box) {
+      d += mean * ds;
+      continue;
+    }
+    Vector3d s = s2 - 0.5 * ds;  // half way, in the box
+    for (int k = 0; k < 3; k++)
+      if (domain->periodicity[k]) s[k] -= std::round(s[k]);
+    Vector3d u = mean * ds;
+    if (moves_with_box(flow.kind)) u += (after - before) * s;
+    places[i] = after * s + box.middle + box.rest;
+    const grainscope::Body *body = bodies.of(i);
+    moved.push_back({i, 0, body ? body->mass : grainscope::mass_of(*atom, i), u, nullptr});
   }
+  if (flow.kind != Kind::box) subtract_mean(std::move(moved), std::move(places));
   Map<Matrix3d>(shared + EDGES) = box.edges;
+  shared[TIME_1] = impl_->record->passed_time();
+}
+
+/** What the grains have come by against their mean flow is added to their displacements. */
+void ComputeDisplacementShear::subtract_mean(std::vector<Fluctuations::Grain> moved, std::vector<Vector3d> places) {
+  grainscope::MeanFlow flow = impl_->flow;
+  flow.rate *= impl_->record->passed_time() - impl_->shared()[TIME_1];
+  const Fluctuations motion(lmp, name, std::move(moved), std::move(places), grainscope::BoxState(lmp), flow);
+  for (const Fluctuations::Grain &g : motion.local())
+    Map<Vector3d>(impl_->record->of(g.index) + DISPLACEMENT) += motion.velocity(g);
+}
+
+/** A grain that has left the region is not followed any more. */
+void ComputeDisplacementShear::forget_those_outside() {
+  if (!impl_->scope.within()) return;
+  impl_->scope.update(grainscope::BoxState(lmp));
+  const grainscope::Bodies bodies = bodies_now();
+  for (int i = 0; i < atom->nlocal; i++)
+    if (!impl_->scope.has_place(centre(i, bodies))) impl_->record->of(i)[TRACKED] = 0.0;
 }
 
 void ComputeDisplacementShear::follow(double strain) {
   advance();
+  forget_those_outside();
   double *shared = impl_->shared();
   const grainscope::Bodies bodies = bodies_now();
   double sums[5] = {};  // squares, grains that are followed, others of the group
   for (int i = 0; i < atom->nlocal; i++) {
     const double *record = impl_->record->of(i);
     if (record[TRACKED] == 0.0) {
-      if ((atom->mask[i] & groupbit) && bodies.stands_for_itself_or_clump(i)) sums[4] += 1.0;
+      if (has(i, bodies)) sums[4] += 1.0;
       continue;
     }
     Map<Vector3d>(sums + 0) += Map<const Vector3d>(record + DISPLACEMENT).cwiseAbs2();
@@ -248,7 +290,7 @@ void ComputeDisplacementShear::before_change_box() {
 void ComputeDisplacementShear::after_change_box() {
   impl_->record = FixGrainRecord::find(lmp, id);
   impl_->record->note_changed_box();
-  const Box box(*domain, *impl_->record);
+  const grainscope::UnwrappedBox box(*domain, *impl_->record);
   const grainscope::Bodies bodies = bodies_now();
   for (int i = 0; i < atom->nlocal; i++) {
     double *record = impl_->record->of(i);

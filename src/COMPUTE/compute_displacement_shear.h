@@ -10,12 +10,10 @@ ComputeStyle(displacement/shear,ComputeDisplacementShear)
 
 #include "box_watcher.h"
 #include "compute.h"
+#include "fluctuations.h"
 #include "outputs.h"
 #include <memory>
-
-namespace grainscope {
-class Bodies;
-}
+#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -23,7 +21,8 @@ class FixGrainRecord;
 
 /** How far grains have moved against the affine motion of a sheared box since a given strain. Between two calls, X
  *  is a grain's position with image flags from boxlo + (L_x, L_y, L_z)/2, H the box edges with the driven tilt
- *  continued through flips, s = H^-1 X:  d += (H_1 + H_2)/2 (s_2 - s_1).
+ *  continued through flips, s = H^-1 X:  d += (H_1 + H_2)/2 (s_2 - s_1). Against another mean flow:  d += u less the
+ *  mean flow of u,  u = d of the box and, where the flow is fitted or given, its affine motion.
  *  Along an axis whose faces follow the grains (boundary s or m) there is no affine motion: its edge is taken as it
  *  is at the second call.
  *  Scalar: <d_y^2>. Vector: strain, <d^2>, and D, half their slope over strain, least squares with free intercept
@@ -44,7 +43,11 @@ class ComputeDisplacementShear : public Compute, public grainscope::DeclaresOutp
   std::unique_ptr<Impl> impl_;
 
   grainscope::Bodies bodies_now() const;
+  void subtract_mean(std::vector<grainscope::Fluctuations::Grain> moved, std::vector<Eigen::Vector3d> places);
   void begin(double strain);
+  bool has(int i, const grainscope::Bodies &bodies) const;
+  Eigen::Vector3d centre(int i, const grainscope::Bodies &bodies) const;
+  void forget_those_outside();
   void follow(double strain);
   void advance();
   void require_flow_of_all();

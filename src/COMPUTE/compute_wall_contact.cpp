@@ -6,6 +6,7 @@
 #include "contact_observer.h"
 #include "contact_sums.h"
 #include "fix_grain_record.h"
+#include "grain_shape.h"
 #include "requirements.h"
 #include "wall_contact_sums.h"
 #include "atom.h"
@@ -90,7 +91,7 @@ class Impacts {
     std::vector<double> step(static_cast<std::size_t>(walls_) * width, 0.0);
     for (const auto &one : fresh_) {
       const int i = one.first.first;
-      const double speed = one.second, mass = atom.rmass ? atom.rmass[i] : atom.mass[atom.type[i]];
+      const double speed = one.second, mass = grainscope::mass_of(atom, i);
       double *const at = &step[one.first.second * width];
       at[number] += 1.0;
       at[velocity] += speed;

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <mpi.h>
 #include <sstream>
+#include <utility>
 
 namespace grainscope {
 
@@ -57,7 +58,7 @@ void Fluctuations::collect_with_bodies(const ChosenGrains &chosen, Flow flow) {
   const LAMMPS_NS::Atom *atom = lmp_->atom;
   for (int i = 0, n = atom->nlocal; i < n; i++) {
     if (!(atom->mask[i] & chosen.groupbit) || !bodies_.stands_for_itself_or_clump(i)) continue;
-    Grain grain = {i, 0, atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]], Vector3d::Zero(), bodies_.of(i)};
+    Grain grain = {i, 0, mass_of(*atom, i), Vector3d::Zero(), bodies_.of(i)};
     const Vector3d x = place(grain);
     if (chosen.region && !chosen.region->has(x)) continue;
     if (grain.body) grain.mass = grain.body->mass;
@@ -76,8 +77,8 @@ inline void Fluctuations::collect(const ChosenGrains &chosen, Flow flow) {
   for (int i = 0, n = atom->nlocal; i < n; i++) {
     if (!(atom->mask[i] & chosen.groupbit)) continue;
     if (chosen.region && !chosen.region->has(Map<const Vector3d>(atom->x[i]))) continue;
-    const double m = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
-    *grain++ = {i, 0, m, Map<const Vector3d>(atom->v[i]) - flow(Map<const Vector3d>(atom->x[i])), nullptr};
+    *grain++ = {i, 0, mass_of(*atom, i), Map<const Vector3d>(atom->v[i]) - flow(Map<const Vector3d>(atom->x[i])),
+                nullptr};
   }
   local_.resize(grain - local_.data());
 }
@@ -94,23 +95,16 @@ Fluctuations::Fluctuations(LAMMPS_NS::LAMMPS *lmp, const ChosenGrains &chosen, c
                            const MeanFlow &flow)
     : lmp_(lmp), bodies_(lmp, chosen.who), means_(flow.means()) {
   bodies_.update(box, chosen.groupbit);
-  const int along = flow.plane.flow, across = flow.plane.gradient;
   switch (flow.kind) {
     case MeanFlow::Kind::box:
     case MeanFlow::Kind::layers:
     case MeanFlow::Kind::cells: collect(chosen, [&](const Vector3d &x) { return box.flow(x); }); break;
-    case MeanFlow::Kind::rate:
-      collect(chosen, [&](const Vector3d &x) {
-        Vector3d shear = Vector3d::Zero();
-        shear[along] = flow.rate * (x[across] - box.centre[across]);
-        return shear;
-      });
-      break;
+    case MeanFlow::Kind::rate: collect(chosen, [&](const Vector3d &x) { return shear(flow, box, x); }); break;
     case MeanFlow::Kind::none:
     case MeanFlow::Kind::fit:
     case MeanFlow::Kind::gradient:
       collect(chosen, [](const Vector3d &) { return Vector3d(Vector3d::Zero()); });
-      if (flow.kind == MeanFlow::Kind::fit) subtract_line(across);
+      if (flow.kind == MeanFlow::Kind::fit) subtract_line(flow.plane.gradient);
       if (flow.kind == MeanFlow::Kind::gradient) subtract_gradient();
       break;
   }
@@ -118,11 +112,30 @@ Fluctuations::Fluctuations(LAMMPS_NS::LAMMPS *lmp, const ChosenGrains &chosen, c
   find_means();
 }
 
+Fluctuations::Fluctuations(LAMMPS_NS::LAMMPS *lmp, const std::string &who, std::vector<Grain> moved,
+                           std::vector<Vector3d> places, const BoxState &box, const MeanFlow &flow)
+    : lmp_(lmp), bodies_(lmp, who), local_(std::move(moved)), places_(std::move(places)), means_(flow.means()) {
+  if (flow.kind == MeanFlow::Kind::rate)
+    for (Grain &g : local_) g.u -= shear(flow, box, place(g));
+  if (flow.kind == MeanFlow::Kind::fit) subtract_line(flow.plane.gradient);
+  if (flow.kind == MeanFlow::Kind::gradient) subtract_gradient();
+  if (flow.means() > 1) find_layers(box, flow);
+  find_means();
+}
+
+/** The given rate's, at x. */
+Vector3d Fluctuations::shear(const MeanFlow &flow, const BoxState &box, const Vector3d &x) {
+  Vector3d along = Vector3d::Zero();
+  along[flow.plane.flow] = flow.rate * (x[flow.plane.gradient] - box.centre[flow.plane.gradient]);
+  return along;
+}
+
 Vector3d Fluctuations::own_spin(const Grain &grain) const {
   return grain.body ? grain.body->spin : Vector3d(Map<const Vector3d>(lmp_->atom->omega[grain.index]));
 }
 
 Vector3d Fluctuations::place(const Grain &grain) const {
+  if (!places_.empty()) return places_[grain.index];
   return grain.body ? grain.body->centre : Vector3d(Map<const Vector3d>(lmp_->atom->x[grain.index]));
 }
 

@@ -61,6 +61,11 @@ class Fluctuations {
   /** Against the affine flow of the box; spins are not asked for. */
   Fluctuations(LAMMPS_NS::LAMMPS *lmp, const ChosenGrains &chosen, const BoxState &box);
   Fluctuations(LAMMPS_NS::LAMMPS *lmp, const ChosenGrains &chosen, const BoxState &box, const MeanFlow &flow);
+  /** Of what grains have come by, in place of velocities: `moved` holds it as u, less the flow of the box where the mean
+   *  flow is of box, layers or cells; `places`, by local index, where. `flow rate` is a strain here. Spins are not asked
+   *  for. */
+  Fluctuations(LAMMPS_NS::LAMMPS *lmp, const std::string &who, std::vector<Grain> moved,
+               std::vector<Eigen::Vector3d> places, const BoxState &box, const MeanFlow &flow);
 
   /** This rank's grains of the group. */
   const std::vector<Grain> &local() const { return local_; }
@@ -91,7 +96,8 @@ class Fluctuations {
   LAMMPS_NS::LAMMPS *lmp_;
   Bodies bodies_;
   std::vector<Grain> local_;
-  std::vector<Mean> means_;  // of each layer or cell
+  std::vector<Eigen::Vector3d> places_;  // by local index, where they are given
+  std::vector<Mean> means_;              // of each layer or cell
   double grains_ = 0.0;
   Eigen::Vector3d slope_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d gradient_ = Eigen::Matrix3d::Zero();
@@ -102,6 +108,7 @@ class Fluctuations {
   template <class Flow>
   void collect_with_bodies(const ChosenGrains &chosen, Flow flow);
   void find_layers(const BoxState &box, const MeanFlow &flow);
+  static Eigen::Vector3d shear(const MeanFlow &flow, const BoxState &box, const Eigen::Vector3d &x);
   void subtract_gradient();
   void subtract_line(int gradient);
   void find_mean_velocity();

@@ -9,6 +9,11 @@
 
 namespace grainscope {
 
+/** Mass of grain i, its own or that of its type. */
+inline double mass_of(const LAMMPS_NS::Atom &atom, int i) {
+  return atom.rmass ? atom.rmass[i] : atom.mass[atom.type[i]];
+}
+
 /** Semi-axes of grain i: those of a superquadric, for a sphere its radius, three times. */
 inline Eigen::Vector3d semi_axes(const LAMMPS_NS::Atom &atom, int i) {
   if (atom.superquadric_flag) return Eigen::Map<const Eigen::Vector3d>(atom.shape[i]);

@@ -7,7 +7,7 @@ import numpy as np
 
 from case import main, require, require_close, require_equal
 from columns import outputs
-from deck import Deck, dump_grains, thermo
+from deck import Deck, dump_grains, shear, thermo
 from packing import Grain, Packing, dense_packing
 from run import run
 from wall_measures import BOX
@@ -158,6 +158,146 @@ def correlation_in_a_region(ranks):
         require_equal(moment.vector(none), np.zeros(5), "nothing in the empty region")
 
 
+def free_grains(gradient, noise, speed=(0.0, 0.0, 0.0)):
+    """Grains that do not touch, on a grid, in a box with faces far away: x = x_0 + v t."""
+    random = np.random.default_rng(7)
+    places = 6.0 * np.array(list(np.ndindex(5, 5, 5))) + random.uniform(20.0, 22.0, (125, 3))
+    v = np.array(speed) + (places - 33.0) @ np.array(gradient).T + random.normal(0.0, noise, (125, 3))
+    radii = random.choice([0.8, 1.0, 1.2], 125)
+    return [Grain(tuple(x), (r,) * 3, velocity=tuple(u)) for x, u, r in zip(places, v, radii)]
+
+
+TURN = [[0.0, -3.0, 0.5], [3.0, 0.0, -1.0], [-0.5, 1.0, 0.0]]
+MOVED = {
+    "none": "none",
+    "rate": "rate 1.7 plane xz",
+    "fit": "fit plane yz",
+    "gradient": "gradient",
+    "layers": "layers 4",
+    "cells": "cells 3 1 2",
+    "part": "gradient region part",
+}
+PART = [
+    "variable ahead equal 20*step*dt",
+    "variable none equal 0",
+    "region part sphere 33.0 33.0 33.0 11.0 units box move v_ahead v_none v_none",
+]
+
+
+def in_part(x, time):
+    return np.linalg.norm(x - 33.0 - np.array([20.0 * time, 0.0, 0.0]), axis=1) <= 11.0
+
+
+def mean_motion(words, u, x, m, dt, middle, edge):
+    """What a mean flow takes of u, what grains at x, half way, have come by."""
+    axes = {"xy": (0, 1), "xz": (0, 2), "yz": (1, 2)}
+    plane = axes[words[words.index("plane") + 1]] if "plane" in words else axes["xy"]
+    cells, taken = [1, 1, 1], np.zeros_like(u)
+    terms = (x - np.average(x, axis=0, weights=m))[:, {"fit": plane[1:], "gradient": (0, 1, 2)}.get(words[0], ())]
+    if words[0] == "rate":
+        taken[:, plane[0]] = float(words[1]) * dt * (x[:, plane[1]] - middle)
+    if words[0] == "layers":
+        cells[plane[1]] = int(words[1])
+    if words[0] == "cells":
+        cells = list(map(int, words[1:4]))
+    matrix = np.column_stack([np.ones(len(m)), terms]) * np.sqrt(m)[:, None]
+    taken = taken + terms @ np.linalg.lstsq(matrix, u * np.sqrt(m)[:, None], rcond=None)[0][1:]
+    cell = np.ravel_multi_index(np.floor(x / edge * cells).astype(int).T, cells)
+    for one in set(cell):
+        mine = cell == one
+        taken[mine] += np.average((u - taken)[mine], axis=0, weights=m[mine])
+    return taken
+
+
+def displacements_against_flows(ranks):
+    """Of grains in free flight, asked every ten steps."""
+    edge, every = 66.0, 12
+    packing = Packing((edge,) * 3, free_grains(TURN, 2.0, (5.0, -3.0, 1.0)), atom_style="sphere", triclinic=False)
+    moved = outputs("displacement/shear")
+    lines, asked = [*PART], []
+    for name, words in MOVED.items():
+        lines.append(f"compute d_{name} all displacement/shear strain time flow {words}")
+        asked += moved.of(f"d_{name}").vector()
+    lines += [*dump_grains(packing, every), "dump_modify grains first yes", *thermo(every, *asked), "run 60"]
+    result = run(Deck(packing, boundary="f f f", body=lines), ranks)
+    dumps, table = result.dump("grains.dump"), result.thermo()[-1]
+    mass = dumps[0][1]["mass"]
+    places = [np.stack([columns[a] for a in "xyz"], axis=1) for _, columns in dumps]
+    require(len(places) == 6, f"{len(places)} snapshots")
+    dt = float(table[moved.of("d_none")["strain"]][1])
+    for name, words in MOVED.items():
+        d, words = np.zeros_like(places[0]), words.split()
+        mine = in_part(places[0], 0.0) if name == "part" else np.ones(len(mass), dtype=bool)
+        many = mine.sum()
+        for at in range(1, len(places)):
+            u, x = (places[at] - places[at - 1])[mine], 0.5 * (places[at] + places[at - 1])[mine]
+            d[mine] += u - mean_motion(words, u, x, mass[mine], dt, edge / 2.0, edge)
+            if name == "part":
+                mine &= in_part(places[at], at * dt)
+            expected = (d[mine] ** 2).mean(axis=0)
+            found = [table[moved.of(f"d_{name}")[f"d2_{a}"]][at] for a in "xyz"]
+            require_close(found, expected, 1e-9, f"flow {name}, call {at}", expected.max())
+            numbers = [table[moved.of(f"d_{name}")[n]][at] for n in ("N", "N_start")]
+            require_equal(numbers, [mine.sum(), many], f"flow {name}: grains")
+        require(name != "part" or 5 < mine.sum() < many - 2, f"{mine.sum()} of {many} left in the region")
+
+
+def solid_turns(ranks):
+    """A bed that turns like a solid by large angles between two calls has no displacement against the gradient; without
+    grains in contact it is moved by a region that turns with the deck's own displace_atoms."""
+    packing = Packing((66.0,) * 3, free_grains(np.zeros((3, 3)), 0.0), atom_style="sphere", triclinic=False)
+    moved = outputs("displacement/shear").of("d")
+    body = [
+        "compute d all displacement/shear strain time flow gradient",
+        "compute n all displacement/shear strain time flow none",
+        *thermo(1, *moved.vector(), outputs("displacement/shear").of("n")["d2_x"]),
+        "run 1",
+    ]
+    for axis, angle in (("0 0 1", 40.0), ("1 2 -1", 70.0), ("1 0 0", -100.0)):
+        body += [f"displace_atoms all rotate 33.0 33.0 33.0 {axis} {angle} units box", "run 1"]
+    tables = run(Deck(packing, boundary="f f f", body=body), ranks).thermo()
+    for table in tables[1:]:
+        require(max(table[moved[f"d2_{a}"]][-1] for a in "xyz") < 1e-20, "nothing against the turn")
+    require(tables[-1][outputs("displacement/shear").of("n")["d2_x"]][-1] > 10.0, "the bed has turned")
+
+
+def sheared_flight(ranks):
+    """Grains that fly with a box that is sheared through flips: its flow is no displacement, whoever finds it, and with
+    `flow none` it is one."""
+    rate, edge, every = 8.0, 12.0, 20
+    random = np.random.default_rng(11)
+    places = 3.0 * np.array(list(np.ndindex(4, 4, 4))) + 1.5
+    places[:, [0, 2]] += random.uniform(-0.3, 0.3, (64, 2))  # those of a height keep their distances
+    v = np.zeros((64, 3))
+    v[:, 0] = rate * (places[:, 1] - edge / 2.0)
+    v[:, 2] = random.normal(0.0, 3.0, (4, 4, 1)).repeat(4, axis=2).ravel()  # columns that do not meet
+    v[:, 2] += 1.0
+    radii = random.choice([0.2, 0.3], 64)
+    grains = [Grain(tuple(x), (r,) * 3, velocity=tuple(u)) for x, u, r in zip(places, v, radii)]
+    deck = Deck(Packing((edge,) * 3, grains, atom_style="sphere"))
+    flows = ("box", "none", f"rate {rate}", "fit", "gradient", "layers 4")
+    moved, asked = outputs("displacement/shear"), []
+    deck.body = [shear(rate)]
+    for k, flow in enumerate(flows):
+        deck.body.append(f"compute d{k} all displacement/shear strain time flow {flow}")
+        asked += moved.of(f"d{k}").vector()
+    deck.body += [*thermo(every, *asked), "run 600"]
+    table = run(deck, ranks).thermo()[-1]
+    time = table[moved.of("d0")["strain"]]
+    require(rate * time[-1] > 1.5, "flips")
+    m = radii**3
+    for k, flow in enumerate(flows):
+        found = np.array([table[moved.of(f"d{k}")[f"d2_{a}"]] for a in "xyz"])
+        expected = np.zeros((3, len(time)))
+        if flow == "none":
+            expected[0] = ((v[:, 0] - np.average(v[:, 0], weights=m)) ** 2).mean() * time**2
+        require_close(found[:2], expected[:2], 1e-9, f"flow {flow}: x, y", edge**2)
+        if flow in ("box", "none", f"rate {rate}"):  # the others fit noise too
+            mean = 0.0 if flow == "box" else np.average(v[:, 2], weights=m)
+            expected = ((v[:, 2] - mean) ** 2).mean() * time**2
+            require_close(found[2], expected, 1e-9, f"flow {flow}: z", expected.max())
+
+
 EDGE_OF_PART = 4.0  # grains with a smaller x are in the region
 
 
@@ -238,14 +378,17 @@ def empty_start(ranks):
     lines = [
         "group none initialize",
         "variable strain equal step*1e-3",
+        "region far block 900 901 0 1 0 1 units box",
         "compute d none displacement/shear strain v_strain",
+        "compute e all displacement/shear strain v_strain flow gradient region far",
         "compute m none velocity/memory strain v_strain every 1e-3 lags 2",
-        "fix keep all ave/time 1 1 1 c_d c_m file /dev/null",
+        "fix keep all ave/time 1 1 1 c_d c_m c_e file /dev/null",
         "run 3",
     ]
     output = run(Deck(packing, body=lines), ranks).output
     for words in (
         "compute displacement/shear d: there is no grain in group 'none' when it starts",
+        "compute displacement/shear e: there is no grain in group 'all' and region 'far' when it starts",
         "compute velocity/memory m: there is no grain in the first sample",
     ):
         require_equal(output.count(words), 1, words)
@@ -255,6 +398,9 @@ CASES = {
     "mean-flows": mean_flows,
     "solid-rotation": solid_rotation,
     "over-time": over_time,
+    "displacements-against-flows": displacements_against_flows,
+    "solid-turns": solid_turns,
+    "sheared-flight": sheared_flight,
     "correlation-in-a-region": correlation_in_a_region,
     "grains-that-come-and-go": grains_that_come_and_go,
     "empty-start": empty_start,

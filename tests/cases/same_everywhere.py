@@ -207,6 +207,8 @@ def restart_continues(packing, other_ranks=None):
     def case(ranks):
         deck = Deck(packing)
         computes = [DISPLACEMENT, MEMORY]
+        for name, flow in (("fitted", "gradient"), ("given", f"rate {RATE}")):
+            computes.append(replace(DISPLACEMENT, name=name, command=f"{DISPLACEMENT.command} flow {flow}"))
         start = [
             *strain_lines(RATE),
             PRESS,

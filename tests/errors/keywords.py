@@ -291,7 +291,15 @@ STYLES = [
         REGION,
         order=("component", "every", "lags", "strain", "flow", "plane", "region"),
     ),
-    compute("displacement/shear", Keyword("start", number("a strain", ("0", "-5", "1e300"), ())), STRAIN),
+    compute(
+        "displacement/shear",
+        Keyword("start", number("a strain", ("0", "-5", "1e300"), ())),
+        STRAIN,
+        *FLOW,
+        PLANE,
+        REGION,
+        order=("start", "strain", "flow", "plane", "region"),
+    ),
     PRESS,
     Style("fix nve/spheroid", "fix spheroid all nve/spheroid", before=BOX),
     Style(
