@@ -2,6 +2,7 @@
 #include "compute_nematic.h"
 #include "arguments.h"
 #include "bodies.h"
+#include "chosen_axis.h"
 #include "grain_shape.h"
 #include "nematic.h"
 #include "scope.h"
@@ -23,19 +24,6 @@ using grainscope::AxisChoice;
 using grainscope::Scope;
 using grainscope::Shape;
 using grainscope::SymmetryAxis;
-
-/** The axis that stands for a grain's orientation, and whether it is its longest, as of a prolate grain, or its
- *  shortest, as of an oblate one; without an index where it has none of that kind. */
-SymmetryAxis chosen_axis(const double *semi_axes, AxisChoice choice) {
-  const SymmetryAxis own = grainscope::symmetry_axis(semi_axes), none = {Shape::sphere, -1};
-  if (choice == AxisChoice::symmetry) return own;
-  const Shape wanted = choice == AxisChoice::longest ? Shape::prolate : Shape::oblate;
-  if (own.shape == wanted) return own;
-  if (own.shape != Shape::triaxial) return none;
-  if (choice == AxisChoice::longest) return {Shape::prolate, own.index};
-  const int shortest = static_cast<int>(std::min_element(semi_axes, semi_axes + 3) - semi_axes);
-  return {Shape::oblate, shortest};
-}
 
 constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
 
@@ -90,7 +78,7 @@ void ComputeNematic::compute_vector() {
     if (!(atom->mask[i] & groupbit) || !impl_->scope.has_place(Eigen::Map<const Vector3d>(atom->x[i]))) continue;
     sums.add_spin(Eigen::Map<const Vector3d>(atom->omega[i]));
     if (!atom->superquadric_flag) continue;
-    const grainscope::SymmetryAxis axis = chosen_axis(atom->shape[i], impl_->scope.axis_choice());
+    const grainscope::SymmetryAxis axis = grainscope::chosen_axis(atom->shape[i], impl_->scope.axis_choice());
     if (axis.index < 0) continue;
     sums.add_axis(grainscope::orientation(*atom, i) * Vector3d::Unit(axis.index), axis.shape);
   }

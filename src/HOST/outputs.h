@@ -75,6 +75,10 @@ class DeclaresOutputs {
   void require_all_elements(const double *end) const {
     require_count(end - vector_.data(), outputs_.vector, "elements");
   }
+  /** The same of a row of the array. */
+  void require_all_columns(const double *begin, const double *end) const {
+    require_count(end - begin, outputs_.columns, "columns");
+  }
   /** For what has places of its own. */
   void require_count(std::size_t given, const OutputList &declared, const char *what) const;
   double array_bytes() const { return rows_.bytes(); }

@@ -182,4 +182,12 @@ bool shape_of(const Domain &domain, Region *region, Solid &solid, std::string &w
   return true;
 }
 
+bool is_standing_block(Region *region, Vector3d &low, Vector3d &high) {
+  RegBlock *const block = dynamic_cast<RegBlock *>(region);
+  if (!block || !region->interior || moveflag_of(region) || rotateflag_of(region)) return false;
+  low = {xlo_of(block), ylo_of(block), zlo_of(block)};
+  high = {xhi_of(block), yhi_of(block), zhi_of(block)};
+  return true;
+}
+
 }

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "compute_field.h"
+#include "arguments.h"
+#include "chosen_axis.h"
+#include "contact_measures.h"
+#include "contact_observer.h"
+#include "contact_sums.h"
+#include "field_gradient.h"
+#include "grain_shape.h"
+#include "requirements.h"
+#include "symmetric_tensor.h"
+#include "atom.h"
+#include "domain.h"
+#include "force.h"
+#include "update.h"
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+using Eigen::Map;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using grainscope::Contact;
+using grainscope::FieldQuantities;
+using grainscope::FieldSums;
+using grainscope::Scope;
+
+namespace {
+
+constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
+const std::vector<std::string> usual = {"density", "velocity", "stress"};
+
+/** F_a r_b, row by row. */
+void add_dyad(double *to, double weight, const Vector3d &f, const Vector3d &r) {
+  Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(to) += weight * f * r.transpose();
+}
+
+}
+
+ComputeField::ComputeField(LAMMPS *lmp, int &iarg, int narg, char **arg)
+    : ContactCompute(lmp, iarg, narg, arg, Scope::types | Scope::walls | Scope::axis),
+      quantities_(read(iarg, narg, arg)) {
+  grainscope::Outputs outputs;
+  outputs.scalar = {{"cells", "-", whole, "cells that hold grains"}};
+  outputs.vector = {{"N_total", "-", whole, "grains in cells"},
+                    {"M_total", "mass", whole, "their mass"},
+                    {"V_total", "volume", whole, "volume of all cells"},
+                    {"N_outside", "-", whole, "grains of the group that no cell knows"}};
+  outputs.set_array(settings_.cells(), "cell, x fastest", quantities_.columns(settings_.are_rings()));
+  declare(this, outputs);
+}
+
+FieldQuantities ComputeField::read(int &iarg, int narg, char **arg) {
+  grainscope::Arguments arguments(lmp, name_, iarg, narg, arg);
+  std::vector<std::string> words = grainscope::FieldSettings::keywords(), names = usual;
+  words.push_back("quantities");
+  words = scope_.with(words);
+  while (!arguments.done()) {
+    const std::string keyword = arguments.keyword(words);
+    if (scope_.read(arguments, keyword) || settings_.read(arguments, keyword)) continue;
+    names = arguments.words_before(words, "the names of quantities");
+  }
+  settings_.complete(arguments);
+  grainscope::require_grains(lmp, arguments);
+  return FieldQuantities(arguments, names);
+}
+
+void ComputeField::init() {
+  ContactCompute::init();
+  const grainscope::Arguments errors(lmp, name_);
+  grainscope::require_no_bodies(lmp, errors, "they would count sphere by sphere");
+  settings_.init(lmp, name_);
+  settings_.require_dimension(errors, domain->dimension);
+  if (domain->dimension == 2)
+    for (const char *name : {"Q", "S2", "director"})
+      if (quantities_.has(name)) errors.fail("'" + std::string(name) + "' needs dimension 3");
+  if (quantities_.blocks() & FieldSums::losses) require_known_losses();
+  if (!(settings_.map(grainscope::BoxState(lmp)).cells().volume(0) > 0.0))
+    errors.fail("the axis of rings must lie in the box, or 'r lo hi' be given");
+}
+
+/** Where nothing is asked of contacts, none are read. */
+bool ComputeField::wants_contacts() {
+  if (!ContactCompute::wants_contacts()) return false;
+  if (quantities_.need_contacts()) return true;
+  begin(grainscope::BoxState(lmp));
+  return false;
+}
+
+void ComputeField::begin_contacts() {
+  ContactCompute::begin_contacts();
+  begin(observer_->box());
+}
+
+void ComputeField::begin(const grainscope::BoxState &box) {
+  box_ = box;
+  map_ = settings_.map(box);
+  if (sums_.cells() == 0) sums_ = FieldSums(quantities_.blocks(), map_.cells().count());
+  sums_.reset();
+}
+
+bool ComputeField::reads_motion() const { return quantities_.need_contacts(); }
+
+void ComputeField::add_contacts(grainscope::ContactSpan contacts) {
+  grainscope::for_each_contact(contacts, selection(), [this](const Contact &c) { add_contact(c); });
+}
+
+void ComputeField::add_contact(const Contact &c) {
+  const Vector3d &point = c.motion->point;
+  const Vector3d centre = point - c.motion->arm;  // of i
+  if (sums_.has(FieldSums::force) || sums_.has(FieldSums::tangential)) add_branch(c, centre);
+  if (sums_.has(FieldSums::ends)) {
+    const auto add_end = [this](int cell, double weight, const Vector3d &) {
+      *sums_.of(FieldSums::ends, cell) += weight;
+    };
+    map_.for_each_at(centre, add_end);
+    if (c.with_own_grain()) map_.for_each_at(centre - c.branch, add_end);
+  }
+  map_.for_each_at(point, [&](int cell, double weight, const Vector3d &boxes) {
+    weight *= c.weight;
+    if (sums_.has(FieldSums::contacts)) sums_.of(FieldSums::contacts, cell)[c.with_wall() ? 1 : 0] += weight;
+    if (sums_.has(FieldSums::overlaps)) *sums_.of(FieldSums::overlaps, cell) += weight * c.overlap;
+    if (sums_.has(FieldSums::losses)) {
+      double *const losses = sums_.of(FieldSums::losses, cell);
+      losses[0] += weight * grainscope::damping_loss(c);
+      losses[1] += weight * grainscope::friction_loss(c);
+      losses[2] += weight * grainscope::tangential_damping_loss(c);
+    }
+    const bool pushes = c.with_wall() && sums_.has(FieldSums::traction);
+    if (!sums_.has(FieldSums::fabric) && !pushes) return;
+    const Matrix3d frame = map_.cells().frame(point + box_.edges * boxes);
+    if (pushes) Map<Vector3d>(sums_.of(FieldSums::traction, cell)) += weight * (frame * c.force);
+    if (!sums_.has(FieldSums::fabric)) return;
+    const Vector3d n = frame * c.normal;
+    grainscope::add_components(sums_.of(FieldSums::fabric, cell), weight, grainscope::dyad(n, n));
+  });
+}
+
+void ComputeField::add_branch(const Contact &c, const Vector3d &centre) {
+  map_.for_each_along(centre - c.branch, centre, [&](int cell, double share, const Vector3d &middle) {
+    const Matrix3d frame = map_.cells().frame(middle);
+    const Vector3d r = frame * c.branch;
+    if (sums_.has(FieldSums::force)) add_dyad(sums_.of(FieldSums::force, cell), share * c.weight, frame * c.force, r);
+    if (sums_.has(FieldSums::tangential))
+      add_dyad(sums_.of(FieldSums::tangential, cell), share * c.weight, frame * c.tangential_force, r);
+  });
+}
+
+void ComputeField::add_grain(int i) {
+  const Vector3d x = Map<const Vector3d>(atom->x[i]), v = Map<const Vector3d>(atom->v[i]);
+  const double mass = grainscope::mass_of(*atom, i);
+  double found = 0.0;
+  map_.for_each_at(x, [&](int cell, double weight, const Vector3d &boxes) {
+    found = 1.0;
+    const Vector3d at = x + box_.edges * boxes;
+    const Matrix3d frame = map_.cells().frame(at);
+    *sums_.of(FieldSums::grains, cell) += weight;
+    *sums_.of(FieldSums::mass, cell) += weight * mass;
+    if (sums_.has(FieldSums::solid))
+      *sums_.of(FieldSums::solid, cell) += weight * grainscope::solid_volume(*atom, i, domain->dimension);
+    if (sums_.has(FieldSums::momentum))
+      Map<Vector3d>(sums_.of(FieldSums::momentum, cell)) +=
+          weight * mass * (frame * (v + box_.edge_velocities * boxes));
+    if (sums_.has(FieldSums::spin))
+      Map<Vector3d>(sums_.of(FieldSums::spin, cell)) += weight * (frame * Map<const Vector3d>(atom->omega[i]));
+    if (sums_.has(FieldSums::centroid))
+      Map<Vector3d>(sums_.of(FieldSums::centroid, cell)) +=
+          weight * mass * (map_.cells().position(at) - map_.cells().middle(cell));
+    if (sums_.has(FieldSums::axes)) add_axis(i, frame, weight, sums_.of(FieldSums::axes, cell));
+  });
+  outside_ += 1.0 - found;
+}
+
+void ComputeField::add_axis(int i, const Matrix3d &frame, double weight, double *to) const {
+  if (!atom->superquadric_flag) return;
+  const grainscope::SymmetryAxis axis = grainscope::chosen_axis(atom->shape[i], scope_.axis_choice());
+  if (axis.index < 0) return;
+  const Vector3d p = frame * (grainscope::orientation(*atom, i) * Vector3d::Unit(axis.index));
+  grainscope::add_components(to, weight, grainscope::dyad(p, p));
+  to[6] += weight;
+}
+
+/** Of grains against the mean motion about each cell, which must be known. */
+void ComputeField::add_motion() {
+  const grainscope::FieldMotion mean(map_, sums_, settings_.wraps(box_), box_.edge_velocities);
+  FieldSums mine(FieldSums::motion, sums_.cells());
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!in_group(i)) continue;
+    const Vector3d x = Map<const Vector3d>(atom->x[i]), v = Map<const Vector3d>(atom->v[i]);
+    const double mass = grainscope::mass_of(*atom, i);
+    map_.for_each_at(x, [&](int cell, double weight, const Vector3d &boxes) {
+      const Vector3d at = x + box_.edges * boxes;
+      const Vector3d dv =
+          map_.cells().frame(at) * (v + box_.edge_velocities * boxes) - mean.velocity(cell, map_.cells().position(at));
+      grainscope::add_components(mine.of(FieldSums::motion, cell), weight * mass, grainscope::dyad(dv, dv));
+    });
+  }
+  sum_over_ranks(mine.numbers().data(), static_cast<int>(mine.numbers().size()));
+  for (int cell = 0; cell < sums_.cells(); cell++)
+    std::copy_n(mine.of(FieldSums::motion, cell), 6, sums_.of(FieldSums::motion, cell));
+}
+
+void ComputeField::answer() {
+  outside_ = 0.0;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (in_group(i)) add_grain(i);
+  sum_over_ranks(sums_.numbers().data(), static_cast<int>(sums_.numbers().size()));
+  sum_over_ranks(&outside_, 1);
+  for (int cell = 0; cell < sums_.cells(); cell++) *sums_.of(FieldSums::volume, cell) = map_.cells().volume(cell);
+  if (sums_.has(FieldSums::motion)) add_motion();
+
+  double grains = 0.0, mass = 0.0, volume = 0.0, filled = 0.0;
+  for (int cell = 0; cell < sums_.cells(); cell++) {
+    const Vector3d middle = map_.cells().middle(cell);
+    double *const begin = array[cell], *const end = quantities_.write(sums_, cell, 1.0, units(),
+                                                                      std::copy_n(middle.data(), 3, begin));
+    require_all_columns(begin, end);
+    grains += *sums_.of(FieldSums::grains, cell);
+    mass += *sums_.of(FieldSums::mass, cell);
+    volume += *sums_.of(FieldSums::volume, cell);
+    if (*sums_.of(FieldSums::grains, cell) > 0.0) filled += 1.0;
+  }
+  scalar = filled;
+  put_vector({grains, mass, volume, outside_});
+}
+
+grainscope::FieldUnits ComputeField::units() const {
+  grainscope::FieldUnits units;
+  units.pressure = force->nktv2p;
+  units.kinetic = force->mvv2e * force->nktv2p;
+  units.dimension = domain->dimension;
+  return units;
+}
+
+double ComputeField::memory_usage() {
+  return array_bytes() + 2.0 * sizeof(double) * const_cast<FieldSums &>(sums_).numbers().capacity();
+}

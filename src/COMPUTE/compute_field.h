@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifdef COMPUTE_CLASS
+
+ComputeStyle(field,ComputeField)
+
+#else
+
+#ifndef LMP_COMPUTE_FIELD_H
+#define LMP_COMPUTE_FIELD_H
+
+#include "contact_compute.h"
+#include "field_map.h"
+#include "field_quantities.h"
+#include "field_settings.h"
+#include "field_sums.h"
+#include "outputs.h"
+
+namespace LAMMPS_NS {
+
+/** Continuum fields of grains and contacts on a grid: densities, velocity, temperature, stress, fabric, order, power.
+ *  Kernel cell: what lies in a cell, of branches the part inside, so that cells add up to the box; lucy, gaussian:
+ *  phi(r - x) about the middles, branches in closed form. Array: a row per cell, x fastest: middle, volume, grains,
+ *  then the quantities that were asked for. Scalar: cells that hold grains. Vector: totals, and grains in no cell.
+ *  Source: Goldhirsch 2010, doi 10.1007/s10035-010-0181-z; walls: Weinhart et al. 2012, doi
+ *  10.1007/s10035-012-0317-4. */
+class ComputeField : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
+ public:
+  ComputeField(class LAMMPS *lmp, int &iarg, int narg, char **arg);
+  void init() override;
+  bool wants_contacts() override;
+  void begin_contacts() override;
+  void add_contacts(grainscope::ContactSpan contacts) override;
+  bool reads_motion() const override;
+  double memory_usage() override;
+
+  /** For what averages over time. Of the step that was asked for last, on all ranks. */
+  const grainscope::FieldSums &sums() const { return sums_; }
+  const grainscope::FieldMap &map() const { return map_; }
+  const grainscope::FieldQuantities &quantities() const { return quantities_; }
+  grainscope::FieldUnits units() const;
+
+ protected:
+  void answer() override;
+
+ private:
+  grainscope::FieldSettings settings_;
+  grainscope::FieldQuantities quantities_;
+  grainscope::FieldMap map_;    // as of the evaluation
+  grainscope::FieldSums sums_;  // of this rank, after the answer of all
+  grainscope::BoxState box_;
+  double outside_ = 0.0;
+  bool warned_ = false;  // of flat and long grains together
+
+  grainscope::FieldQuantities read(int &iarg, int narg, char **arg);
+  void begin(const grainscope::BoxState &box);
+  void add_contact(const grainscope::Contact &c);
+  void add_branch(const grainscope::Contact &c, const Eigen::Vector3d &centre);
+  void add_grain(int i);
+  void add_axis(int i, const Eigen::Matrix3d &frame, double weight, double *to) const;
+  void add_motion();
+};
+
+}
+
+#endif
+#endif

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "field_settings.h"
+#include "arguments.h"
+#include "region_shape.h"
+#include "domain.h"
+#include "lammps.h"
+#include <algorithm>
+#include <cmath>
+
+namespace grainscope {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+const int most_cells = 10000000;
+const double infinite = 1e19;  // less than what INF is to the host
+
+bool any_number(double) { return true; }
+bool is_positive(double x) { return x > 0.0; }
+
+Vector3d corner_of(const BoxState &box) { return box.centre - 0.5 * box.edges.rowwise().sum(); }
+
+}
+
+std::vector<std::string> FieldSettings::keywords() {
+  return {"grid", "x", "y", "z", "region", "frame", "about", "r", "kernel", "width"};
+}
+
+bool FieldSettings::read(Arguments &arguments, const std::string &keyword) {
+  if (keyword == "grid") {
+    for (int &number : numbers_) number = arguments.whole_number(keyword, 1, most_cells);
+    if (static_cast<double>(numbers_[0]) * numbers_[1] * numbers_[2] > most_cells)
+      arguments.fail("grid", "at most " + std::to_string(most_cells) + " cells",
+                     std::to_string(numbers_[0]) + " " + std::to_string(numbers_[1]) + " " +
+                         std::to_string(numbers_[2]));
+  } else if (keyword == "x" || keyword == "y" || keyword == "z") {
+    const int axis = keyword[0] - 'x';
+    bounded_[axis] = true;
+    read_bounds(arguments, keyword, bounds_[axis]);
+  } else if (keyword == "r") {
+    has_radii_ = true;
+    read_bounds(arguments, keyword, radii_);
+    if (radii_[0] < 0.0) arguments.fail("r", "radii, not negative", Arguments::text(radii_[0]));
+  } else if (keyword == "region") region_ = arguments.word("the ID of a region");
+  else if (keyword == "frame") frame_ = arguments.choice(keyword, {"box", "lab"}) == "box" ? Frame::box : Frame::lab;
+  else if (keyword == "about") read_about(arguments);
+  else if (keyword == "kernel") {
+    const std::string kind = arguments.choice(keyword, {"cell", "lucy", "gaussian"});
+    kernel_ = kind == "cell"   ? FieldKernel::Kind::cell
+              : kind == "lucy" ? FieldKernel::Kind::lucy
+                               : FieldKernel::Kind::gaussian;
+  } else if (keyword == "width") {
+    has_width_ = true;
+    width_ = arguments.number(keyword, "a positive length", is_positive);
+  } else return false;
+  return true;
+}
+
+void FieldSettings::read_bounds(Arguments &arguments, const std::string &keyword, Bounds &bounds) {
+  for (double &bound : bounds) bound = arguments.number(keyword, "two numbers, the lower one first", any_number);
+  if (!(bounds[0] < bounds[1]))
+    arguments.fail(keyword, "two numbers, the lower one first",
+                   Arguments::text(bounds[0]) + " " + Arguments::text(bounds[1]));
+}
+
+/** As the host's cylinders: the axis, then the two coordinates across it. */
+void FieldSettings::read_about(Arguments &arguments) {
+  about_ = arguments.choice("about", {"x", "y", "z"})[0] - 'x';
+  for (int k = 0; k < 3; k++)
+    if (k != about_) centre_[k] = arguments.number("about", "the place of the axis, two coordinates", any_number);
+}
+
+void FieldSettings::complete(const Arguments &errors) {
+  if (numbers_[0] == 0) errors.fail("needs 'grid nx ny nz'");
+  const bool bounded = bounded_[0] || bounded_[1] || bounded_[2];
+  if (is_smooth() != has_width_)
+    errors.fail(has_width_ ? "'width' is of kernel lucy and gaussian, not of kernel cell"
+                           : "kernel lucy and gaussian need 'width w'");
+  if (!region_.empty() && bounded) errors.fail("bounds are given by 'region' or by 'x', 'y', 'z', not by both");
+  if (frame_ == Frame::automatic) frame_ = bounded || !region_.empty() || are_rings() ? Frame::lab : Frame::box;
+  if (frame_ == Frame::box && !region_.empty()) errors.fail("a region stands in space: 'frame lab'");
+  if (frame_ == Frame::box)
+    for (int k = 0; k < 3; k++)
+      if (bounded_[k] && (bounds_[k][0] < 0.0 || bounds_[k][1] > 1.0))
+        errors.fail(std::string(1, static_cast<char>('x' + k)),
+                    "from 0 to 1 with 'frame box', fractions of the box's edge",
+                    Arguments::text(bounds_[k][0]) + " " + Arguments::text(bounds_[k][1]));
+  if (are_rings()) complete_rings(errors);
+  else if (has_radii_) errors.fail("'r' needs 'about x|y|z c1 c2'");
+}
+
+void FieldSettings::complete_rings(const Arguments &errors) {
+  if (is_smooth()) errors.fail("'about' goes with kernel cell");
+  if (frame_ == Frame::box) errors.fail("'about' goes with frame lab");
+  if (!region_.empty()) errors.fail("'about' goes with 'r' and bounds along the axis, not with 'region'");
+  if (numbers_[1] != 1)
+    errors.fail("grid", "nr 1 nz with 'about'",
+                std::to_string(numbers_[0]) + " " + std::to_string(numbers_[1]) + " " + std::to_string(numbers_[2]));
+  for (int k = 0; k < 3; k++)
+    if (k != about_ && bounded_[k]) errors.fail("rings are bounded by 'r' and along their axis");
+}
+
+void FieldSettings::init(LAMMPS_NS::LAMMPS *lmp, const std::string &style) {
+  if (region_.empty()) return;
+  const Arguments errors(lmp, style);
+  const int found = lmp->domain->find_region(const_cast<char *>(region_.c_str()));
+  if (found < 0) errors.fail("region", "a region that is defined", region_);
+  LAMMPS_NS::Region *const region = lmp->domain->regions[found];
+  Vector3d low, high;
+  if (!is_standing_block(region, low, high))
+    errors.fail("region '" + region_ + "': a grid is that of a block that does not move");
+  for (int k = 0; k < 3; k++) {
+    const bool from = low[k] > -infinite, to = high[k] < infinite;
+    if (from != to) errors.fail("region '" + region_ + "': both bounds along an axis, or INF twice");
+    bounded_[k] = from;
+    bounds_[k] = {{low[k], high[k]}};
+  }
+}
+
+void FieldSettings::require_dimension(const Arguments &errors, int dimension) const {
+  if (dimension == 3) return;
+  if (numbers_[2] != 1) errors.fail("grid", "nx ny 1 with 'dimension 2'", std::to_string(numbers_[2]) + " along z");
+  if (bounded_[2] && region_.empty()) errors.fail("'z' needs dimension 3");
+  if (are_rings() && about_ != 2) errors.fail("'about' must be z with 'dimension 2'");
+}
+
+/** Along axis k in space. */
+FieldSettings::Bounds FieldSettings::extent(const BoxState &box, int k) const {
+  if (bounded_[k]) return bounds_[k];
+  const double low = corner_of(box)[k];
+  return {{low, low + box.edges(k, k)}};
+}
+
+FieldMap FieldSettings::map(const BoxState &box) const {
+  const FieldMap::Space space = {corner_of(box), box.edges, box.periodic};
+  return FieldMap(are_rings() ? rings(box) : blocks(box), space, frame_ == Frame::box, kernel_, width_);
+}
+
+FieldCells FieldSettings::blocks(const BoxState &box) const {
+  Vector3d corner = corner_of(box);
+  Matrix3d edges = frame_ == Frame::box ? box.edges : Matrix3d::Zero();
+  std::array<bool, 3> open;
+  for (int k = 0; k < 3; k++) {
+    if (frame_ == Frame::box) {
+      if (bounded_[k]) corner += bounds_[k][0] * box.edges.col(k);
+      if (bounded_[k]) edges.col(k) *= bounds_[k][1] - bounds_[k][0];
+      open[k] = !bounded_[k];  // what is in the periodic box is in its cells, whatever rounding says
+      continue;
+    }
+    const Bounds all = extent(box, k);
+    corner[k] = all[0];
+    edges(k, k) = all[1] - all[0];
+    open[k] = !bounded_[k] && !box.periodic[k];
+  }
+  return FieldCells::blocks(corner, edges, numbers_, open);
+}
+
+FieldCells FieldSettings::rings(const BoxState &box) const {
+  Bounds radii = radii_;
+  if (!has_radii_) {  // up to the nearest face
+    radii = {{0.0, HUGE_VAL}};
+    for (int k = 0; k < 3; k++) {
+      if (k == about_) continue;
+      const Bounds all = extent(box, k);
+      radii[1] = std::min({radii[1], centre_[k] - all[0], all[1] - centre_[k]});
+    }
+  }
+  return FieldCells::rings(about_, centre_, radii, extent(box, about_), numbers_,
+                           !bounded_[about_] && !box.periodic[about_]);
+}
+
+std::array<bool, 3> FieldSettings::wraps(const BoxState &box) const {
+  std::array<bool, 3> wraps{{false, false, false}};
+  for (int k = 0; k < 3; k++) wraps[k] = frame_ == Frame::box && !bounded_[k] && box.periodic[k];
+  return wraps;
+}
+
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_FIELD_SETTINGS_H
+#define GRAINSCOPE_FIELD_SETTINGS_H
+
+#include "box_state.h"
+#include "field_map.h"
+#include <array>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+class LAMMPS;
+}
+
+namespace grainscope {
+
+class Arguments;
+
+/** Where a field is: the words of its grid, and the cells that they make of the box as it is. */
+class FieldSettings {
+ public:
+  static std::vector<std::string> keywords();
+  /** Reads what follows `keyword` when it is one of these. */
+  bool read(Arguments &arguments, const std::string &keyword);
+  /** Errors when words are missing or do not go together. */
+  void complete(const Arguments &errors);
+  /** Before each run: finds the region. Errors when it is not there, or no block that stands. */
+  void init(LAMMPS_NS::LAMMPS *lmp, const std::string &style);
+
+  /** Errors for a grid that two dimensions do not have. */
+  void require_dimension(const Arguments &errors, int dimension) const;
+
+  int cells() const { return numbers_[0] * numbers_[1] * numbers_[2]; }
+  bool are_rings() const { return about_ >= 0; }
+  bool is_smooth() const { return kernel_ != FieldKernel::Kind::cell; }
+  /** The cells as the box is. */
+  FieldMap map(const BoxState &box) const;
+  /** Which axes repeat themselves in a grid of the whole box. */
+  std::array<bool, 3> wraps(const BoxState &box) const;
+
+ private:
+  using Bounds = std::array<double, 2>;
+  enum class Frame { automatic, box, lab } frame_ = Frame::automatic;
+  std::array<int, 3> numbers_{{0, 0, 0}};
+  std::array<bool, 3> bounded_{{false, false, false}};
+  std::array<Bounds, 3> bounds_{};
+  std::string region_;
+  int about_ = -1;  // axis of rings
+  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();
+  bool has_radii_ = false;
+  Bounds radii_{};
+  FieldKernel::Kind kernel_ = FieldKernel::Kind::cell;
+  bool has_width_ = false;
+  double width_ = 0.0;
+
+  void read_bounds(Arguments &arguments, const std::string &keyword, Bounds &bounds);
+  void read_about(Arguments &arguments);
+  void complete_rings(const Arguments &errors);
+  Bounds extent(const BoxState &box, int k) const;
+  FieldCells blocks(const BoxState &box) const;
+  FieldCells rings(const BoxState &box) const;
+};
+
+}
+
+#endif

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_CHOSEN_AXIS_H
+#define GRAINSCOPE_CHOSEN_AXIS_H
+
+#include "scope.h"
+#include "symmetry_axis.h"
+#include <algorithm>
+
+namespace grainscope {
+
+/** The axis that stands for a grain's orientation, and whether it is its longest, as of a prolate grain, or its
+ *  shortest, as of an oblate one; without an index where it has none of that kind. */
+inline SymmetryAxis chosen_axis(const double *semi_axes, AxisChoice choice) {
+  const SymmetryAxis own = symmetry_axis(semi_axes), none = {Shape::sphere, -1};
+  if (choice == AxisChoice::symmetry) return own;
+  const Shape wanted = choice == AxisChoice::longest ? Shape::prolate : Shape::oblate;
+  if (own.shape == wanted) return own;
+  if (own.shape != Shape::triaxial) return none;
+  if (choice == AxisChoice::longest) return {Shape::prolate, own.index};
+  const int shortest = static_cast<int>(std::min_element(semi_axes, semi_axes + 3) - semi_axes);
+  return {Shape::oblate, shortest};
+}
+
+}
+
+#endif
