@@ -74,8 +74,8 @@ void ComputeField::init() {
     for (const char *name : {"Q", "S2", "director"})
       if (quantities_.has(name)) errors.fail("'" + std::string(name) + "' needs dimension 3");
   if (quantities_.blocks() & FieldSums::losses) require_known_losses();
-  if (!(settings_.map(grainscope::BoxState(lmp)).cells().volume(0) > 0.0))
-    errors.fail("the axis of rings must lie in the box, or 'r lo hi' be given");
+  map_ = settings_.map(grainscope::BoxState(lmp));
+  if (!(map_.cells().volume(0) > 0.0)) errors.fail("the axis of rings must lie in the box, or 'r lo hi' be given");
 }
 
 /** Where nothing is asked of contacts, none are read. */

@@ -10,9 +10,8 @@ ComputeStyle(field,ComputeField)
 
 #include "contact_compute.h"
 #include "field_map.h"
-#include "field_quantities.h"
 #include "field_settings.h"
-#include "field_sums.h"
+#include "field_source.h"
 #include "outputs.h"
 
 namespace LAMMPS_NS {
@@ -23,7 +22,9 @@ namespace LAMMPS_NS {
  *  then the quantities that were asked for. Scalar: cells that hold grains. Vector: totals, and grains in no cell.
  *  Source: Goldhirsch 2010, doi 10.1007/s10035-010-0181-z; walls: Weinhart et al. 2012, doi
  *  10.1007/s10035-012-0317-4. */
-class ComputeField : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
+class ComputeField : public grainscope::ContactCompute,
+                     public grainscope::DeclaresOutputs,
+                     public grainscope::FieldSource {
  public:
   ComputeField(class LAMMPS *lmp, int &iarg, int narg, char **arg);
   void init() override;
@@ -33,11 +34,10 @@ class ComputeField : public grainscope::ContactCompute, public grainscope::Decla
   bool reads_motion() const override;
   double memory_usage() override;
 
-  /** For what averages over time. Of the step that was asked for last, on all ranks. */
-  const grainscope::FieldSums &sums() const { return sums_; }
-  const grainscope::FieldMap &map() const { return map_; }
-  const grainscope::FieldQuantities &quantities() const { return quantities_; }
-  grainscope::FieldUnits units() const;
+  const grainscope::FieldSums &sums() const override { return sums_; }
+  const grainscope::FieldCells &cells() const override { return map_.cells(); }
+  const grainscope::FieldQuantities &quantities() const override { return quantities_; }
+  grainscope::FieldUnits units() const override;
 
  protected:
   void answer() override;

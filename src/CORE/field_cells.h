@@ -33,6 +33,12 @@ class FieldCells {
   /** Of a block, the edges that `numbers` divide; of rings those of the block that holds them. */
   const Eigen::Matrix3d &edges() const { return edges_; }
   const Eigen::Vector3d &corner() const { return corner_; }
+  /** Of the coordinates that rows are numbered along: corner and edges, of rings by radius, azimuth and axis. */
+  Eigen::Vector3d first_corner() const { return rings_ ? Eigen::Vector3d(radii_[0], 0.0, places_[0]) : corner_; }
+  Eigen::Matrix3d numbered_edges() const {
+    if (!rings_) return edges_;
+    return Eigen::Vector3d(radii_[1] - radii_[0], 1.0, places_[1] - places_[0]).asDiagonal();
+  }
   int cell(const Numbers &at) const { return at[0] + numbers_[0] * (at[1] + numbers_[1] * at[2]); }
   Numbers place(int cell) const {
     return {{cell % numbers_[0], cell / numbers_[0] % numbers_[1], cell / (numbers_[0] * numbers_[1])}};

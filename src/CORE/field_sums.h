@@ -45,6 +45,11 @@ class FieldSums {
 
   bool has(Block block) const { return blocks_ & block; }
   int cells() const { return cells_; }
+  /** The same blocks, all 0. */
+  FieldSums zero() const { return FieldSums(blocks_, cells_); }
+  void add(const FieldSums &other) {
+    for (std::size_t k = 0; k < numbers_.size(); k++) numbers_[k] += other.numbers_[k];
+  }
   void reset() { std::fill(numbers_.begin(), numbers_.end(), 0.0); }
   std::vector<double> &numbers() { return numbers_; }
   double *of(Block block, int cell) {

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifdef FIX_CLASS
+
+FixStyle(field/write,FixFieldWrite)
+
+#else
+
+#ifndef LMP_FIX_FIELD_WRITE_H
+#define LMP_FIX_FIELD_WRITE_H
+
+#include "fix.h"
+#include "field_source.h"
+#include <string>
+#include <vector>
+
+namespace grainscope {
+struct FieldTable;
+}
+
+namespace LAMMPS_NS {
+
+/** Writes a compute field, averaged over samples in time, to files for pandas (csv) and ParaView (vti, vts). Means are
+ *  ratios of sums; errors are standard errors of the means of blocks of samples. Rank 0 writes. */
+class FixFieldWrite : public Fix {
+ public:
+  FixFieldWrite(class LAMMPS *lmp, int narg, char **arg);
+  int setmask() override;
+  void init() override;
+  void setup(int vflag) override;
+  void end_of_step() override;
+
+ private:
+  bigint repeats_ = 1, frequency_ = 1;  // nevery is the host's
+  std::string compute_id_;
+  std::vector<std::string> files_;
+  int blocks_ = 0;  // 0: no errors
+
+  class Compute *compute_ = nullptr;
+  grainscope::FieldSource *source_ = nullptr;
+  bigint next_ = -1;                             // sample
+  bigint taken_ = 0;                             // samples since the last file
+  std::vector<grainscope::FieldSums> averaged_;  // of each block, or of all
+
+  void find_source();
+  bigint next_sample(bigint after) const;
+  void add_sample();
+  grainscope::FieldTable table() const;
+  void write_files();
+  std::string write(const std::string &pattern, const grainscope::FieldTable &table) const;
+};
+
+}
+
+#endif
+#endif
