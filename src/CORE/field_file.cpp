@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "field_file.h"
-#include "finite.h"
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <set>
 #include <stdexcept>
 
@@ -100,51 +98,16 @@ std::vector<Group> groups_of(const std::vector<std::string> &names) {
   return groups;
 }
 
-/** Bytes of a number, lowest first, on every machine. */
-void append_bytes(std::string &bytes, std::uint64_t number) {
-  for (int k = 0; k < 8; k++) bytes += static_cast<char>(number >> (8 * k) & 0xff);
-}
-
-std::string base64(const std::string &bytes) {
-  const char *digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t k = 0; k < bytes.size(); k += 3) {
-    unsigned three = 0;
-    for (std::size_t n = k; n < k + 3; n++)
-      three = three << 8 | (n < bytes.size() ? static_cast<unsigned char>(bytes[n]) : 0u);
-    for (int n = 0; n < 4; n++) text += k + n > bytes.size() ? '=' : digits[three >> (18 - 6 * n) & 63];
-  }
-  return text;
-}
-
-/** Numbers as VTK reads them whatever they are: their length in bytes and they, in base64. */
-std::string encoded(const std::vector<double> &numbers) {
-  std::string bytes;
-  append_bytes(bytes, 8 * numbers.size());
-  for (double number : numbers) {
-    std::uint64_t bits;
-    std::memcpy(&bits, &number, sizeof bits);
-    append_bytes(bytes, bits);
-  }
-  return base64(bytes) + '\n';
-}
-
 /** One array of the cells' data, `first` columns behind the values. */
 void append_array(std::string &text, const FieldTable &table, const Group &group, std::size_t first,
                   const std::string &name) {
-  const std::size_t width = group.columns.size();
-  std::vector<double> numbers;
-  numbers.reserve(table.rows() * width);
+  text += "<DataArray type=\"Float64\" Name=\"" + name + "\" NumberOfComponents=\"" +
+          std::to_string(group.columns.size()) + "\" format=\"ascii\">\n";
   for (std::size_t row = 0; row < table.rows(); row++)
-    for (std::size_t column : group.columns) numbers.push_back(table.values[row * table.columns() + first + column]);
-  const bool finite = all_finite(numbers.data(), numbers.size());
-  text += "<DataArray type=\"Float64\" Name=\"" + name + "\" NumberOfComponents=\"" + std::to_string(width) +
-          "\" format=\"" + (finite ? "ascii" : "binary") + "\">\n";
-  if (!finite) text += encoded(numbers);
-  for (std::size_t k = 0; finite && k < numbers.size(); k++) {
-    append(text, numbers[k]);
-    text += (k + 1) % width == 0 ? '\n' : ' ';
-  }
+    for (std::size_t column : group.columns) {
+      append(text, table.values[row * table.columns() + first + column]);
+      text += column == group.columns.back() ? '\n' : ' ';
+    }
   text += "</DataArray>\n";
 }
 
@@ -167,8 +130,7 @@ std::string vtk_file(const FieldTable &table, const std::string &kind, const std
                      const std::string &points) {
   std::string time;
   append(time, table.time);
-  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + kind +
-         "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<" + kind + " WholeExtent=\"" +
+  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + kind + "\" version=\"1.0\">\n<" + kind + " WholeExtent=\"" +
          extent(table) + '"' + attributes +
          ">\n<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">\n" +
          time + "\n</DataArray>\n</FieldData>\n<Piece Extent=\"" + extent(table) + "\">\n" + points + cell_data(table) +
