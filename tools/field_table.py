@@ -134,8 +134,8 @@ def prefix_of(field, name):
 
 
 def panels(field, words=None):
-    """[(title, names of columns)] of what is asked for: columns, or vectors and tensors by what their components have in
-    common. Without words all quantities."""
+    """[(title, names of columns)] of what is asked for: columns, or vectors and tensors by what their components have
+    in common. Without words all quantities."""
     if not words:
         titles = dict.fromkeys(prefix_of(field, name) or name for name in field.quantities)
         return panels(field, list(titles))

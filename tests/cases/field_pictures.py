@@ -22,7 +22,7 @@ SIZE = np.array([4.0, 6.0, 10.0])
 
 def quantity(k, place, step):
     """Number k of the quantities at places: other for each quantity, cell and step."""
-    return (k + 1.0) * (place @ [1.0, 10.0, 100.0]) - 40.0 * k + step
+    return (k + 1.0) * ((place - 0.5 * SIZE) @ [1.0, 10.0, 100.0]) + k + step
 
 
 def write(name, cells, names=("rho", "v_x", "v_y", "v_z"), step=0, tilt=0.0, errors=False, coordinates="xyz"):
@@ -131,6 +131,8 @@ def maps(ranks):
             require((axis.get_xlabel(), axis.get_ylabel()) == tuple(plane), f"axes of {name} in {plane}")
         low, high = figure.axes[1].images[0].get_clim()
         require(low == -high and high == np.abs(field["v_x"]).max(), f"colours from {low} to {high}")
+        colours = draw([field], ["N"]).axes[0].images[0].get_clim()
+        require(colours == (0.0, 11.0), f"colours of what has one sign: {colours}")
         plt.close(figure)
 
 
@@ -245,7 +247,8 @@ def not_finite(ranks):
     figure = draw([field], ["rho", "phi"])
     values = field["rho"][np.isfinite(field["rho"])]
     require(np.isfinite(field["rho"]).sum() == 10, f"{field['rho']}")
-    require(figure.axes[0].images[0].get_clim() == (values.min(), values.max()), "colours")
+    largest = np.abs(values).max()
+    require(figure.axes[0].images[0].get_clim() == (-largest, largest), "colours")
     require(figure.axes[1].images[0].get_clim() == (0.0, 1.0), "colours of nothing finite")
     animate([field, field], path.with_suffix(".gif"), ["phi"])
 
@@ -265,7 +268,7 @@ def bad_files(ranks):
     refused(changed("# cells 1 2 2", "# cells 4"), "'4'")
     refused(changed("# cells 1 2 2", "# cells 2 2 one"), "one")
     refused(changed("x,y,z,V", "x,y,V"), "row 1", "values")
-    refused(changed("x,y,z,V", "a,b,c,V"), "no columns x, y, z or r, t, a") if False else None
+    refused(lambda: changed("x,y,z,V", "a,b,c,V")().coordinates, "no columns x, y, z or r, t, a", "a, b, c, V")
     other = write("b.csv", (1, 4, 1))
     refused(lambda: read_fields([path, other]), "same cells", "1 x 2 x 2", "1 x 4 x 1")
     other = write("c.csv", (1, 2, 2), ("rho",))
@@ -304,22 +307,21 @@ def command_line(ranks):
         require(code != 0 and expected in said and "Traceback" not in said, f"{words}: {code}, {said}")
 
 
-if __name__ == "__main__":
-    main(
-        {
-            "cells-in-order": cells_in_order,
-            "profiles": profiles,
-            "error-bands": error_bands,
-            "several-files": several_files,
-            "maps": maps,
-            "tilted-maps": tilted_maps,
-            "slices": slices,
-            "arrows": arrows,
-            "rings": rings,
-            "animation": animation,
-            "groups-and-columns": groups_and_columns,
-            "not-finite": not_finite,
-            "bad-files": bad_files,
-            "command-line": command_line,
-        }
-    )
+main(
+    {
+        "cells-in-order": cells_in_order,
+        "profiles": profiles,
+        "error-bands": error_bands,
+        "several-files": several_files,
+        "maps": maps,
+        "tilted-maps": tilted_maps,
+        "slices": slices,
+        "arrows": arrows,
+        "rings": rings,
+        "animation": animation,
+        "groups-and-columns": groups_and_columns,
+        "not-finite": not_finite,
+        "bad-files": bad_files,
+        "command-line": command_line,
+    }
+)
