@@ -1,0 +1,148 @@
+"""Reads the csv files of fix field/write: quantities in the cells of a grid at one step. Used by plot_field.py."""
+
+from dataclasses import dataclass
+from pathlib import Path
+import re
+
+import numpy as np
+
+from shear_output import InputError, numbers
+
+COORDINATES = (("x", "y", "z"), ("r", "t", "a"))  # of a box, and of rings about an axis
+ERROR = "_error"
+
+
+@dataclass
+class Field:
+    """One file: its columns by name, as arrays over the cells along z, y, x."""
+
+    path: Path
+    step: int
+    time: float
+    cells: tuple  # along x, y, z
+    columns: dict
+
+    @property
+    def coordinates(self):
+        """Names of the three coordinates of the cells."""
+        for names in COORDINATES:
+            if all(name in self.columns for name in names):
+                return names
+        raise InputError(f"{self.path}: no columns x, y, z or r, t, a with the middles of the cells; {self.has}")
+
+    @property
+    def resolved(self):
+        """Names of the coordinates along which there is more than one cell."""
+        return [name for name, n in zip(self.coordinates, self.cells) if n > 1]
+
+    @property
+    def quantities(self):
+        """Names of what is measured: neither coordinates, nor the size of cells, nor errors."""
+        errors = {name + ERROR for name in self.columns}
+        return [name for name in self.columns if name not in errors | {*self.coordinates, "V"}]
+
+    @property
+    def has(self):
+        """What there is, in words."""
+        return f"it has {', '.join(self.columns)}"
+
+    @property
+    def size(self):
+        return " x ".join(map(str, self.cells))
+
+    def __getitem__(self, name):
+        """A column without the axes along which there is one cell."""
+        return np.squeeze(self.columns[name])
+
+    def error(self, name):
+        """The error of a column, or None."""
+        return self[name + ERROR] if name + ERROR in self.columns else None
+
+    def sliced(self, name, k):
+        """The layer k of the cells along a coordinate, counted from 0."""
+        place = self.coordinates.index(name)
+        columns = {one: np.take(values, [k], axis=2 - place) for one, values in self.columns.items()}
+        cells = tuple(1 if n == place else count for n, count in enumerate(self.cells))
+        return Field(self.path, self.step, self.time, cells, columns)
+
+
+def lines_of(path):
+    try:
+        return Path(path).read_text().splitlines()
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise InputError(f"{path}: not a text file") from None
+
+
+def read_notes(path, lines):
+    """Step, time and cells, from the lines that begin with '#'."""
+    notes = dict(re.findall(r"^# *(step|time|cells) +(.*\S)", "\n".join(lines), re.M))
+    missing = [f"'# {name}'" for name in ("step", "time", "cells") if name not in notes]
+    if missing:
+        raise InputError(f"{path}: no line {', '.join(missing)}; a csv file of fix field/write is needed")
+    try:
+        step, time, cells = int(notes["step"]), float(notes["time"]), tuple(map(int, notes["cells"].split()))
+    except ValueError as error:
+        raise InputError(f"{path}: {error}") from None
+    if len(cells) != 3 or min(cells) < 1:
+        raise InputError(f"{path}: '# cells' must be three numbers of at least 1, got '{notes['cells']}'")
+    return step, time, cells
+
+
+def read_field(path):
+    lines = lines_of(path)
+    step, time, cells = read_notes(path, [line for line in lines if line.startswith("#")])
+    table = [line.split(",") for line in lines if line.strip() and not line.startswith("#")]
+    if not table:
+        raise InputError(f"{path}: no line with the names of the columns")
+    names, rows = [name.strip() for name in table[0]], table[1:]
+    nx, ny, nz = cells
+    if len(rows) != nx * ny * nz:
+        raise InputError(f"{path}: {len(rows)} rows, but {nx} x {ny} x {nz} cells")
+    values = numbers(path, rows, names).reshape(nz, ny, nx, len(names))
+    return Field(Path(path), step, time, cells, {name: values[..., k] for k, name in enumerate(names)})
+
+
+def read_fields(paths):
+    """All files in the order of their steps; of one grid, with the same columns."""
+    fields = sorted(map(read_field, paths), key=lambda field: field.step)
+    first = fields[0]
+    for field in fields[1:]:
+        if field.cells != first.cells:
+            raise InputError(
+                f"all files must have the same cells: {first.path}: {first.size}; {field.path}: {field.size}"
+            )
+        if list(field.columns) != list(first.columns):
+            raise InputError(
+                f"all files must have the same columns; {first.path}: {first.has}; {field.path}: {field.has}"
+            )
+    return fields
+
+
+def components(field, prefix):
+    """The columns <prefix>_<one or two coordinates>."""
+    axes = "".join(field.coordinates)
+    return [name for name in field.columns if re.fullmatch(rf"{re.escape(prefix)}_[{axes}]{{1,2}}", name)]
+
+
+def prefix_of(field, name):
+    """What the components of a vector or a tensor have in common; None of other columns, and where a column is called
+    so."""
+    found = re.fullmatch(rf"(.+)_[{''.join(field.coordinates)}]{{1,2}}", name)
+    return found[1] if found and found[1] not in field.columns and len(components(field, found[1])) > 1 else None
+
+
+def panels(field, words=None):
+    """[(title, names of columns)] of what is asked for: columns, or vectors and tensors by what their components have
+    in common. Without words all quantities."""
+    if not words:
+        titles = dict.fromkeys(prefix_of(field, name) or name for name in field.quantities)
+        return panels(field, list(titles))
+    found = []
+    for word in words:
+        names = [word] if word in field.columns else components(field, word)
+        if not names:
+            raise InputError(f"--columns must be columns of {field.path}, got '{word}'; {field.has}")
+        found.append((word, names))
+    return found
