@@ -163,6 +163,8 @@ add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case S
   RANKS 1 LONG_RANKS 2 CASES spheres under-pressure-control subgroup running plane-wave)
 
 # press/strain
+add_cases(press/strain-faces-that-close cases/faces_that_close.py LABEL case STYLES press/strain gran/insitu
+  RANKS 1 2 LONG_RANKS 4 CASES pressed pressed-and-sheared deformed)
 add_cases(press/strain-control cases/press_strain.py LABEL case STYLES press/strain CASES
   shears-backward-as-fix-deform shears-in-xz shears-in-yz recursion-clipped recursion-clipped-by-rate
   recursion-every-time recursion-negative-rate inputs-every-strain inputs-every-time inputs-every-step

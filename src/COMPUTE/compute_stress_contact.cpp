@@ -188,15 +188,17 @@ void ComputeStressContact::answer() {
     stiffness_ = flattest_shape() * std::pow(softest_modulus() * depth, 2.0 / 3.0);
     stiffness_of_build_ = neighbor->lastcall;
   }
-  const double kappa = stiffness_ * std::pow(per_pressure, 2.0 / 3.0);
+  const bool is_whole = scope_.type_pair().any();  // the pressure of some contacts tells nothing of the grains
+  const double kappa = is_whole ? stiffness_ * std::pow(per_pressure, 2.0 / 3.0) : 0.0;
   *out++ = kappa;
   *out++ = with_walls;
   require_all_elements(out);
   if (!unasked())
-    soft_.watch(lmp, pressure > 0.0 && kappa < hard_grains,
-                "compute stress/contact: the stiffness number kappa is %.4g, below the hard-grain limit of %g: results "
-                "depend on how stiff the "
-                "grains are. Stiffer grains, or a lower pressure",
+    soft_.watch(lmp, is_whole && pressure > 0.0 && kappa < hard_grains,
+                ("compute stress/contact " + std::string(id) +
+                 ": the stiffness number kappa is %.4g, below the hard-grain limit of %g: results depend on how stiff "
+                 "the grains are. Stiffer grains, or a lower pressure")
+                    .c_str(),
                 kappa, hard_grains);
   for (int k = 0; k < size_vector; k++) vector[k] += 0.0;  // no negative zeros
   if (!grainscope::all_finite(vector, size_vector))

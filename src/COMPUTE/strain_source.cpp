@@ -40,7 +40,7 @@ void StrainSource::find_press_strain(const Arguments &errors) {
     fix_ = modify->fix[k];
   }
   if (!fix_)
-    errors.fail("needs to know the strain: use fix press/strain, or the keyword 'strain' with f_ID[n] or v_name");
+    errors.fail("needs to know the strain: use fix press/strain, or the keyword 'strain' with f_ID[n], v_name or time");
 }
 
 void StrainSource::init() {

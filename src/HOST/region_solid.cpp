@@ -148,9 +148,8 @@ bool RegionSolid::volume(double &value, std::string &why) const {
     why = "it does not end where the box follows the grains, boundary s or m: bounds instead of INF and EDGE";
     return false;
   }
-  if (value > 0.0) return true;
-  why = "nothing of it lies in the box";
-  return false;
+  if (!(value > 0.0)) Arguments(lmp, style_).fail("region '" + id_ + "': nothing of it lies in the box");
+  return true;
 }
 
 }

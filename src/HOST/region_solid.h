@@ -35,7 +35,7 @@ class RegionSolid : private LAMMPS_NS::Pointers {
   /** Errors where the shape is not known by which lines are cut, from now on whenever it is found again. */
   void require_parts();
   /** Of what lies in the box, in two dimensions the area in the plane of the grains; false where it is not known, and
-   *  why. */
+   *  why; an error where there is none. */
   bool volume(double &value, std::string &why) const;
 
  private:

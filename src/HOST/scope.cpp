@@ -7,6 +7,8 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "fix.h"
+#include "modify.h"
 
 namespace grainscope {
 
@@ -115,15 +117,27 @@ double Scope::volume_of_region() const {
   return value;
 }
 
+namespace {
+
+bool has_gravity_or_walls(const LAMMPS_NS::Modify &modify) {
+  for (int k = 0; k < modify.nfix; k++) {
+    const std::string style = modify.fix[k]->style;
+    if (style.rfind("gravity", 0) == 0 || style.rfind("wall/", 0) == 0) return true;
+  }
+  return false;
+}
+
+}
+
 void Scope::warn_of_whole_box() {
-  if (warned_ || (domain->xperiodic && domain->yperiodic && domain->zperiodic)) return;
+  const bool may_be_filled = domain->xperiodic && domain->yperiodic && domain->zperiodic;
+  if (warned_ || (may_be_filled && !has_gravity_or_walls(*modify))) return;
   warned_ = true;
   if (comm->me == 0)
-    error->warning(
-        FLERR,
-        (style_ + ": stresses are per volume of the whole box, and grains need not fill one that is not "
-                  "periodic: say 'region ID' or 'volume V' of what they fill, or 'volume auto' where the box is meant")
-            .c_str());
+    error->warning(FLERR, (style_ + ": stresses are per volume of the whole box, and grains need not fill one that "
+                                    "is not periodic, or has walls or gravity: say 'region ID' or 'volume V' of what "
+                                    "they fill, or 'volume auto' where the box is meant")
+                              .c_str());
 }
 
 double Scope::volume_now(const BoxState &box) const {

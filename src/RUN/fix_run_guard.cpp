@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_run_guard.h"
+#include "bodies.h"
 #include "bin_index.h"
 #include "contact_observer.h"
 #include "finite.h"
@@ -91,7 +92,9 @@ void FixRunGuard::warn_of_damping() {
           << "damping: a contact pushes with ";
   if (std::isinf(excess)) message << "a tangential force though it has no friction";
   else message << excess << " times its friction limit";
-  message << ". Say 'setup neutral' in pair_style gran/insitu to keep the limit, or 'tangential_damping off'";
+  const bool clumps = grainscope::has_bodies(lmp);  // which 'setup neutral' refuses
+  message << ". " << (clumps ? "" : "Say 'setup neutral' in pair_style gran/insitu to keep the limit, or ")
+          << "'tangential_damping off'" << (clumps ? " has no such force" : "");
   error->warning(FLERR, message.str().c_str());
 }
 
