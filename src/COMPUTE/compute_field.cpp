@@ -92,6 +92,7 @@ void ComputeField::begin_contacts() {
 }
 
 void ComputeField::begin(const grainscope::BoxState &box) {
+  answered_ = false;
   box_ = box;
   map_ = settings_.map(box);
   if (sums_.cells() == 0) sums_ = FieldSums(quantities_.blocks(), map_.cells().count());
@@ -200,6 +201,8 @@ void ComputeField::add_motion() {
 }
 
 void ComputeField::answer() {
+  if (answered_) return;
+  answered_ = true;
   outside_ = 0.0;
   for (int i = 0; i < atom->nlocal; i++)
     if (in_group(i)) add_grain(i);
