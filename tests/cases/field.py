@@ -11,8 +11,8 @@ from contact_measures import flipped, undamped
 from deck import Deck, dump_grains
 from meshes import folder_with
 from oracle import field as oracle
-from oracle.comparison_field import EXACT, OF_CONTACTS, OF_GRAINS, Asked, block, largest, require_agreement
-from oracle.field import Grid
+from oracle.comparison_field import OF_CONTACTS, OF_GRAINS, Asked, block, largest, require_agreement
+from oracle.field_grid import Grid
 from packing import Grain, Packing, dense_packing, disc_packing, tilted
 from refusal import require_refused
 from run import run

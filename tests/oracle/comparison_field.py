@@ -7,6 +7,7 @@ import numpy as np
 
 from case import require_close, require_equal
 from oracle import field as oracle
+from oracle.field_grid import Grid
 from watch import Watched
 
 OF_GRAINS = ("density", "phi", "momentum", "velocity", "spin", "temperature", "stress_kinetic")
@@ -45,7 +46,7 @@ class Asked:
     """`types`: a pair, None for any; `wall_type` is that of all walls."""
 
     name: str
-    grid: oracle.Grid
+    grid: Grid
     quantities: tuple = (*OF_GRAINS, *OF_CONTACTS)
     walls: str = "yes"
     types: tuple = ()
