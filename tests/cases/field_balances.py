@@ -154,7 +154,7 @@ def pile():
 IN_PILE = (True, True, False)
 COLUMN = Grid((1, 1, 8), periodic=IN_PILE)
 BLOCKS = Grid((2, 3, 5), periodic=IN_PILE)
-BALANCED = ("density", "stress", "traction")
+BALANCED = ("density", "momentum", "stress", "traction")
 
 
 def weight(ranks):

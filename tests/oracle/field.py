@@ -181,8 +181,9 @@ def ends_of(rows, grains):
     return grains.x[np.concatenate([one, other])]
 
 
-def field(grid, rows, grains, box, chosen, walls="yes", points=200, sampled=0):
-    """{column: values of the cells}; `rows` are the group's, `box` that of the force evaluation."""
+def field(grid, rows, grains, box, chosen, walls="yes", points=200, sampled=0, branches=True):
+    """{column: values of the cells}; `rows` are the group's, `box` that of the force evaluation. Without `branches`,
+    which take long, no stresses of contacts."""
     placed, table = grid.in_box(box), {}
     put(table, ("x", "y", "z"), placed.middles())
     table["V"] = placed.volumes()
@@ -191,7 +192,8 @@ def field(grid, rows, grains, box, chosen, walls="yes", points=200, sampled=0):
     if rows is not None:
         rows = chosen_rows(rows, walls)
         of_contact_points(table, placed, rows, ends_of(rows, grains), table["N"])
-        of_branches(table, placed, rows, grains, points, sampled)
+        if branches:
+            of_branches(table, placed, rows, grains, points, sampled)
     return table
 
 
