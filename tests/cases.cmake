@@ -515,6 +515,24 @@ add_cases(contact/force cases/contact_force.py LABEL case STYLES contact/force c
 add_cases(contact/force cases/contact_force.py LABEL case STYLES contact/force contact/local RANKS 1 LONG_RANKS 2 4
   CASES trajectory-untouched oblate superquadric cohesive of-types discs in-a-region of-a-group empty-group)
 
+# Fields on grids
+add_cases(field cases/field.py LABEL case STYLES field RANKS 1 2 LONG_RANKS 4 CASES
+  sheared-spheres sheared-ellipsoids flipping-box laboratory walls)
+add_cases(field cases/field.py LABEL case STYLES field RANKS 1 4 LONG_RANKS 2 CASES
+  gaussian lucy rings-in-a-drum empty-cells trajectory-untouched)
+add_cases(field cases/field.py LABEL case STYLES field RANKS 1 LONG_RANKS 2 4 CASES
+  which-walls types group rings-in-a-periodic-box two-dimensions order-of-columns by-region clumps-refused)
+add_cases(field+stress/contact+packing-sums cases/field.py LABEL case
+  STYLES field stress/contact fabric dissipation packing nematic RANKS 1 2 LONG_RANKS 4 CASES
+  sums sums-ellipsoids sums-between-walls)
+add_cases(field cases/field.py LABEL case STYLES field CASES
+  oracle-clipped-as-sampled oracle-by-hand oracle-weights-of-kernels oracle-sums oracle-sums-ellipsoids
+  oracle-sums-between-walls)
+add_cases(field cases/field_balances.py LABEL case STYLES field RANKS 1 2 LONG_RANKS 4 CASES
+  cold-affine cold-rotation cold-rotation-in-rings cold-sheared-box mass weight)
+add_cases(field cases/field_balances.py LABEL case STYLES field RANKS 1 LONG_RANKS 2 4 CASES
+  cold-layers momentum momentum-gaussian)
+
 # Includes between the folders of src/
 add_cases(suite-floors cases/floors.py LABEL case STYLES suite CASES
   includes-go-down small-tree-passes up-refused up-by-angle-brackets-refused beside-refused host-in-core-refused

@@ -52,6 +52,9 @@ add_cases(press/strain-refused errors/press_strain.py LABEL error STYLES press/s
   target-variable-negative orthogonal-box)
 add_cases(press/strain-refused errors/press_strain.py LABEL error STYLES press/strain RANKS 1 2 CASES wall-on-the-axis)
 set(recorded displacement/shear grain/record)
+add_cases(field-refused errors/field.py LABEL error STYLES field RANKS 1 LONG_RANKS 2 CASES
+  numbers too-many-cells quantities bounds kernels rings choices two-dimensions)
+add_cases(field-refused errors/field.py LABEL error STYLES field CASES taken)
 add_cases(contact/surface-refused errors/measures.py LABEL error STYLES contact/surface CASES
   surface-sphere-among-spheroids surface-boxy)
 add_cases(contact/surface-refused errors/measures.py LABEL error STYLES contact/surface RANKS 1 2 CASES
