@@ -102,6 +102,11 @@ const std::vector<FieldQuantities::Quantity> &FieldQuantities::all() {
          list.add_each(words.vector, {"v_*", "velocity", intensive, "velocity *, momentum over mass"});
        },
        [](const CellSums &s, double *to) { return write_vector(s, F::momentum, s(F::mass), to); }},
+      {"spin", F::spin,
+       [](List &list, const Words &words) {
+         list.add_each(words.vector, {"w_*", "1/time", intensive, "mean angular velocity *"});
+       },
+       [](const CellSums &s, double *to) { return write_vector(s, F::spin, s(F::grains), to); }},
       {"temperature", F::mass | F::momentum | F::centroid | F::motion,
        [](List &list, const Words &words) {
          list.add_each(words.vector, {"T_*", "velocity^2", intensive, "granular temperature *"})
@@ -113,11 +118,6 @@ const std::vector<FieldQuantities::Quantity> &FieldQuantities::all() {
          *to++ = sum / s.units.dimension;
          return to;
        }},
-      {"spin", F::spin,
-       [](List &list, const Words &words) {
-         list.add_each(words.vector, {"w_*", "1/time", intensive, "mean angular velocity *"});
-       },
-       [](const CellSums &s, double *to) { return write_vector(s, F::spin, s(F::grains), to); }},
       {"stress", F::force,
        [](List &list, const Words &words) {
          list.add_each(words.nine, {"s_*", "pressure", intensive, "contact stress *, tension positive"});
@@ -192,6 +192,14 @@ const std::vector<FieldQuantities::Quantity> &FieldQuantities::all() {
          for (int k = 1; k < 3; k++) *to++ = s(F::losses, k) / s.volume() + 0.0;
          return to;
        }},
+      {"overlap", F::contacts | F::overlaps,
+       [](List &list, const Words &) {
+         list.add({"overlap", "distance", intensive, "mean overlap"});
+       },
+       [](const CellSums &s, double *to) {
+         *to++ = CellSums::ratio(s(F::overlaps), s(F::contacts, 0) + s(F::contacts, 1));
+         return to;
+       }},
       {"Q", F::axes,
        [](List &list, const Words &words) {
          list.add_each(words.six, {"Q_*", "-", intensive, "order tensor *, <p p> - 1/3"});
@@ -213,14 +221,6 @@ const std::vector<FieldQuantities::Quantity> &FieldQuantities::all() {
        [](const CellSums &s, double *to) {
          const Vector3d n = director(s);
          return std::copy_n(n.data(), 3, to);
-       }},
-      {"overlap", F::contacts | F::overlaps,
-       [](List &list, const Words &) {
-         list.add({"overlap", "distance", intensive, "mean overlap"});
-       },
-       [](const CellSums &s, double *to) {
-         *to++ = CellSums::ratio(s(F::overlaps), s(F::contacts, 0) + s(F::contacts, 1));
-         return to;
        }},
   };
   return quantities;
