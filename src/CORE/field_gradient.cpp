@@ -36,27 +36,33 @@ Matrix3d FieldMotion::fitted(const FieldMap &map, int cell, const std::array<boo
   Vector3d first_x = Vector3d::Zero(), first_v = Vector3d::Zero();
   double mass = 0.0;
   const Mean &own = means_[cell];
-  const auto add = [&](const Mean &mean, const Vector3d &shift, const Vector3d &jump) {
-    const Vector3d dx = map.across() * (shift + mean.centre - own.centre);
-    const Vector3d dv = jump + mean.velocity - own.velocity;
-    first_x += mean.mass * dx;
-    first_v += mean.mass * dv;
-    mass += mean.mass;
-    products += mean.mass * dv * dx.transpose();
-    spread += mean.mass * dx * dx.transpose();
-  };
-  add(own, Vector3d::Zero(), Vector3d::Zero());
-  for (int k = 0; k < 3; k++)
-    for (int step : {-1, 1}) {
-      if (n[k] == 1) continue;
-      FieldCells::Numbers other = at;
-      other[k] += step;
-      const bool beyond = other[k] < 0 || other[k] >= n[k];
-      if (beyond && !wraps[k]) continue;
-      if (!beyond) add(means_[cells.cell(other)], Vector3d::Zero(), Vector3d::Zero());
-      other[k] -= step * n[k];
-      if (beyond) add(means_[cells.cell(other)], step * cells.edges().col(k), step * jumps.col(k));
-    }
+  FieldCells::Numbers step;
+  for (step[2] = -1; step[2] <= 1; step[2]++)
+    for (step[1] = -1; step[1] <= 1; step[1]++)
+      for (step[0] = -1; step[0] <= 1; step[0]++) {
+        FieldCells::Numbers other;
+        Vector3d dx = Vector3d::Zero(), dv = Vector3d::Zero();
+        bool there = true;
+        for (int k = 0; k < 3; k++) {
+          other[k] = at[k] + step[k];
+          there = there && (step[k] == 0 || n[k] > 1);
+          const int beyond = other[k] < 0 ? -1 : other[k] >= n[k] ? 1 : 0;
+          if (beyond == 0) continue;
+          there = there && wraps[k];
+          other[k] -= beyond * n[k];
+          dx += beyond * cells.edges().col(k);
+          dv += beyond * jumps.col(k);
+        }
+        if (!there) continue;
+        const Mean &mean = means_[cells.cell(other)];
+        dx = map.across() * (dx + mean.centre - own.centre);
+        dv += mean.velocity - own.velocity;
+        first_x += mean.mass * dx;
+        first_v += mean.mass * dv;
+        mass += mean.mass;
+        products += mean.mass * dv * dx.transpose();
+        spread += mean.mass * dx * dx.transpose();
+      }
   products -= first_v * first_x.transpose() / mass;
   spread -= first_x * first_x.transpose() / mass;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(spread);
