@@ -64,9 +64,9 @@ LAB = {
 }
 
 
-def tilting():
+def tilting(minimum=100):
     """A box that tilts and flips half-way through the steps that are looked at."""
-    deck = undamped(tilted(dense_packing(atom_style="sphere"), 0.499))
+    deck = undamped(tilted(dense_packing(atom_style="sphere", minimum=minimum), 0.499))
     lx, ly, _ = deck.packing.edges
     return deck, deforming(0.002 * lx / ly / (20 * deck.dt()))
 
@@ -83,7 +83,8 @@ WALLED = {
 }
 
 
-def smooth(kernel, width=0.8, tolerance=2e-3):
+def smooth(kernel, width=0.8, tolerance=5e-4):
+    """The gaussian jumps by 1 % of its height where it is cut, and quadratures differ by shares of that."""
     grids = {
         "one": Grid((1, 9, 1), kernel=kernel, width=width),
         "two": Grid((5, 1, 4), kernel=kernel, width=width),
@@ -257,7 +258,7 @@ def order_of_columns(ranks):
     """Columns come in the order of the definitions."""
     some = ("overlap", "stress", "density", "velocity")
     asked = [Asked("one", Grid((2, 2, 1)), some), Asked("other", Grid((2, 2, 1)), some[::-1])]
-    for moment in measured(SPHERES, asked, ranks):
+    for moment in measured(SPHERES, asked, ranks, settle=OFF_LATTICE):
         require_equal(moment.array(asked[0].watched), moment.array(asked[1].watched), "columns")
         require_agreement(asked[0], moment)
 
@@ -267,7 +268,7 @@ def empty_cells(ranks):
     packing = dense_packing(atom_style="sphere", minimum=30)
     long = replace(packing, edges=(*packing.edges[:2], 3.0 * packing.edges[2]))
     asked = asked_on({"empty": Grid((1, 2, 6)), "nothing": Grid((2, 2, 2), "lab", (None, None, (20.0, 22.0)))})
-    agrees(undamped(long), asked, fewest=1)(ranks)
+    agrees(undamped(long), asked, fewest=1, settle=OFF_LATTICE)(ranks)
     table = asked[0].found(measured(undamped(long), asked[:1], ranks)[0])
     require((table["N"] == 0).any(), "empty cells")
     for moment in measured(undamped(long), asked[:1], ranks, group="5000:5001"):
@@ -296,7 +297,9 @@ def by_region(ranks):
     sides = ((2.0, 7.5), (1.0, 8.0), (0.5, 5.0))
     asked = Asked("bounds", Grid((2, 3, 2), "lab", sides))
     other = replace(asked.watched, name="region", command="field grid 2 3 2 region part quantities " + " ".join(ALL))
-    made = watched_deck(replace(SPHERES, body=[block_line]), [asked.watched, other], every=10, thermo_every=10)
+    made = watched_deck(
+        replace(SPHERES, body=[block_line]), [asked.watched, other], every=10, thermo_every=10, settle=OFF_LATTICE
+    )
     for moment in moments_of(run(made, ranks)):
         require_agreement(asked, moment)
         require_equal(moment.array(other), moment.array(asked.watched), "region")
@@ -309,23 +312,28 @@ def clumps_refused(ranks):
 
 
 TILTING, TILTS = tilting()
+SMALL, SMALL_TILTS = tilting(30)
+# On the lattice, from which grains start, contact points lie on faces of cells.
+OFF_LATTICE = 10
 SHEARED = {"flow": FLOW, "settle": 40, "thermo_every": 1}
 CASES = {
     "sheared-spheres": agrees(SPHERES, [*asked_on(BOX_GRIDS), Asked("part", replace(PART, frame="box"))], **SHEARED),
     "sheared-ellipsoids": agrees(ELLIPSOIDS, asked_on(BOX_GRIDS, WITH_AXES), **SHEARED),
-    "flipping-box": agrees(TILTING, asked_on(BOX_GRIDS), TILTS, flipped, settle=5, thermo_every=1),
-    "laboratory": agrees(TILTING, asked_on(LAB), TILTS, flipped, settle=5, thermo_every=1),
+    "flipping-box": agrees(
+        TILTING, asked_on(BOX_GRIDS), TILTS, flipped, settle=5, every=5, thermo_every=1, snapshots=5
+    ),
+    "laboratory": agrees(TILTING, asked_on(LAB), TILTS, flipped, settle=5, every=5, thermo_every=1, snapshots=5),
     "walls": agrees(BOX.deck, asked_on(WALLED), settle=60),
     "which-walls": agrees(BOX.deck, OF_WALLS, settle=60),
     "types": agrees(MIXTURE.deck, OF_TYPES, settle=60),
     "group": agrees(SPHERES, asked_on(BOX_GRIDS), group="10:70", **SHEARED),
-    "gaussian": agrees(TILTING, smooth("gaussian"), TILTS, settle=5, thermo_every=1, every=20, snapshots=2),
-    "lucy": agrees(TILTING, smooth("lucy", tolerance=1e-4), TILTS, settle=5, thermo_every=1, every=20, snapshots=2),
+    "gaussian": agrees(SMALL, smooth("gaussian"), SMALL_TILTS, settle=5, thermo_every=1, snapshots=2),
+    "lucy": agrees(SMALL, smooth("lucy", tolerance=1e-6), SMALL_TILTS, settle=5, thermo_every=1, snapshots=2),
     "rings-in-a-drum": agrees(
         DRUM.deck, asked_on(RINGS, WITH_AXES), settle=DRUM.settle, meshes=DRUM.meshes, every=20, snapshots=2
     ),
     "rings-in-a-periodic-box": agrees(SPHERES, asked_on(PIPES), **SHEARED),
-    "two-dimensions": agrees(DISCS, asked_on(PLANE, quadrature=1e-4), **SHEARED),
+    "two-dimensions": agrees(DISCS, asked_on(PLANE, quadrature=1e-6), **SHEARED),
     "sums": adds_up(SPHERES, WHOLES, FLOW, settle=40),
     "sums-ellipsoids": adds_up(ELLIPSOIDS, WHOLES, FLOW, settle=40),
     "sums-between-walls": adds_up(BOX.deck, WALLED_WHOLES, settle=60),

@@ -235,7 +235,7 @@ def momentum(ranks):
 def gaussian_momentum(ranks):
     """Integrated over half of the layers, the divergence is the difference of sigma at two faces; the total of a
     periodic box has none: d p/dt = rho g in the sum over the cells."""
-    asked = Asked("whole", Grid((1, 200, 1), kernel="gaussian", width=0.8), ("density", "momentum"))
+    asked = Asked("whole", Grid((1, 80, 1), kernel="gaussian", width=0.8), ("density", "momentum"))
     packing = replace(dense_packing(atom_style="sphere", speed=2.0), triclinic=False)
     deck = undamped(packing)
     deck.body = [gravity(np.array([0.0, -WEIGHT, 0.0]))]

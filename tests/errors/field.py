@@ -33,8 +33,8 @@ REFUSED = {
         (f"{GRID} {GRID} quantities density", ("'grid' is given twice",)),
     ],
     "too-many-cells": [
-        ("grid 1000 1000 11 quantities density", ("1e7", "cells")),
-        ("grid 100000 100000 100000 quantities density", ("cells",)),
+        ("grid 1000 1000 11 quantities density", ("'grid'", "10000000 cells", "got")),
+        ("grid 100000 100000 100000 quantities density", ("'grid'", "cells")),
     ],
     "quantities": [
         (f"{GRID} quantities density mass", ("'quantities'", "got 'mass'")),
@@ -81,7 +81,6 @@ REFUSED = {
         (f"{GRID} types 0 1 quantities density", ("'types'", "got '0'")),
         (f"{GRID} axis middle quantities Q", ("'axis' must be auto, symmetry, long or short, got 'middle'",)),
         (f"{GRID} q density", ("got 'q'",)),
-        (f"{GRID} quantities Q", ("field", "Q")),  # spheres have no axes
     ],
 }
 DISCS = {
@@ -119,6 +118,7 @@ def taken(ranks):
         f"{GRID} kernel gaussian width 1e-3 quantities density",
         f"{GRID} kernel lucy width 2.0 quantities stress",
         f"{ABOUT} quantities temperature",
+        f"{GRID} quantities Q S2 director",  # spheres have no axes: 0
         f"{GRID} region part quantities phi",
         f"{GRID} frame box x 0.0 0.5 quantities phi",
     ):

@@ -6,8 +6,9 @@ What is left open by the definitions is read so:
 - positions, forces and grid belong to the box that the force evaluation saw, as for regions;
 - a smooth weight is phi times the measure of a cell in the resolved axes, so that weights add up to about 1; along an
   axis with one cell a point counts when it lies between the bounds;
-- G_k fits v(k') = a + G c(k') over the means of the cell and its neighbours that hold mass, with weights M(k'), a free;
-  G has no part along the edges of axes with one cell;
+- G_k fits v(k') = a + G c(k') over the means of the cell and its neighbours, over corners too, that hold mass, with
+  weights M(k'), a free, the least G where it is not determined; G has no part along the edges of axes with one cell.
+  (Without the corners four means determine G in three axes, and T of a few grains becomes 10^4 times v^2.)
 - rings fit v_r, v_t, v_a against r and the axis;
 - mean n n and mean overlap are over contacts with grains and walls together."""
 import math

@@ -244,20 +244,15 @@ class Placed:
         return x @ self.across().T
 
     def neighbours(self, cell):
-        """(cell, shift in edges of the box) of those along each axis with more than one cell, and itself."""
-        n = self.grid.cells
-        at = [cell % n[0], cell // n[0] % n[1], cell // (n[0] * n[1])]
-        yield cell, np.zeros(3)
-        for axis in self.grid.resolved:
-            for step in (-1, 1):
-                other, shift = list(at), np.zeros(3)
-                other[axis] += step
-                if not 0 <= other[axis] < n[axis]:
-                    if not self.spans_box(axis):
-                        continue
-                    shift[axis] = step
-                    other[axis] %= n[axis]
-                yield other[0] + n[0] * (other[1] + n[1] * other[2]), shift
+        """(cell, shift in edges of the box) of all up to one step away along each axis with more than one cell, over
+        corners too, itself among them."""
+        n = np.array(self.grid.cells)
+        at = np.array([cell % n[0], cell // n[0] % n[1], cell // (n[0] * n[1])])
+        for step in itertools.product(*((-1, 0, 1) if n[k] > 1 else (0,) for k in range(3))):
+            over = (at + step) // n
+            if all(self.spans_box(k) or not over[k] for k in range(3)):
+                x, y, z = (at + step) % n
+                yield x + n[0] * (y + n[1] * z), over.astype(float)
 
     def spans_box(self, axis):
         whole = 1.0 if self.grid.frame == "box" else self.box.edges[axis, axis]
