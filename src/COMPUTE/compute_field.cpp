@@ -182,7 +182,7 @@ void ComputeField::add_axis(int i, const Matrix3d &frame, double weight, double 
 
 /** Of grains against the mean motion about each cell, which must be known. */
 void ComputeField::add_motion() {
-  const grainscope::FieldMotion mean(map_, sums_, settings_.wraps(box_), box_.edge_velocities);
+  const grainscope::FieldMotion mean(map_, sums_, settings_.wraps(box_), settings_.jumps(box_));
   FieldSums mine(FieldSums::motion, sums_.cells());
   for (int i = 0; i < atom->nlocal; i++) {
     if (!in_group(i)) continue;

@@ -173,8 +173,24 @@ FieldCells FieldSettings::rings(const BoxState &box) const {
 
 std::array<bool, 3> FieldSettings::wraps(const BoxState &box) const {
   std::array<bool, 3> wraps{{false, false, false}};
-  for (int k = 0; k < 3; k++) wraps[k] = frame_ == Frame::box && !bounded_[k] && box.periodic[k];
+  for (int k = 0; k < 3; k++) {
+    const int axis = are_rings() ? about_ : k;  // of the box
+    if (!box.periodic[axis] || (are_rings() && k != 2)) continue;
+    if (frame_ == Frame::box) {
+      wraps[k] = !bounded_[k] || (bounds_[k][0] == 0.0 && bounds_[k][1] == 1.0);
+      continue;
+    }
+    const Bounds all = extent(box, axis);
+    wraps[k] = std::fabs(all[1] - all[0] - box.edges(axis, axis)) < 1e-9 * box.edges(axis, axis);
+    for (int other = 0; other < 3; other++)  // an edge that leans: cells of its other end stand elsewhere
+      if (other != axis && (are_rings() || numbers_[other] > 1)) wraps[k] = wraps[k] && box.edges(other, axis) == 0.0;
+  }
   return wraps;
+}
+
+Matrix3d FieldSettings::jumps(const BoxState &box) const {
+  if (!are_rings()) return box.edge_velocities;
+  return Vector3d(0.0, 0.0, box.edge_velocities(about_, about_)).asDiagonal();
 }
 
 }

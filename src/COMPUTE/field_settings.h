@@ -35,8 +35,10 @@ class FieldSettings {
   bool is_smooth() const { return kernel_ != FieldKernel::Kind::cell; }
   /** The cells as the box is. */
   FieldMap map(const BoxState &box) const;
-  /** Which axes repeat themselves in a grid of the whole box. */
+  /** Along which axes the last cell is followed by the first, in the next image of the box. */
   std::array<bool, 3> wraps(const BoxState &box) const;
+  /** In columns, by how much that image is faster, in components of the cells. */
+  Eigen::Matrix3d jumps(const BoxState &box) const;
 
  private:
   using Bounds = std::array<double, 2>;

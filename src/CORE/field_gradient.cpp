@@ -50,7 +50,7 @@ Matrix3d FieldMotion::fitted(const FieldMap &map, int cell, const std::array<boo
           if (beyond == 0) continue;
           there = there && wraps[k];
           other[k] -= beyond * n[k];
-          dx += beyond * cells.edges().col(k);
+          dx += beyond * cells.numbered_edges().col(k);
           dv += beyond * jumps.col(k);
         }
         if (!there) continue;

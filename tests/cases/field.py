@@ -161,7 +161,7 @@ def require_sums(table, moment, what, grained=True):
     found = mean_over(table, "fabric", contacts)
     require_close(found, moment.vector(WHOLE["fabric"])[:6], SUM, f"{what}: fabric", 1.0)
     now = moment.vector(WHOLE["now"])
-    for name, k in (("P_n", 0), ("P_t", 1)):
+    for name, k in (("P_n", 0), ("P_t", 1), ("P_t_damp", 2)):
         require_close(
             (table[name] * volume).sum(), now[k] + now[k + 5], SUM, f"{what}: {name}", largest(now[:3], now[0])
         )

@@ -39,7 +39,7 @@ QUANTITIES = {
     "coordination": ("Z",),
     "fabric": tuple(f"F_{ab}" for ab in SYMMETRIC),
     "P_n": ("P_n",),
-    "P_t": ("P_t",),
+    "P_t": ("P_t", "P_t_damp"),
     "overlap": ("overlap",),
     "Q": tuple(f"Q_{ab}" for ab in SYMMETRIC),
     "S2": ("S2",),
@@ -160,7 +160,8 @@ def of_contact_points(table, placed, rows, ends, count):
     put(table, QUANTITIES["contacts"], np.column_stack([sums.of(~at_wall), sums.of(at_wall)]))
     put(table, QUANTITIES["fabric"], over(six_of(sums.add(n[:, :, None] * n[:, None, :])), contacts))
     for name, power in zip(("P_n", "P_t"), normal_friction):
-        put(table, QUANTITIES[name], over(sums.of(power), volume)[:, None])
+        put(table, (name,), over(sums.of(power), volume)[:, None])
+    put(table, ("P_t_damp",), np.zeros((len(volume), 1)))  # of decks without tangential damping
     put(table, QUANTITIES["overlap"], over(sums.of(rows["overlap"]), contacts)[:, None])
     put(table, QUANTITIES["traction"], over(sums.vectors(rows["force"] * at_wall[:, None]), volume))
     put(table, QUANTITIES["coordination"], over(Sums(placed, ends).count(), count)[:, None])

@@ -255,6 +255,10 @@ class Placed:
                 yield x + n[0] * (y + n[1] * z), over.astype(float)
 
     def spans_box(self, axis):
+        """And its other end stands where it does: an edge does not lean along another axis that is divided."""
+        leans = any(self.box.edges[k, axis] != 0.0 and self.grid.cells[k] > 1 for k in range(3) if k != axis)
+        if self.grid.frame != "box" and leans:
+            return False
         whole = 1.0 if self.grid.frame == "box" else self.box.edges[axis, axis]
         return self.grid.periodic[axis] and abs(self.high[axis] - self.low[axis] - whole) < 1e-9 * whole
 
