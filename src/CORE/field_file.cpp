@@ -77,6 +77,7 @@ std::vector<std::size_t> columns_of_prefix(const std::vector<std::string> &names
   for (const auto &components : groups_of_components) {
     if (found != std::set<std::string>(components.begin(), components.end())) continue;
     std::vector<std::size_t> columns;
+    columns.reserve(components.size());
     for (const std::string &component : components)
       columns.push_back(std::find(names.begin(), names.end(), prefix + '_' + component) - names.begin());
     return columns;
