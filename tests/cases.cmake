@@ -516,6 +516,8 @@ add_cases(contact/force cases/contact_force.py LABEL case STYLES contact/force c
   CASES trajectory-untouched oblate superquadric cohesive of-types discs in-a-region of-a-group empty-group)
 
 # Fields on grids
+add_cases(field/write cases/field_files.py LABEL case STYLES field/write RANKS 1 2 LONG_RANKS 4 CASES
+  averages untouched refused)
 add_cases(field cases/field.py LABEL case STYLES field RANKS 1 2 LONG_RANKS 4 CASES
   sheared-spheres sheared-ellipsoids flipping-box laboratory walls)
 add_cases(field cases/field.py LABEL case STYLES field RANKS 1 4 LONG_RANKS 2 CASES
