@@ -13,7 +13,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 from field_table import read_field  # noqa: E402
 
-A, DENSITY, GRAVITY, PLATE = 0.003, 2500.0, 9.81, 28  # as in the deck; grains of a plate
+A, DENSITY, GRAVITY, LOAD, PLATE = 0.003, 2500.0, 9.81, 1500.0, 28  # as in the deck; PLATE: grains of the lid
 DIAMETER = 2.0 * A * 1.5 ** (1.0 / 3.0)
 RADIUS = 1.5 * A  # of a plate's grains
 BLUE, ORANGE, GREEN, PINK = figure_style.RUN_COLOURS[:4]
@@ -47,12 +47,12 @@ class Profile:
         self.shear_error = np.hypot(field.error("s_xy"), field.error("sk_xy"))
         self.rate = np.gradient(field["v_x"], self.y)
 
-    def weight(self, load):
+    def weight(self):
         """Load and weight above, at the middles: of the bed alone, gravity leaves the plates out."""
         mass = DENSITY * self.field["phi"] * self.field["V"]
         above = np.cumsum(mass[::-1])[::-1] - 0.5 * mass
         lid = PLATE * DENSITY * 4 / 3 * math.pi * RADIUS**3
-        return load + GRAVITY * (above - lid) / self.area
+        return LOAD + GRAVITY * (above - lid) / self.area
 
 
 def say(profile, weight):
@@ -118,13 +118,8 @@ def draw(profile, weight):
 
 
 def main(picture):
-    log = Path("log.liggghts")
-    load = 1500.0
-    if log.exists():
-        words = [row.split() for row in log.read_text(errors="replace").splitlines() if row.startswith("variable load")]
-        load = float(words[0][3]) if words else load
     profile = Profile(Path("."))
-    weight = profile.weight(load)
+    weight = profile.weight()
     say(profile, weight)
     figure = draw(profile, weight)
     figure.savefig(picture, dpi=110)
