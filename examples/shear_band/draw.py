@@ -13,9 +13,11 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 from field_table import read_field  # noqa: E402
 
-A, DENSITY, GRAVITY, LOAD, PLATE = 0.003, 2500.0, 9.81, 1500.0, 28  # as in the deck; PLATE: grains of the lid
+A, DENSITY, GRAVITY, LOAD, SPEED = 0.003, 2500.0, 9.81, 1500.0, 0.4  # as in the deck
+PLATE = 28  # grains of the lid
 DIAMETER = 2.0 * A * 1.5 ** (1.0 / 3.0)
 RADIUS = 1.5 * A  # of a plate's grains
+LEAST = 1e-6  # I that is drawn; below, and where the velocity falls with y, on this line
 BLUE, ORANGE, GREEN, PINK = figure_style.RUN_COLOURS[:4]
 
 
@@ -39,7 +41,7 @@ class Profile:
         self.y, volume = field["y"], field["V"]
         self.step = self.y[1] - self.y[0]
         self.area = volume[0] / self.step
-        # Cells that hold no part of a plate's grains' centres and branches to them
+        # Cells that hold no branches to a plate's grains
         self.inner = (self.y > RADIUS + 2 * A) & (self.y < self.lid - RADIUS - 2 * A)
         self.pressure = -(field["s_yy"] + field["sk_yy"])
         self.pressure_error = np.hypot(field.error("s_yy"), field.error("sk_yy"))
@@ -66,15 +68,19 @@ def say(profile, weight):
         f"pull on the lid {profile.pull[0]:.1f} +- {profile.pull[1]:.1f} Pa"
     )
     field = profile.field
-    lost = sum(field[name][inner] for name in ("P_n", "P_t", "P_t_damp")).sum()
-    work = (profile.shear * profile.rate)[inner].sum()
-    print(f"lost {lost * profile.step:.2f}, work of shear {work * profile.step:.2f} W/m2")
+    names = ("P_n", "P_t", "P_t_damp")
+    lost = profile.step * sum(field[name].sum() for name in names)
+    error = profile.step * math.hypot(*(np.linalg.norm(field.error(name)) for name in names))
+    print(f"lost {lost:.1f} +- {error:.1f} W/m2; pull on the lid times its speed {SPEED * profile.pull[0]:.1f}")
+    below = profile.step * sum(field[name][inner] for name in names).sum()
+    work = profile.step * (profile.shear * profile.rate)[inner].sum()
+    print(f"in the cells drawn: lost {below:.1f}, work of shear {work:.1f} W/m2")
 
 
-def line(axis, profile, name, colour, label=None, factor=1.0):
+def line(axis, profile, name, colour, label=None):
     field, inner = profile.field, profile.inner
     y = profile.y[inner] / DIAMETER
-    value, error = factor * field[name][inner], factor * field.error(name)[inner]
+    value, error = field[name][inner], field.error(name)[inner]
     axis.plot(value, y, "o-", ms=2.5, lw=1, color=colour, label=label)
     axis.fill_betweenx(y, value - error, value + error, color=colour, alpha=0.25, linewidth=0)
 
@@ -90,18 +96,18 @@ def draw(profile, weight):
     stress.errorbar(profile.shear[inner], y, xerr=profile.shear_error[inner], fmt="s", ms=3, color=ORANGE, label=r"$\tau$")
     stress.axvline(profile.pull[0], color=ORANGE, lw=1, ls="--", label="pull on the lid")
     stress.set(xlabel="stress [Pa]", title="stress, kinetic included", xlim=(0, None))
-    line(heat, profile, "T", PINK, "T", 1.0)
+    line(heat, profile, "T", PINK)
     heat.set(xlabel="$T$ [m$^2$/s$^2$]", xscale="log", title="temperature")
     line(loss, profile, "P_t", ORANGE, "friction $P_t$")
     line(loss, profile, "P_n", BLUE, "normal damping $P_n$")
     work = (profile.shear * profile.rate)[inner]
     loss.plot(work, y, "-", color="0.3", lw=1, label=r"work of shear $\tau\, dv_x/dy$")
     loss.set(xlabel="power per volume [W/m$^3$]", xscale="log", title="losses")
-    line(order, profile, "phi", GREEN, r"solid fraction $\phi$")
-    line(order, profile, "S2", PINK, "order $S_2$")
-    order.set(xlim=(0, 1), title="density and alignment")
-    rate = np.maximum(profile.rate[inner], 1e-9)
-    inertial = rate * DIAMETER * np.sqrt(DENSITY / profile.pressure[inner])
+    line(order, profile, "phi", GREEN, r"$\phi$")
+    line(order, profile, "S2", PINK, "$S_2$")
+    order.set(xlim=(0, 1), title="solid fraction, order")
+    inertial = profile.rate[inner] * DIAMETER * np.sqrt(DENSITY / profile.pressure[inner])
+    inertial = np.maximum(inertial, LEAST)
     friction = profile.shear[inner] / profile.pressure[inner]
     error = friction * np.hypot(
         profile.shear_error[inner] / profile.shear[inner], profile.pressure_error[inner] / profile.pressure[inner]
@@ -109,11 +115,13 @@ def draw(profile, weight):
     law.errorbar(inertial, friction, yerr=error, fmt="none", ecolor="0.6", lw=0.8)
     dots = law.scatter(inertial, friction, c=y, s=16, cmap="viridis", zorder=3)
     figure.colorbar(dots, ax=law, label="$y/d$", shrink=0.8)
-    law.set(xlabel="$I$", ylabel=r"$\mu = \tau/P$", xscale="log", title=r"local $\mu(I)$, all cells")
+    law.set(xlabel="$I$", ylabel=r"$\mu = \tau/P$", xscale="log", xlim=(0.7 * LEAST, 0.5), title=r"local $\mu(I)$, all cells")
     for axis in (speed, stress, heat, loss, order):
         axis.set_ylabel("$y/d$")
-    for axis in (stress, loss, order):
-        axis.legend(fontsize=7)
+    stress.legend(fontsize=7, loc=(0.27, 0.03))
+    order.legend(fontsize=7, loc="lower right")
+    loss.legend(fontsize=7, loc="upper left")
+    loss.set_ylim(0, 28)
     return figure
 
 
