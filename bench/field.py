@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """What compute field costs when it is asked in every step: instructions, counted by callgrind, and with --time
-nanoseconds of processor time, medians of alternating runs, over the same run without it. All quantities, kernel cell, spheres on a lattice
-in contact (3 contacts per grain) and apart: what these two differ by is the contacts'. A Markdown table.
+nanoseconds of processor time, medians of alternating runs, over the same run without it. All quantities, kernel cell,
+spheres on a lattice in contact (3 contacts per grain) and apart: what these two differ by is the contacts'. A Markdown
+table.
 """
 import argparse
 import pathlib

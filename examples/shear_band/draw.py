@@ -60,11 +60,15 @@ class Profile:
 def say(profile, weight):
     inner = profile.inner
     off = profile.pressure[inner] / weight[inner] - 1
-    print(f"pressure over load and weight, {inner.sum()} cells: mean {off.mean():+.2%}, rms {np.sqrt((off**2).mean()):.2%}")
+    print(
+        f"pressure over load and weight, {inner.sum()} cells: mean {off.mean():+.2%}, "
+        f"rms {np.sqrt((off**2).mean()):.2%}"
+    )
     print(f"in two slabs: {profile.slab['pressure']:.1f} +- {profile.slab_error:.1f}, {profile.slab['weight']:.1f} Pa")
     shear = profile.shear[inner]
     print(
-        f"shear stress {shear.mean():.1f} +- {profile.shear_error[inner].mean():.1f} Pa, over cells {np.ptp(shear):.1f}; "
+        f"shear stress {shear.mean():.1f} +- {profile.shear_error[inner].mean():.1f} Pa, "
+        f"over cells {np.ptp(shear):.1f}; "
         f"pull on the lid {profile.pull[0]:.1f} +- {profile.pull[1]:.1f} Pa"
     )
     field = profile.field
@@ -91,9 +95,13 @@ def draw(profile, weight):
     speed, stress, heat, loss, order, law = axes.flat
     line(speed, profile, "v_x", BLUE)
     speed.set(xlabel="$v_x$ [m/s]", xscale="log", title="velocity")
-    stress.errorbar(profile.pressure[inner], y, xerr=profile.pressure_error[inner], fmt="o", ms=3, color=BLUE, label="$P$")
+    stress.errorbar(
+        profile.pressure[inner], y, xerr=profile.pressure_error[inner], fmt="o", ms=3, color=BLUE, label="$P$"
+    )
     stress.plot(weight[inner], y, "-", lw=1, color="0.3", label="load + weight above")
-    stress.errorbar(profile.shear[inner], y, xerr=profile.shear_error[inner], fmt="s", ms=3, color=ORANGE, label=r"$\tau$")
+    stress.errorbar(
+        profile.shear[inner], y, xerr=profile.shear_error[inner], fmt="s", ms=3, color=ORANGE, label=r"$\tau$"
+    )
     stress.axvline(profile.pull[0], color=ORANGE, lw=1, ls="--", label="pull on the lid")
     stress.set(xlabel="stress [Pa]", title="stress, kinetic included", xlim=(0, None))
     line(heat, profile, "T", PINK)
@@ -115,7 +123,13 @@ def draw(profile, weight):
     law.errorbar(inertial, friction, yerr=error, fmt="none", ecolor="0.6", lw=0.8)
     dots = law.scatter(inertial, friction, c=y, s=16, cmap="viridis", zorder=3)
     figure.colorbar(dots, ax=law, label="$y/d$", shrink=0.8)
-    law.set(xlabel="$I$", ylabel=r"$\mu = \tau/P$", xscale="log", xlim=(0.7 * LEAST, 0.5), title=r"local $\mu(I)$, all cells")
+    law.set(
+        xlabel="$I$",
+        ylabel=r"$\mu = \tau/P$",
+        xscale="log",
+        xlim=(0.7 * LEAST, 0.5),
+        title=r"local $\mu(I)$, all cells",
+    )
     for axis in (speed, stress, heat, loss, order):
         axis.set_ylabel("$y/d$")
     stress.legend(fontsize=7, loc=(0.27, 0.03))
