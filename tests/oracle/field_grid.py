@@ -255,7 +255,10 @@ class Placed:
                 yield x + n[0] * (y + n[1] * z), over.astype(float)
 
     def spans_box(self, axis):
+        """Cells of the laboratory are not neighbours across a face whose edge is tilted: their images lie askew."""
         whole = 1.0 if self.grid.frame == "box" else self.box.edges[axis, axis]
+        if self.grid.frame == "lab" and np.count_nonzero(self.box.edges[:, axis]) > 1:
+            return False
         return self.grid.periodic[axis] and abs(self.high[axis] - self.low[axis] - whole) < 1e-9 * whole
 
     def moved(self, centroid, shift):
