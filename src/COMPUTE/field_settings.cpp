@@ -92,7 +92,7 @@ void FieldSettings::complete(const Arguments &errors) {
 }
 
 void FieldSettings::complete_rings(const Arguments &errors) {
-  if (is_smooth()) errors.fail("'about' goes with kernel cell");
+  if (is_smooth()) errors.fail("kernel", "cell with 'about'", kernel_ == FieldKernel::Kind::lucy ? "lucy" : "gaussian");
   if (frame_ == Frame::box) errors.fail("'about' goes with frame lab");
   if (!region_.empty()) errors.fail("'about' goes with 'r' and bounds along the axis, not with 'region'");
   if (numbers_[1] != 1)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""fix field/write: means over time are ratios of sums of what compute field gave in each sample, errors those of blocks,
-and its files hold the same numbers."""
+"""fix field/write: means over time are ratios of sums of what compute field gave in each sample, errors those of
+blocks, and its files hold the same numbers."""
 from dataclasses import replace
 import re
 
@@ -104,7 +104,7 @@ REFUSED = {
     "fix w all field/write 3 6 20 f_f file a.csv": "'source' must be c_ID, a compute field, got 'f_f'",
     "fix w all field/write 3 6 16 c_f file a.csv": "'N_freq' must be a multiple of N_every, and more than",
     "fix w all field/write 3 6 20 c_f file a.csv blocks 4": "'blocks' must be a divisor of N_repeat, 6, got '4'",
-    "fix w all field/write 3 6 20 c_f file a.txt": "'file' must be a name that ends with .csv, .vti or .vts, got 'a.txt'",
+    "fix w all field/write 3 6 20 c_f file a.txt": "'file' must be a name that ends with .csv, .vti or .vts, got",
     "fix w all field/write 1 1 1 c_f file none/a.csv": "cannot write 'none/a.csv': No such file or directory",
     "fix w all field/write 1 1 1 c_h file a.vti": "this one is tilted: .vts",
 }
