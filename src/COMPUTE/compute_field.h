@@ -50,7 +50,7 @@ class ComputeField : public grainscope::ContactCompute,
   grainscope::BoxState box_;
   double outside_ = 0.0;
   bool answered_ = false;  // since the evaluation: vector and array are asked for one after the other
-  bool warned_ = false;  // of flat and long grains together
+  bool warned_ = false;    // of flat and long grains together
 
   grainscope::FieldQuantities read(int &iarg, int narg, char **arg);
   void begin(const grainscope::BoxState &box);

@@ -72,7 +72,7 @@ REFUSED = {
         ("grid 2 3 2 about z 4 4 r 0.5 3 quantities density", ("grid", "1")),
         ("grid 2 1 2 about z 4 4 r 3 0.5 quantities density", ("'r'", "0.5")),
         ("grid 2 1 2 about z 4 4 r -1 3 quantities density", ("'r", "-1")),
-        ("grid 2 1 2 about z 4 4 quantities density", ("about", "r")),
+        ("grid 2 1 2 about z 400 4 quantities density", ("the axis of rings must lie in the box",)),
         (f"{GRID} r 0.5 3 quantities density", ("'r'", "about")),
         (f"{ABOUT} frame box quantities density", ("about", "frame")),
     ],
