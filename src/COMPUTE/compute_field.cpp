@@ -75,7 +75,8 @@ void ComputeField::init() {
       if (quantities_.has(name)) errors.fail("'" + std::string(name) + "' needs dimension 3");
   if (quantities_.blocks() & FieldSums::losses) require_known_losses();
   map_ = settings_.map(grainscope::BoxState(lmp));
-  if (!(map_.cells().volume(0) > 0.0)) errors.fail("the axis of rings must lie in the box, or 'r lo hi' be given");
+  if (!(map_.cells().numbered_edges()(0, 0) > 0.0))
+    errors.fail("the axis of rings must lie in the box, or 'r lo hi' be given");
 }
 
 /** Where nothing is asked of contacts, none are read. */
