@@ -517,13 +517,14 @@ add_cases(contact/force cases/contact_force.py LABEL case STYLES contact/force c
 
 # Fields on grids
 add_cases(field/write cases/field_files.py LABEL case STYLES field/write RANKS 1 2 LONG_RANKS 4 CASES
-  averages untouched refused)
+  averages untouched between-runs refused)
 add_cases(field cases/field.py LABEL case STYLES field RANKS 1 2 LONG_RANKS 4 CASES
   sheared-spheres sheared-ellipsoids flipping-box laboratory walls)
 add_cases(field cases/field.py LABEL case STYLES field RANKS 1 4 LONG_RANKS 2 CASES
   gaussian lucy rings-in-a-drum empty-cells trajectory-untouched)
 add_cases(field cases/field.py LABEL case STYLES field RANKS 1 LONG_RANKS 2 4 CASES
-  which-walls types group rings-in-a-periodic-box two-dimensions order-of-columns by-region clumps-refused)
+  which-walls types group rings-in-a-periodic-box two-dimensions order-of-columns by-region clumps-refused on-faces
+  other-region mixture-warned-of)
 add_cases(field+stress/contact+packing-sums cases/field.py LABEL case
   STYLES field stress/contact fabric dissipation packing nematic RANKS 1 2 LONG_RANKS 4 CASES
   sums sums-ellipsoids sums-between-walls)

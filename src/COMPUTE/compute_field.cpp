@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "compute_field.h"
 #include "arguments.h"
-#include "chosen_axis.h"
 #include "contact_measures.h"
 #include "contact_observer.h"
 #include "contact_sums.h"
@@ -12,6 +11,7 @@
 #include "atom.h"
 #include "domain.h"
 #include "force.h"
+#include "group.h"
 #include "update.h"
 #include <algorithm>
 
@@ -26,7 +26,7 @@ using grainscope::Scope;
 
 namespace {
 
-constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
+constexpr auto whole = grainscope::Extent::whole;
 const std::vector<std::string> usual = {"density", "velocity", "stress"};
 
 /** F_a r_b, row by row. */
@@ -68,14 +68,16 @@ void ComputeField::init() {
   ContactCompute::init();
   const grainscope::Arguments errors(lmp, name_);
   grainscope::require_no_bodies(lmp, errors, "they would count sphere by sphere");
-  settings_.init(lmp, name_);
   settings_.require_dimension(errors, domain->dimension);
   if (domain->dimension == 2)
     for (const char *name : {"Q", "S2", "director"})
       if (quantities_.has(name)) errors.fail("'" + std::string(name) + "' needs dimension 3");
   if (quantities_.blocks() & FieldSums::losses) require_known_losses();
-  map_ = settings_.map(grainscope::BoxState(lmp));
-  if (!(map_.cells().volume(0) > 0.0)) errors.fail("the axis of rings must lie in the box, or 'r lo hi' be given");
+  const grainscope::BoxState box(lmp);
+  settings_.find_region(lmp, name_);
+  settings_.fix_radii(box);
+  settings_.require_cells(errors, box);
+  map_ = settings_.map(box);
 }
 
 /** Where nothing is asked of contacts, none are read. */
@@ -93,7 +95,9 @@ void ComputeField::begin_contacts() {
 
 void ComputeField::begin(const grainscope::BoxState &box) {
   answered_ = false;
+  not_finite_ = 0.0;
   box_ = box;
+  settings_.find_region(lmp, name_);  // it may be another since a run that was not set up
   map_ = settings_.map(box);
   if (sums_.cells() == 0) sums_ = FieldSums(quantities_.blocks(), map_.cells().count());
   sums_.reset();
@@ -107,6 +111,10 @@ void ComputeField::add_contacts(grainscope::ContactSpan contacts) {
 
 void ComputeField::add_contact(const Contact &c) {
   const Vector3d &point = c.motion->point;
+  if (!point.allFinite() || !c.branch.allFinite()) {
+    not_finite_ += 1.0;
+    return;
+  }
   const Vector3d centre = point - c.motion->arm;  // of i
   if (sums_.has(FieldSums::force) || sums_.has(FieldSums::tangential)) add_branch(c, centre);
   if (sums_.has(FieldSums::ends)) {
@@ -146,29 +154,47 @@ void ComputeField::add_branch(const Contact &c, const Vector3d &centre) {
   });
 }
 
-void ComputeField::add_grain(int i) {
+/** What a cell has of a grain. */
+struct ComputeField::Share {
+  int cell;
+  double weight;
+  Vector3d at;        // of the image that the cell sees
+  Matrix3d frame;     // that components are along
+  Vector3d velocity;  // components
+};
+
+/** Calls use(share) for each cell that sees grain i; false without any. */
+template <class Use>
+bool ComputeField::for_each_share(int i, const Use &use) const {
   const Vector3d x = Map<const Vector3d>(atom->x[i]), v = Map<const Vector3d>(atom->v[i]);
-  const double mass = grainscope::mass_of(*atom, i);
-  double found = 0.0;
+  bool seen = false;
   map_.for_each_at(x, [&](int cell, double weight, const Vector3d &boxes) {
-    found = 1.0;
+    seen = true;
     const Vector3d at = x + box_.edges * boxes;
     const Matrix3d frame = map_.cells().frame(at);
-    *sums_.of(FieldSums::grains, cell) += weight;
-    *sums_.of(FieldSums::mass, cell) += weight * mass;
-    if (sums_.has(FieldSums::solid))
-      *sums_.of(FieldSums::solid, cell) += weight * grainscope::solid_volume(*atom, i, domain->dimension);
-    if (sums_.has(FieldSums::momentum))
-      Map<Vector3d>(sums_.of(FieldSums::momentum, cell)) +=
-          weight * mass * (frame * (v + box_.edge_velocities * boxes));
-    if (sums_.has(FieldSums::spin))
-      Map<Vector3d>(sums_.of(FieldSums::spin, cell)) += weight * (frame * Map<const Vector3d>(atom->omega[i]));
-    if (sums_.has(FieldSums::centroid))
-      Map<Vector3d>(sums_.of(FieldSums::centroid, cell)) +=
-          weight * mass * (map_.cells().position(at) - map_.cells().middle(cell));
-    if (sums_.has(FieldSums::axes)) add_axis(i, frame, weight, sums_.of(FieldSums::axes, cell));
+    use(Share{cell, weight, at, frame, frame * (v + box_.edge_velocities * boxes)});
   });
-  outside_ += 1.0 - found;
+  return seen;
+}
+
+void ComputeField::add_grain(int i) {
+  const double mass = grainscope::mass_of(*atom, i);
+  const bool seen = for_each_share(i, [&](const Share &s) {
+    *sums_.of(FieldSums::grains, s.cell) += s.weight;
+    *sums_.of(FieldSums::mass, s.cell) += s.weight * mass;
+    if (sums_.has(FieldSums::solid))
+      *sums_.of(FieldSums::solid, s.cell) += s.weight * grainscope::solid_volume(*atom, i, domain->dimension);
+    if (sums_.has(FieldSums::momentum))
+      Map<Vector3d>(sums_.of(FieldSums::momentum, s.cell)) += s.weight * mass * s.velocity;
+    if (sums_.has(FieldSums::spin))
+      Map<Vector3d>(sums_.of(FieldSums::spin, s.cell)) += s.weight * (s.frame * Map<const Vector3d>(atom->omega[i]));
+    if (sums_.has(FieldSums::centroid))
+      Map<Vector3d>(sums_.of(FieldSums::centroid, s.cell)) +=
+          s.weight * mass * (map_.cells().position(s.at) - map_.cells().middle(s.cell));
+    if (sums_.has(FieldSums::axes)) add_axis(i, s.frame, s.weight, sums_.of(FieldSums::axes, s.cell));
+  });
+  if (!seen) outside_ += 1.0;
+  if (seen && sums_.has(FieldSums::axes)) count_axis(i);
 }
 
 void ComputeField::add_axis(int i, const Matrix3d &frame, double weight, double *to) const {
@@ -180,19 +206,24 @@ void ComputeField::add_axis(int i, const Matrix3d &frame, double weight, double 
   to[6] += weight;
 }
 
+void ComputeField::count_axis(int i) {
+  if (!atom->superquadric_flag) return;
+  const grainscope::SymmetryAxis axis = grainscope::chosen_axis(atom->shape[i], scope_.axis_choice());
+  if (axis.index < 0) return;
+  with_axis_ += 1.0;
+  if (axis.shape == grainscope::Shape::oblate) flat_ += 1.0;
+}
+
 /** Of grains against the mean motion about each cell, which must be known. */
 void ComputeField::add_motion() {
   const grainscope::FieldMotion mean(map_, sums_, settings_.wraps(box_), settings_.jumps(box_));
   FieldSums mine(FieldSums::motion, sums_.cells());
   for (int i = 0; i < atom->nlocal; i++) {
     if (!in_group(i)) continue;
-    const Vector3d x = Map<const Vector3d>(atom->x[i]), v = Map<const Vector3d>(atom->v[i]);
     const double mass = grainscope::mass_of(*atom, i);
-    map_.for_each_at(x, [&](int cell, double weight, const Vector3d &boxes) {
-      const Vector3d at = x + box_.edges * boxes;
-      const Vector3d dv =
-          map_.cells().frame(at) * (v + box_.edge_velocities * boxes) - mean.velocity(cell, map_.cells().position(at));
-      grainscope::add_components(mine.of(FieldSums::motion, cell), weight * mass, grainscope::dyad(dv, dv));
+    for_each_share(i, [&](const Share &s) {
+      const Vector3d dv = s.velocity - mean.velocity(s.cell, map_.cells().position(s.at));
+      grainscope::add_components(mine.of(FieldSums::motion, s.cell), s.weight * mass, grainscope::dyad(dv, dv));
     });
   }
   sum_over_ranks(mine.numbers().data(), static_cast<int>(mine.numbers().size()));
@@ -200,16 +231,26 @@ void ComputeField::add_motion() {
     std::copy_n(mine.of(FieldSums::motion, cell), 6, sums_.of(FieldSums::motion, cell));
 }
 
+void ComputeField::warn_of_mixture() {
+  if (!sums_.has(FieldSums::axes) || !scope_.axis_is_automatic()) return;
+  double counts[2] = {flat_, with_axis_};
+  sum_over_ranks(counts, 2);
+  mixture_.warn(lmp, name_, group->names[igroup], counts[0], counts[1]);
+}
+
 void ComputeField::answer() {
   if (answered_) return;
   answered_ = true;
-  outside_ = 0.0;
+  sum_over_ranks(&not_finite_, 1);
+  require_finite(not_finite_);
+  outside_ = flat_ = with_axis_ = 0.0;
   for (int i = 0; i < atom->nlocal; i++)
     if (in_group(i)) add_grain(i);
   sum_over_ranks(sums_.numbers().data(), static_cast<int>(sums_.numbers().size()));
   sum_over_ranks(&outside_, 1);
   for (int cell = 0; cell < sums_.cells(); cell++) *sums_.of(FieldSums::volume, cell) = map_.cells().volume(cell);
   if (sums_.has(FieldSums::motion)) add_motion();
+  warn_of_mixture();
 
   double grains = 0.0, mass = 0.0, volume = 0.0, filled = 0.0;
   for (int cell = 0; cell < sums_.cells(); cell++) {

@@ -8,6 +8,7 @@ ComputeStyle(field,ComputeField)
 #ifndef LMP_COMPUTE_FIELD_H
 #define LMP_COMPUTE_FIELD_H
 
+#include "chosen_axis.h"
 #include "contact_compute.h"
 #include "field_map.h"
 #include "field_settings.h"
@@ -38,6 +39,7 @@ class ComputeField : public grainscope::ContactCompute,
   const grainscope::FieldCells &cells() const override { return map_.cells(); }
   const grainscope::FieldQuantities &quantities() const override { return quantities_; }
   grainscope::FieldUnits units() const override;
+  bool moves_with_box() const override { return settings_.moves_with_box(); }
 
  protected:
   void answer() override;
@@ -49,16 +51,23 @@ class ComputeField : public grainscope::ContactCompute,
   grainscope::FieldSums sums_;  // of this rank, after the answer of all
   grainscope::BoxState box_;
   double outside_ = 0.0;
-  bool answered_ = false;  // since the evaluation: vector and array are asked for one after the other
-  bool warned_ = false;  // of flat and long grains together
+  bool answered_ = false;    // since the evaluation: vector and array are asked for one after the other
+  double not_finite_ = 0.0;  // contacts without a place
+  double flat_ = 0.0, with_axis_ = 0.0;
+  grainscope::MixtureWarning mixture_;
 
   grainscope::FieldQuantities read(int &iarg, int narg, char **arg);
   void begin(const grainscope::BoxState &box);
   void add_contact(const grainscope::Contact &c);
   void add_branch(const grainscope::Contact &c, const Eigen::Vector3d &centre);
+  struct Share;
+  template <class Use>
+  bool for_each_share(int i, const Use &use) const;
   void add_grain(int i);
   void add_axis(int i, const Eigen::Matrix3d &frame, double weight, double *to) const;
+  void count_axis(int i);
   void add_motion();
+  void warn_of_mixture();
 };
 
 }

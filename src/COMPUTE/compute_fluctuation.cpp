@@ -101,7 +101,7 @@ ComputeFluctuation::~ComputeFluctuation() {}
 void ComputeFluctuation::init() {
   grainscope::require_grains(lmp, grainscope::Arguments(lmp, name));
   impl_->scope.init();
-  grainscope::Bodies(lmp, name);
+  grainscope::require_known_bodies(lmp, name);
 }
 
 void ComputeFluctuation::compute_array() {

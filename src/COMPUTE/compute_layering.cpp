@@ -53,7 +53,7 @@ ComputeLayering::ComputeLayering(LAMMPS *lmp, int &iarg, int narg, char **arg)
 
 ComputeLayering::~ComputeLayering() {}
 
-void ComputeLayering::init() { grainscope::Bodies(lmp, name); }
+void ComputeLayering::init() { grainscope::require_known_bodies(lmp, name); }
 
 void ComputeLayering::compute_array() {
   invoked_array = update->ntimestep;

@@ -48,7 +48,7 @@ grainscope::Outputs declared() {
 struct ComputeNematic::Impl {
   explicit Impl(LAMMPS *lmp) : scope(lmp, "compute nematic", Scope::region | Scope::plane | Scope::axis) {}
   Scope scope;
-  bool warned = false;
+  grainscope::MixtureWarning mixture;
 };
 
 ComputeNematic::ComputeNematic(LAMMPS *lmp, int &iarg, int narg, char **arg)
@@ -85,7 +85,8 @@ void ComputeNematic::compute_vector() {
   MPI_Allreduce(MPI_IN_PLACE, sums.sums.data(), sums.sums.size(), MPI_DOUBLE, MPI_SUM, world);
 
   const grainscope::Nematic nematic(sums);
-  if (impl_->scope.axis_is_automatic()) warn_of_mixture(sums.oblate(), nematic.grains_with_axis);
+  if (impl_->scope.axis_is_automatic())
+    impl_->mixture.warn(lmp, "compute nematic", group->names[igroup], sums.oblate(), nematic.grains_with_axis);
   double *out = grainscope::write_components(nematic.q, vector);
   for (double value :
        {nematic.director[0], nematic.director[1], nematic.director[2], nematic.biaxiality, nematic.theta,
@@ -94,19 +95,6 @@ void ComputeNematic::compute_vector() {
     *out++ = value;
   require_all_elements(out);
   scalar = nematic.order;
-}
-
-/** Once: tensors of long axes and of short ones cancel each other. */
-void ComputeNematic::warn_of_mixture(double flat, double all) {
-  if (impl_->warned || flat == 0.0 || flat == all) return;
-  impl_->warned = true;
-  if (comm->me != 0) return;
-  error->warning(FLERR,
-                 ("compute nematic: group '" + std::string(group->names[igroup]) + "' mixes flat and long grains (" +
-                  grainscope::Arguments::text(flat) + " and " + grainscope::Arguments::text(all - flat) +
-                  "), whose axes stand for different things: 'axis long' or 'axis short' measures one kind, "
-                  "'axis symmetry' both together as now")
-                     .c_str());
 }
 
 double ComputeNematic::compute_scalar() {

@@ -29,8 +29,6 @@ class ComputeNematic : public Compute, public grainscope::DeclaresOutputs {
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
-
-  void warn_of_mixture(double flat, double all);
 };
 
 }

@@ -184,7 +184,7 @@ void ComputeVelocityCorrelation::init() {
   grainscope::require_grains(lmp, errors);
   impl_->measured = -1;
   impl_->scope.init();
-  grainscope::Bodies(lmp, name);
+  grainscope::require_known_bodies(lmp, name);
   if (impl_->running) impl_->record = FixGrainRecord::find(lmp, id);
   if (impl_->mesh && !(domain->xperiodic && domain->yperiodic && domain->zperiodic))
     errors.fail("'method' must be direct in a box that is not periodic in all three directions, got 'mesh'");

@@ -15,6 +15,7 @@ using Eigen::Vector3d;
 namespace {
 
 const int most_cells = 10000000;
+const double most_images = 100.0;
 const double infinite = 1e19;  // less than what INF is to the host
 
 bool any_number(double) { return true; }
@@ -92,7 +93,7 @@ void FieldSettings::complete(const Arguments &errors) {
 }
 
 void FieldSettings::complete_rings(const Arguments &errors) {
-  if (is_smooth()) errors.fail("'about' goes with kernel cell");
+  if (is_smooth()) errors.fail("kernel", "cell with 'about'", kernel_ == FieldKernel::Kind::lucy ? "lucy" : "gaussian");
   if (frame_ == Frame::box) errors.fail("'about' goes with frame lab");
   if (!region_.empty()) errors.fail("'about' goes with 'r' and bounds along the axis, not with 'region'");
   if (numbers_[1] != 1)
@@ -102,7 +103,7 @@ void FieldSettings::complete_rings(const Arguments &errors) {
     if (k != about_ && bounded_[k]) errors.fail("rings are bounded by 'r' and along their axis");
 }
 
-void FieldSettings::init(LAMMPS_NS::LAMMPS *lmp, const std::string &style) {
+void FieldSettings::find_region(LAMMPS_NS::LAMMPS *lmp, const std::string &style) {
   if (region_.empty()) return;
   const Arguments errors(lmp, style);
   const int found = lmp->domain->find_region(const_cast<char *>(region_.c_str()));
@@ -110,19 +111,21 @@ void FieldSettings::init(LAMMPS_NS::LAMMPS *lmp, const std::string &style) {
   LAMMPS_NS::Region *const region = lmp->domain->regions[found];
   Vector3d low, high;
   if (!is_standing_block(region, low, high))
-    errors.fail("region '" + region_ + "': a grid is that of a block that does not move");
+    errors.fail("region '" + region_ + "': a grid is that of the inside of a block that does not move");
   for (int k = 0; k < 3; k++) {
     const bool from = low[k] > -infinite, to = high[k] < infinite;
     if (from != to) errors.fail("region '" + region_ + "': both bounds along an axis, or INF twice");
+    if (k == 2 && lmp->domain->dimension == 2) continue;  // the grains' plane is in it
     bounded_[k] = from;
     bounds_[k] = {{low[k], high[k]}};
+    if (!(low[k] < high[k])) errors.fail("region '" + region_ + "' has no thickness along " + "xyz"[k]);
   }
 }
 
 void FieldSettings::require_dimension(const Arguments &errors, int dimension) const {
   if (dimension == 3) return;
   if (numbers_[2] != 1) errors.fail("grid", "nx ny 1 with 'dimension 2'", std::to_string(numbers_[2]) + " along z");
-  if (bounded_[2] && region_.empty()) errors.fail("'z' needs dimension 3");
+  if (bounded_[2]) errors.fail("'z' needs dimension 3");
   if (are_rings() && about_ != 2) errors.fail("'about' must be z with 'dimension 2'");
 }
 
@@ -133,9 +136,28 @@ FieldSettings::Bounds FieldSettings::extent(const BoxState &box, int k) const {
   return {{low, low + box.edges(k, k)}};
 }
 
+/** Along axis k of the box it is one whole period. */
+bool FieldSettings::spans(const BoxState &box, int k) const {
+  if (!box.periodic[k] || (are_rings() && k != about_)) return false;
+  if (frame_ == Frame::box) return !bounded_[k] || (bounds_[k][0] == 0.0 && bounds_[k][1] == 1.0);
+  const Bounds all = extent(box, k);
+  return std::fabs(all[1] - all[0] - box.edges(k, k)) < 1e-9 * box.edges(k, k);
+}
+
 FieldMap FieldSettings::map(const BoxState &box) const {
   const FieldMap::Space space = {corner_of(box), box.edges, box.periodic};
-  return FieldMap(are_rings() ? rings(box) : blocks(box), space, frame_ == Frame::box, kernel_, width_);
+  return FieldMap(are_rings() ? rings(box) : blocks(box), space, frame_ == Frame::box,
+                  {{spans(box, 0), spans(box, 1), spans(box, 2)}}, kernel_, width_);
+}
+
+void FieldSettings::require_cells(const Arguments &errors, const BoxState &box) const {
+  if (are_rings() && !(radii_[0] < radii_[1]))
+    errors.fail("the axis of rings must lie in the box, or 'r lo hi' be given");
+  const FieldMap map = this->map(box);
+  for (int k = 0; k < 3; k++)
+    if (!(map.images(k) < most_images))
+      errors.fail("the grid and its kernel see " + Arguments::text(map.images(k)) + " images of the box along " +
+                  "xyz"[k] + ", at most " + Arguments::text(most_images) + ": nearer bounds, or a smaller width");
 }
 
 FieldCells FieldSettings::blocks(const BoxState &box) const {
@@ -146,42 +168,39 @@ FieldCells FieldSettings::blocks(const BoxState &box) const {
     if (frame_ == Frame::box) {
       if (bounded_[k]) corner += bounds_[k][0] * box.edges.col(k);
       if (bounded_[k]) edges.col(k) *= bounds_[k][1] - bounds_[k][0];
-      open[k] = !bounded_[k];  // what is in the periodic box is in its cells, whatever rounding says
+      open[k] = !bounded_[k] || spans(box, k);  // what is in the periodic box is in its cells, whatever rounding says
       continue;
     }
     const Bounds all = extent(box, k);
     corner[k] = all[0];
     edges(k, k) = all[1] - all[0];
-    open[k] = !bounded_[k] && !box.periodic[k];
+    open[k] = spans(box, k) || (!bounded_[k] && !box.periodic[k]);
   }
   return FieldCells::blocks(corner, edges, numbers_, open);
 }
 
-FieldCells FieldSettings::rings(const BoxState &box) const {
-  Bounds radii = radii_;
-  if (!has_radii_) {  // up to the nearest face
-    radii = {{0.0, HUGE_VAL}};
-    for (int k = 0; k < 3; k++) {
-      if (k == about_) continue;
-      const Bounds all = extent(box, k);
-      radii[1] = std::min({radii[1], centre_[k] - all[0], all[1] - centre_[k]});
-    }
+void FieldSettings::fix_radii(const BoxState &box) {
+  if (!are_rings() || has_radii_) return;
+  has_radii_ = true;
+  radii_ = {{0.0, HUGE_VAL}};
+  for (int k = 0; k < 3; k++) {
+    if (k == about_) continue;
+    const Bounds all = extent(box, k);
+    radii_[1] = std::min({radii_[1], centre_[k] - all[0], all[1] - centre_[k]});
   }
-  return FieldCells::rings(about_, centre_, radii, extent(box, about_), numbers_,
-                           !bounded_[about_] && !box.periodic[about_]);
+}
+
+FieldCells FieldSettings::rings(const BoxState &box) const {
+  const bool open = spans(box, about_) || (!bounded_[about_] && !box.periodic[about_]);
+  return FieldCells::rings(about_, centre_, radii_, extent(box, about_), numbers_, open);
 }
 
 std::array<bool, 3> FieldSettings::wraps(const BoxState &box) const {
   std::array<bool, 3> wraps{{false, false, false}};
   for (int k = 0; k < 3; k++) {
     const int axis = are_rings() ? about_ : k;  // of the box
-    if (!box.periodic[axis] || (are_rings() && k != 2)) continue;
-    if (frame_ == Frame::box) {
-      wraps[k] = !bounded_[k] || (bounds_[k][0] == 0.0 && bounds_[k][1] == 1.0);
-      continue;
-    }
-    const Bounds all = extent(box, axis);
-    wraps[k] = std::fabs(all[1] - all[0] - box.edges(axis, axis)) < 1e-9 * box.edges(axis, axis);
+    wraps[k] = spans(box, axis) && !(are_rings() && k != 2);
+    if (frame_ == Frame::box) continue;
     for (int other = 0; other < 3; other++)  // an edge that leans: cells of its other end stand elsewhere
       if (other != axis && (are_rings() || numbers_[other] > 1)) wraps[k] = wraps[k] && box.edges(other, axis) == 0.0;
   }

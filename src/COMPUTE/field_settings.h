@@ -24,8 +24,10 @@ class FieldSettings {
   bool read(Arguments &arguments, const std::string &keyword);
   /** Errors when words are missing or do not go together. */
   void complete(const Arguments &errors);
-  /** Before each run: finds the region. Errors when it is not there, or no block that stands. */
-  void init(LAMMPS_NS::LAMMPS *lmp, const std::string &style);
+  /** Before use: finds the region, where it is now. Errors when it is not there, or no block that stands. */
+  void find_region(LAMMPS_NS::LAMMPS *lmp, const std::string &style);
+  /** Radii that nobody gave reach to the nearest face of the box as it is now, from then on. */
+  void fix_radii(const BoxState &box);
 
   /** Errors for a grid that two dimensions do not have. */
   void require_dimension(const Arguments &errors, int dimension) const;
@@ -35,6 +37,9 @@ class FieldSettings {
   bool is_smooth() const { return kernel_ != FieldKernel::Kind::cell; }
   /** The cells as the box is. */
   FieldMap map(const BoxState &box) const;
+  /** Errors where the cells are none, or see more images of the box than can be meant. */
+  void require_cells(const Arguments &errors, const BoxState &box) const;
+  bool moves_with_box() const { return frame_ == Frame::box; }
   /** Along which axes the last cell is followed by the first, in the next image of the box. */
   std::array<bool, 3> wraps(const BoxState &box) const;
   /** In columns, by how much that image is faster, in components of the cells. */
@@ -59,6 +64,7 @@ class FieldSettings {
   void read_about(Arguments &arguments);
   void complete_rings(const Arguments &errors);
   Bounds extent(const BoxState &box, int k) const;
+  bool spans(const BoxState &box, int k) const;
   FieldCells blocks(const BoxState &box) const;
   FieldCells rings(const BoxState &box) const;
 };

@@ -171,7 +171,8 @@ class EnergyLedger {
    *  F; and each by itself. */
   struct Touch {
     int grain, wall, triangle;
-    Eigen::Vector3d velocity, force[parts];
+    Eigen::Vector3d velocity;
+    std::array<Eigen::Vector3d, parts> force;
     bool operator<(const Touch &other) const;
   };
   struct WallContacts {

@@ -7,6 +7,10 @@ namespace grainscope {
 
 namespace {
 
+// In units of the range: along shorter lines the difference of two closed forms loses its digits, and five points err
+// by less than 1e-9 of the height.
+const double short_line = 1e-3;
+
 /** Of the function without its scale, of width w, which ends at c. */
 double integral(FieldKernel::Kind kind, int dimensions, double w, double c) {
   if (kind == FieldKernel::Kind::lucy) {
@@ -41,9 +45,20 @@ double FieldKernel::along(const Eigen::Vector3d &p, const Eigen::Vector3d &d, do
   const double half_chord = std::sqrt((range_ * range_ - square) / dd), length = std::sqrt(dd);
   const double begin = std::max(low, nearest - half_chord), end = std::min(high, nearest + half_chord);
   if (begin >= end) return 0.0;
+  if ((end - begin) * length < short_line * range_) return (end - begin) * mean_of(p, d, begin, end);
   const double s1 = (begin - nearest) * length, s2 = (end - nearest) * length;
   if (kind_ == Kind::gaussian) return scale_ * (gaussian_along(square, s2) - gaussian_along(square, s1)) / length;
   return scale_ * (lucy_along(square, s2) - lucy_along(square, s1)) / length;
+}
+
+/** Over t from `begin` to `end`, by the points of Gauss and Legendre. */
+double FieldKernel::mean_of(const Eigen::Vector3d &p, const Eigen::Vector3d &d, double begin, double end) const {
+  const double inner = std::sqrt(5.0 - 2.0 * std::sqrt(10.0 / 7.0)) / 3.0;
+  const double outer = std::sqrt(5.0 + 2.0 * std::sqrt(10.0 / 7.0)) / 3.0;
+  const double of_inner = (322.0 + 13.0 * std::sqrt(70.0)) / 900.0, of_outer = (322.0 - 13.0 * std::sqrt(70.0)) / 900.0;
+  const auto value = [&](double u) { return at((p + (begin + 0.5 * (1.0 + u) * (end - begin)) * d).squaredNorm()); };
+  return 0.5 * (128.0 / 225.0 * value(0.0) + of_inner * (value(-inner) + value(inner)) +
+                of_outer * (value(-outer) + value(outer)));
 }
 
 /** Integral from 0 to s along a line that passes at a distance whose square is given. */

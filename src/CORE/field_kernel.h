@@ -29,6 +29,7 @@ class FieldKernel {
   Kind kind_ = Kind::cell;
   double width_ = 1.0, range_ = 3.0, scale_ = 1.0;
 
+  double mean_of(const Eigen::Vector3d &p, const Eigen::Vector3d &d, double begin, double end) const;
   double gaussian_along(double square, double s) const;
   double lucy_along(double square, double s) const;
 };

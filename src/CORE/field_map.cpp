@@ -8,8 +8,9 @@ namespace grainscope {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-FieldMap::FieldMap(const FieldCells &cells, const Space &space, bool with_box, FieldKernel::Kind kind, double width)
-    : cells_(cells), space_(space), with_box_(with_box), inverse_(space.edges.inverse()) {
+FieldMap::FieldMap(const FieldCells &cells, const Space &space, bool with_box, const std::array<bool, 3> &whole,
+                   FieldKernel::Kind kind, double width)
+    : cells_(cells), space_(space) {
   int dimensions = 0;
   for (int k = 0; k < 3; k++) {
     divided_[k] = cells.numbers()[k] > 1;
@@ -18,7 +19,7 @@ FieldMap::FieldMap(const FieldCells &cells, const Space &space, bool with_box, F
   }
   if (kind != FieldKernel::Kind::cell && dimensions > 0) kernel_ = FieldKernel(kind, width, dimensions);
   find_measure();
-  find_view();
+  find_view(with_box, whole);
 }
 
 /** Of cells in the space of the axes that are divided, and how to come there. */
@@ -50,19 +51,22 @@ void FieldMap::find_measure() {
     if (divided_[k]) reach_[k] = kernel_.range() * to_cells.row(k).norm() * cells_.numbers()[k];
 }
 
-/** In units of the edges of space the least and the largest place that is seen from a cell. */
-void FieldMap::find_view() {
+/** Between which coordinates a cell sees. */
+void FieldMap::find_view(bool with_box, const std::array<bool, 3> &whole) {
+  if (with_box) to_view_ = space_.edges.inverse();
+  else lattice_ = space_.edges;
   low_.setConstant(HUGE_VAL);
   high_.setConstant(-HUGE_VAL);
   for (int corner = 0; corner < 8; corner++) {
     const Vector3d at(corner & 1, corner >> 1 & 1, corner >> 2);
-    const Vector3d s = inverse_ * (cells_.corner() + cells_.edges() * at - space_.corner);
+    const Vector3d s = to_view_ * (cells_.corner() + cells_.edges() * at - space_.corner);
     low_ = low_.cwiseMin(s);
     high_ = high_.cwiseMax(s);
   }
-  if (!kernel_.is_smooth()) return;
   for (int k = 0; k < 3; k++) {
-    const double reach = kernel_.range() * inverse_.row(k).norm();
+    cut_[k] = space_.periodic[k] && whole[k] && !(kernel_.is_smooth() && divided_[k]);
+    if (!kernel_.is_smooth() || !divided_[k]) continue;
+    const double reach = kernel_.range() * to_view_.row(k).norm();
     low_[k] -= reach;
     high_[k] += reach;
   }

@@ -12,8 +12,10 @@ namespace grainscope {
  *  with a smooth one to all whose middles are near, by phi(middle - x) times the cell's volume, where phi is a function
  *  of the axes that are divided. */
 class FieldMap {
+  static constexpr double rounding = 1e-9;  // of a period: what is so near to an end may be seen
+
  public:
-  /** The periodic space that cells lie in. */
+  /** The periodic space that cells lie in, the edges an upper triangular matrix. */
   struct Space {
     Eigen::Vector3d corner = Eigen::Vector3d::Zero();
     Eigen::Matrix3d edges = Eigen::Matrix3d::Identity();
@@ -21,9 +23,14 @@ class FieldMap {
   };
 
   FieldMap() = default;
-  /** `with_box`: the cells divide the box, or a part of it, along its own edges. `width`: of a smooth kernel. */
-  FieldMap(const FieldCells &cells, const Space &space, bool with_box, FieldKernel::Kind kind, double width);
+  /** `with_box`: the cells divide the box, or a part of it, along its own edges. `whole`: axes of space along which they
+   *  are one whole period, so that each point and each part of a line has one image there. `width`: of a smooth
+   *  kernel. */
+  FieldMap(const FieldCells &cells, const Space &space, bool with_box, const std::array<bool, 3> &whole,
+           FieldKernel::Kind kind, double width);
 
+  /** How many images of space along axis k lie between what is seen from cells. */
+  double images(int k) const { return space_.periodic[k] ? (high_[k] - low_[k]) / lattice_(k, k) : 0.0; }
   const FieldCells &cells() const { return cells_; }
   /** Projects on the space of the axes that are divided, at right angles to the edges of those that are not. */
   const Eigen::Matrix3d &across() const { return across_; }
@@ -74,43 +81,50 @@ class FieldMap {
  private:
   FieldCells cells_;
   Space space_;
-  bool with_box_ = true;
   FieldKernel kernel_;
   std::array<bool, 3> divided_{{true, true, true}}, open_{{false, false, false}};
-  Eigen::Matrix3d inverse_ = Eigen::Matrix3d::Identity();  // of the edges of space
-  Eigen::Vector3d low_ = Eigen::Vector3d::Zero(),
-                  high_ = Eigen::Vector3d::Ones();  // in units of those edges, what is seen
+  std::array<bool, 3> cut_{{false, false, false}};  // axes of space along which images are cut at their ends
+  // Coordinates that images are found in: with the box its fractions, else x, y, z. Images are moved by whole numbers of
+  // the lattice's columns; axis k of an image does not depend on lower ones.
+  Eigen::Matrix3d to_view_ = Eigen::Matrix3d::Identity(), lattice_ = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d low_ = Eigen::Vector3d::Zero(), high_ = Eigen::Vector3d::Ones();  // what is seen, there
   Eigen::Matrix3d across_ = Eigen::Matrix3d::Identity();
   double measure_ = 1.0;                             // of a cell in that space
   Eigen::Vector3d reach_ = Eigen::Vector3d::Zero();  // of the kernel, in cells
 
   void find_measure();
-  void find_view();
+  void find_view(bool with_box, const std::array<bool, 3> &whole);
   static void clip(double u, double v, double &low, double &high);
 
-  /** The images of the line that may be seen, and the part of it that may. */
+  /** The images of the line that may be seen, and the part of each that may. */
   template <class Use>
   void for_each_image(const Eigen::Vector3d &a, const Eigen::Vector3d &b, const Use &use) const {
-    const Eigen::Vector3d s = inverse_ * (a - space_.corner), t = inverse_ * (b - space_.corner);
-    if (!((s + t).allFinite())) return;
-    int first[3] = {0, 0, 0}, last[3] = {0, 0, 0};
-    bool cut[3] = {false, false, false};  // at the faces of the box
-    for (int k = 0; k < 3; k++) {
-      if (!space_.periodic[k]) continue;
-      const double least = std::min(s[k], t[k]), most = std::max(s[k], t[k]);
-      cut[k] = with_box_ && !(kernel_.is_smooth() && divided_[k]);
-      first[k] = static_cast<int>(cut[k] ? -std::floor(most) : std::ceil(low_[k] - most));
-      last[k] = static_cast<int>(cut[k] ? -std::floor(least) : std::floor(high_[k] - least));
+    const Eigen::Vector3d from = to_view_ * (a - space_.corner), to = to_view_ * (b - space_.corner);
+    if (!((from + to).allFinite())) return;
+    Eigen::Vector3d boxes = Eigen::Vector3d::Zero();
+    find_images(2, from, to, 0.0, 1.0, boxes, use);
+  }
+
+  /** Along axis k and those below, of the part of the line from `low` to `high`. */
+  template <class Use>
+  void find_images(int k, const Eigen::Vector3d &from, const Eigen::Vector3d &to, double low, double high,
+                   Eigen::Vector3d &boxes, const Use &use) const {
+    if (k < 0) return use(boxes, low, high);
+    if (!space_.periodic[k]) return find_images(k - 1, from, to, low, high, boxes, use);
+    const double period = lattice_(k, k), shifted = lattice_.row(k).dot(boxes) - low_[k];
+    const double u = (from[k] + shifted) / period, v = (to[k] + shifted) / period;  // from the lower end
+    const double at_low = u + low * (v - u), at_high = u + high * (v - u);
+    const double least = std::min(at_low, at_high), most = std::max(at_low, at_high);
+    const double first = cut_[k] ? -std::floor(most) : std::ceil(-most - rounding);
+    const double last = cut_[k] ? -std::floor(least) : std::floor((high_[k] - low_[k]) / period - least + rounding);
+    for (double n = first; n <= last; n++) {
+      double begin = low, end = high;
+      if (cut_[k] && first < last) clip(u + n, v + n, begin, end);
+      if (begin >= end) continue;
+      boxes[k] = n;
+      find_images(k - 1, from, to, begin, end, boxes, use);
     }
-    Eigen::Vector3d boxes;
-    for (boxes[0] = first[0]; boxes[0] <= last[0]; boxes[0]++)
-      for (boxes[1] = first[1]; boxes[1] <= last[1]; boxes[1]++)
-        for (boxes[2] = first[2]; boxes[2] <= last[2]; boxes[2]++) {
-          double low = 0.0, high = 1.0;
-          for (int k = 0; k < 3; k++)
-            if (cut[k] && first[k] < last[k]) clip(s[k] + boxes[k], t[k] + boxes[k], low, high);
-          if (low < high) use(boxes, low, high);
-        }
+    boxes[k] = 0.0;
   }
 
   /** The cells whose middles are within the kernel's range of the line between two points, in units of cells, and some

@@ -47,8 +47,10 @@ class FieldSums {
   int cells() const { return cells_; }
   /** The same blocks, all 0. */
   FieldSums zero() const { return FieldSums(blocks_, cells_); }
-  void add(const FieldSums &other) {
-    for (std::size_t k = 0; k < numbers_.size(); k++) numbers_[k] += other.numbers_[k];
+  bool same_layout(const FieldSums &other) const { return blocks_ == other.blocks_ && cells_ == other.cells_; }
+  /** Of the same layout; `times`: -1 takes it off. */
+  void add(const FieldSums &other, double times = 1.0) {
+    for (std::size_t k = 0; k < numbers_.size(); k++) numbers_[k] += times * other.numbers_[k];
   }
   void reset() { std::fill(numbers_.begin(), numbers_.end(), 0.0); }
   std::vector<double> &numbers() { return numbers_; }

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <unistd.h>
 
 using namespace LAMMPS_NS;
 using grainscope::Arguments;
@@ -26,6 +27,10 @@ const int most_steps = 2000000000;
 
 bool ends_with(const std::string &text, const std::string &end) {
   return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+std::string tilted(const std::string &file) {
+  return "'" + file + "' has a grid along x, y and z, and this one is tilted: .vts, or compute field ... frame lab";
 }
 
 }
@@ -53,37 +58,56 @@ FixFieldWrite::FixFieldWrite(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg,
       arguments.fail("file", "a name that ends with .csv, .vti or .vts", file);
   if (blocks_ > 0 && repeats_ % blocks_ != 0)
     arguments.fail("blocks", "a divisor of N_repeat, " + std::to_string(repeats_), std::to_string(blocks_));
+  for (const std::string &file : files_)
+    if (std::count(files_.begin(), files_.end(), file) > 1) arguments.fail("'file' has '" + file + "' twice");
   find_source();
-  next_ = next_sample(update->ntimestep);
-  modify->addstep_compute_all(next_);
+  begin_window();
 }
 
 int FixFieldWrite::setmask() { return FixConst::END_OF_STEP; }
 
-void FixFieldWrite::find_source() {
+/** True when it is another than before. */
+bool FixFieldWrite::find_source() {
+  const long before = source_number_;
   const int found = modify->find_compute(compute_id_.c_str());
   compute_ = found < 0 ? nullptr : modify->compute[found];
   source_ = dynamic_cast<grainscope::FieldSource *>(compute_);
-  if (!source_) Arguments(lmp, name).fail("source", "c_ID of a compute field", "c_" + compute_id_);
+  if (!source_) Arguments(lmp, name).fail("source", "c_ID of a compute field that there is", "c_" + compute_id_);
+  source_number_ = source_->number();
+  return source_number_ != before;
 }
 
+void FixFieldWrite::begin_window() {
+  taken_ = 0;
+  next_ = next_sample(update->ntimestep);
+}
+
+/** What was sampled of another compute, or of another step's numbers, does not count. */
 void FixFieldWrite::init() {
-  find_source();
-  if (next_ < update->ntimestep) {  // steps were renumbered: begin again
-    taken_ = 0;
-    next_ = next_sample(update->ntimestep);
-    modify->addstep_compute_all(next_);
-  }
+  if (find_source() || next_ < update->ntimestep) begin_window();
+  modify->addstep_compute_all(next_);
 }
 
-/** As fix ave/time does; the first samples may be of the step that the run begins with. */
+void FixFieldWrite::reset_timestep(bigint now) {
+  taken_ = 0;
+  next_ = next_sample(now);
+}
+
+/** The first samples may be of the step that the run begins with. */
 void FixFieldWrite::setup(int) {
-  const bool tilted =
-      std::any_of(files_.begin(), files_.end(), [](const std::string &f) { return ends_with(f, ".vti"); });
-  if (tilted && domain->triclinic && !grainscope::is_orthogonal(table()))
-    Arguments(lmp, name).fail("a file .vti has a grid along x, y and z, and this one is tilted: .vts, or compute field "
-                              "... frame lab");
+  fail_on_all_ranks(comm->me == 0 ? not_writable() : "");
   end_of_step();
+}
+
+/** Why files could not be written, or "". */
+std::string FixFieldWrite::not_writable() const {
+  for (const std::string &file : files_) {
+    if (ends_with(file, ".vti") && domain->triclinic && source_->moves_with_box()) return tilted(file);
+    const std::size_t slash = file.rfind('/');
+    const std::string folder = slash == std::string::npos ? "." : file.substr(0, slash + 1);
+    if (access(folder.c_str(), W_OK | X_OK) != 0) return "cannot write '" + file + "': " + std::strerror(errno);
+  }
+  return "";
 }
 
 bigint FixFieldWrite::next_sample(bigint after) const {
@@ -95,6 +119,10 @@ bigint FixFieldWrite::next_sample(bigint after) const {
 
 void FixFieldWrite::end_of_step() {
   if (update->ntimestep != next_) return;
+  if (find_source()) {  // between runs of which the later one was not set up
+    begin_window();
+    if (update->ntimestep != next_) return;
+  }
   modify->clearstep_compute();
   if (!(compute_->invoked_flag & INVOKED_ARRAY)) {
     compute_->compute_array();
@@ -112,10 +140,11 @@ void FixFieldWrite::end_of_step() {
 
 void FixFieldWrite::add_sample() {
   const std::size_t parts = std::max(1, blocks_);
+  const bigint at = taken_++;
+  if (comm->me != 0) return;
   const FieldSums &now = source_->sums();
-  if (taken_ == 0) averaged_.assign(parts, now.zero());
-  averaged_[taken_ * parts / repeats_].add(now);
-  taken_++;
+  if (at == 0) averaged_.assign(parts, now.zero());
+  averaged_[at * parts / repeats_].add(now);
 }
 
 FieldTable FixFieldWrite::table() const {
@@ -126,6 +155,8 @@ FieldTable FixFieldWrite::table() const {
   table.edges = cells.numbered_edges();
   table.step = update->ntimestep;
   table.time = update->get_cur_time();
+  for (const grainscope::NamedOutput &column : dynamic_cast<grainscope::DeclaresOutputs *>(compute_)->outputs().columns)
+    table.names.push_back(column.name);
   return table;
 }
 
@@ -133,57 +164,73 @@ void FixFieldWrite::write_files() {
   std::string trouble;
   if (comm->me == 0) {
     FieldTable all = table();
-    for (const grainscope::NamedOutput &column :
-         dynamic_cast<grainscope::DeclaresOutputs *>(compute_)->outputs().columns)
-      all.names.push_back(column.name);
-    const std::size_t width = all.names.size(), parts = averaged_.size();
-    FieldSums sum = averaged_[0].zero();
-    for (const FieldSums &part : averaged_) sum.add(part);
-    const grainscope::FieldUnits units = source_->units();
-    std::vector<double> row(width), of_part(width), square(width);
-    for (int cell = 0; cell < sum.cells(); cell++) {
-      const Eigen::Vector3d middle = source_->cells().middle(cell);
-      const auto write_row = [&](const FieldSums &sums, double samples, std::vector<double> &to) {
-        std::copy_n(middle.data(), 3, to.begin());
-        source_->quantities().write(sums, cell, samples, units, to.data() + 3);
-      };
-      write_row(sum, repeats_, row);
-      all.values.insert(all.values.end(), row.begin(), row.end());
-      if (parts == 1) continue;
-      std::vector<double> mean(width, 0.0);
-      std::fill(square.begin(), square.end(), 0.0);
-      for (const FieldSums &part : averaged_) {
-        write_row(part, static_cast<double>(repeats_) / parts, of_part);
-        for (std::size_t k = 0; k < width; k++) {
-          mean[k] += of_part[k] / parts;
-          square[k] += (of_part[k] - row[k]) * (of_part[k] - row[k]);
-        }
-      }
-      for (std::size_t k = 0; k < width; k++) {
-        const double shift = mean[k] - row[k], spread = std::max(0.0, square[k] - parts * shift * shift);
-        all.values.push_back(std::sqrt(spread / (parts * (parts - 1.0))));
-      }
-    }
+    FieldSums sum = averaged_[0];
+    for (std::size_t part = 1; part < averaged_.size(); part++) sum.add(averaged_[part]);
+    all.values = rows(sum);
     for (const std::string &file : files_)
       if (trouble.empty()) trouble = write(file, all);
   }
-  int failed = trouble.empty() ? 0 : 1;
-  MPI_Bcast(&failed, 1, MPI_INT, 0, world);
-  if (!failed) return;
-  int size = static_cast<int>(trouble.size());
-  MPI_Bcast(&size, 1, MPI_INT, 0, world);
-  trouble.resize(size);
-  MPI_Bcast(&trouble[0], size, MPI_CHAR, 0, world);
-  Arguments(lmp, name).fail(trouble);
+  fail_on_all_ranks(trouble);
+}
+
+/** Of all cells, with their errors behind them. */
+std::vector<double> FixFieldWrite::rows(const FieldSums &all) const {
+  std::vector<double> rows;
+  for (int cell = 0; cell < all.cells(); cell++)
+    for (double value : row_of(cell, all, repeats_)) rows.push_back(value);
+  if (blocks_ == 0) return rows;
+  const std::vector<double> beside = errors(all, rows);
+  std::vector<double> both;
+  const std::size_t width = compute_->size_array_cols;
+  for (std::size_t first = 0; first < rows.size(); first += width) {
+    both.insert(both.end(), rows.begin() + first, rows.begin() + first + width);
+    both.insert(both.end(), beside.begin() + first, beside.begin() + first + width);
+  }
+  return both;
+}
+
+std::vector<double> FixFieldWrite::row_of(int cell, const FieldSums &sums, double samples) const {
+  const Eigen::Vector3d middle = source_->cells().middle(cell);
+  std::vector<double> row(compute_->size_array_cols);
+  source_->quantities().write(sums, cell, samples, source_->units(), std::copy_n(middle.data(), 3, row.data()));
+  return row;
+}
+
+/** The jackknife, of all cells: of the n values without one block each, sqrt((n - 1)/n sum (r - <r>)^2). No number
+ *  where fewer than two blocks have what the column is per. */
+std::vector<double> FixFieldWrite::errors(const FieldSums &all, const std::vector<double> &rows) const {
+  const double n = averaged_.size();
+  const std::size_t width = compute_->size_array_cols;
+  std::vector<double> shift(rows.size(), 0.0), square(rows.size(), 0.0), filled(rows.size(), 0.0);
+  for (const FieldSums &part : averaged_) {
+    FieldSums rest = all;
+    rest.add(part, -1.0);
+    for (int cell = 0; cell < all.cells(); cell++) {
+      const std::size_t first = cell * width;
+      const std::vector<double> row = row_of(cell, rest, repeats_ * (n - 1.0) / n);
+      const std::vector<double> below = source_->quantities().below(part, cell);
+      for (std::size_t k = 3; k < width; k++) {
+        const double d = row[k] - rows[first + k];
+        shift[first + k] += d;
+        square[first + k] += d * d;
+        filled[first + k] += below[k - 3] > 0.0 ? 1.0 : 0.0;
+      }
+    }
+  }
+  std::vector<double> errors(rows.size(), 0.0);
+  for (std::size_t k = 0; k < errors.size(); k++) {
+    const double spread = std::max(0.0, square[k] - shift[k] * shift[k] / n);
+    errors[k] = filled[k] < 2.0 && k % width >= 3 ? std::nan("") : std::sqrt((n - 1.0) / n * spread);
+  }
+  return errors;
 }
 
 /** What went wrong, or "". */
 std::string FixFieldWrite::write(const std::string &pattern, const FieldTable &table) const {
   std::string file = pattern;
-  const std::size_t star = file.find('*');
-  if (star != std::string::npos) file.replace(star, 1, std::to_string(table.step));
-  if (ends_with(file, ".vti") && !grainscope::is_orthogonal(table))
-    return "'" + file + "' has a grid along x, y and z, and this one is tilted: .vts, or compute field ... frame lab";
+  for (std::size_t star = file.find('*'); star != std::string::npos; star = file.find('*'))
+    file.replace(star, 1, std::to_string(table.step));
+  if (ends_with(file, ".vti") && !grainscope::is_orthogonal(table)) return tilted(file);
   errno = 0;
   std::ofstream out(file, std::ios::binary);
   out << (ends_with(file, ".csv")   ? grainscope::field_csv(table)
@@ -191,4 +238,20 @@ std::string FixFieldWrite::write(const std::string &pattern, const FieldTable &t
                                     : grainscope::field_vts(table));
   out.close();
   return out ? "" : "cannot write '" + file + "': " + std::strerror(errno);
+}
+
+/** Of rank 0. Collective. */
+void FixFieldWrite::fail_on_all_ranks(std::string trouble) const {
+  int size = static_cast<int>(trouble.size());
+  MPI_Bcast(&size, 1, MPI_INT, 0, world);
+  if (size == 0) return;
+  trouble.resize(size);
+  MPI_Bcast(&trouble[0], size, MPI_CHAR, 0, world);
+  Arguments(lmp, name).fail(trouble);
+}
+
+double FixFieldWrite::memory_usage() {
+  double bytes = 0.0;
+  for (FieldSums &part : averaged_) bytes += sizeof(double) * part.numbers().capacity();
+  return bytes;
 }

@@ -20,7 +20,7 @@ struct FieldTable;
 namespace LAMMPS_NS {
 
 /** Writes a compute field, averaged over samples in time, to files for pandas (csv) and ParaView (vti, vts). Means are
- *  ratios of sums; errors are standard errors of the means of blocks of samples. Rank 0 writes. */
+ *  ratios of sums, their errors those of the jackknife over blocks of samples. Rank 0 writes. */
 class FixFieldWrite : public Fix {
  public:
   FixFieldWrite(class LAMMPS *lmp, int narg, char **arg);
@@ -28,6 +28,8 @@ class FixFieldWrite : public Fix {
   void init() override;
   void setup(int vflag) override;
   void end_of_step() override;
+  void reset_timestep(bigint now) override;
+  double memory_usage() override;
 
  private:
   bigint repeats_ = 1, frequency_ = 1;  // nevery is the host's
@@ -37,16 +39,23 @@ class FixFieldWrite : public Fix {
 
   class Compute *compute_ = nullptr;
   grainscope::FieldSource *source_ = nullptr;
+  long source_number_ = 0;
   bigint next_ = -1;                             // sample
   bigint taken_ = 0;                             // samples since the last file
-  std::vector<grainscope::FieldSums> averaged_;  // of each block, or of all
+  std::vector<grainscope::FieldSums> averaged_;  // of each block, or of all; on rank 0
 
-  void find_source();
+  bool find_source();
+  void begin_window();
   bigint next_sample(bigint after) const;
   void add_sample();
   grainscope::FieldTable table() const;
+  std::vector<double> rows(const grainscope::FieldSums &all) const;
+  std::vector<double> errors(const grainscope::FieldSums &all, const std::vector<double> &rows) const;
+  std::vector<double> row_of(int cell, const grainscope::FieldSums &sums, double samples) const;
+  std::string not_writable() const;
   void write_files();
   std::string write(const std::string &pattern, const grainscope::FieldTable &table) const;
+  void fail_on_all_ranks(std::string trouble) const;
 };
 
 }

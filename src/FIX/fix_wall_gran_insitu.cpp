@@ -138,6 +138,7 @@ int FixWallGranInsitu::add_history_value(std::string name, std::string newtonfla
 
 std::vector<TriMesh *> FixWallGranInsitu::meshes() {
   std::vector<TriMesh *> meshes;
+  meshes.reserve(n_meshes());
   for (int k = 0; k < n_meshes(); k++) meshes.push_back(mesh_list()[k]->triMesh());
   return meshes;
 }

@@ -89,6 +89,7 @@ std::vector<int> LedgerGrains::not_in(LedgerGrains &other) {
   std::set_difference(grains_.begin(), grains_.end(), other.grains_.begin(), other.grains_.end(),
                       std::back_inserter(rest));
   std::vector<int> tags;
+  tags.reserve(rest.size());
   for (const Grain &grain : rest) tags.push_back(grain.tag);
   return tags;
 }

@@ -40,7 +40,7 @@ bool is_rigid(const LAMMPS_NS::Fix *fix) { return !strncmp(fix->style, "rigid", 
 const LAMMPS_NS::Fix *fix_of_bodies(const LAMMPS_NS::LAMMPS *lmp) {
   for (int k = 0; k < lmp->modify->nfix; k++) {
     const LAMMPS_NS::Fix *const fix = lmp->modify->fix[k];
-    if (multisphere(fix) || is_rigid(fix)) return fix;
+    if (is_rigid(fix) || multisphere(fix)) return fix;
   }
   return nullptr;
 }
@@ -190,6 +190,8 @@ Vector3d Bodies::arm(int i) const {
     if (box_.periodic[k]) boxes[k] = std::round(s[k]);
   return d - box_.edges * boxes;
 }
+
+void require_known_bodies(LAMMPS_NS::LAMMPS *lmp, const std::string &style) { const Bodies known(lmp, style); }
 
 bool has_bodies(LAMMPS_NS::LAMMPS *lmp) { return fix_of_bodies(lmp); }
 

@@ -67,6 +67,8 @@ class Bodies : private LAMMPS_NS::Pointers {
   void require_small() const;
 };
 
+/** Before a run, for what finds the bodies later: the same errors as of their constructor. */
+void require_known_bodies(LAMMPS_NS::LAMMPS *lmp, const std::string &style);
 /** Fix multisphere or rigid. */
 bool has_bodies(LAMMPS_NS::LAMMPS *lmp);
 /** Errors where there are clumps: what cannot be told of them. In init(). */

@@ -5,6 +5,7 @@
 #include "scope.h"
 #include "symmetry_axis.h"
 #include <algorithm>
+#include <string>
 
 namespace grainscope {
 
@@ -20,6 +21,16 @@ inline SymmetryAxis chosen_axis(const double *semi_axes, AxisChoice choice) {
   const int shortest = static_cast<int>(std::min_element(semi_axes, semi_axes + 3) - semi_axes);
   return {Shape::oblate, shortest};
 }
+
+/** Warns once of a group with flat and long grains, whose axes stand for different things. */
+class MixtureWarning {
+ public:
+  /** `flat` of `all` grains that have an axis. All ranks may call; rank 0 prints. */
+  void warn(LAMMPS_NS::LAMMPS *lmp, const std::string &style, const std::string &group, double flat, double all);
+
+ private:
+  bool warned_ = false;
+};
 
 }
 

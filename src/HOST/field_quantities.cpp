@@ -22,7 +22,7 @@ struct CellSums {
   const FieldSums &sums;
   int cell;
   double samples;
-  const FieldUnits &units;
+  FieldUnits units;
 
   double operator()(Block block, int k = 0) const { return sums.of(block, cell)[k]; }
   Map<const Vector3d> vector(Block block) const { return Map<const Vector3d>(sums.of(block, cell)); }
@@ -36,6 +36,12 @@ struct Words {
 };
 const Words cartesian = {"x y z", "xx yy zz xy xz yz", "xx xy xz yx yy yz zx zy zz"};
 const Words cylindrical = {"r t a", "rr tt aa rt ra ta", "rr rt ra tr tt ta ar at aa"};
+
+double of_volume(const CellSums &s) { return s.volume(); }
+double of_mass(const CellSums &s) { return s(FieldSums::mass); }
+double of_grains(const CellSums &s) { return s(FieldSums::grains); }
+double of_contacts(const CellSums &s) { return s(FieldSums::contacts, 0) + s(FieldSums::contacts, 1); }
+double of_axes(const CellSums &s) { return s(FieldSums::axes, 6); }
 
 double *write_vector(const CellSums &s, Block block, double over, double *to) {
   for (int k = 0; k < 3; k++) *to++ = CellSums::ratio(s(block, k), over);
@@ -68,6 +74,7 @@ Vector3d director(const CellSums &s) {
 struct FieldQuantities::Quantity {
   const char *name;
   unsigned blocks;
+  double (*below)(const CellSums &s);  // what it is per
   void (*declare)(OutputList &columns, const Words &words);
   double *(*write)(const CellSums &s, double *to);
 };
@@ -76,7 +83,7 @@ const std::vector<FieldQuantities::Quantity> &FieldQuantities::all() {
   using F = FieldSums;
   using List = OutputList;
   static const std::vector<Quantity> quantities = {
-      {"density", F::mass,
+      {"density", F::mass, of_volume,
        [](List &list, const Words &) {
          list.add({"rho", "mass/volume", intensive, "mass of grains over volume"});
        },
@@ -84,7 +91,7 @@ const std::vector<FieldQuantities::Quantity> &FieldQuantities::all() {
          *to++ = s(F::mass) / s.volume();
          return to;
        }},
-      {"phi", F::solid,
+      {"phi", F::solid, of_volume,
        [](List &list, const Words &) {
          list.add({"phi", "-", intensive, "solid fraction"});
        },
@@ -92,22 +99,22 @@ const std::vector<FieldQuantities::Quantity> &FieldQuantities::all() {
          *to++ = s(F::solid) / s.volume();
          return to;
        }},
-      {"momentum", F::momentum,
+      {"momentum", F::momentum, of_volume,
        [](List &list, const Words &words) {
          list.add_each(words.vector, {"p_*", "mass velocity/volume", intensive, "momentum density *"});
        },
        [](const CellSums &s, double *to) { return write_vector(s, F::momentum, s.volume(), to); }},
-      {"velocity", F::mass | F::momentum,
+      {"velocity", F::mass | F::momentum, of_mass,
        [](List &list, const Words &words) {
          list.add_each(words.vector, {"v_*", "velocity", intensive, "velocity *, momentum over mass"});
        },
        [](const CellSums &s, double *to) { return write_vector(s, F::momentum, s(F::mass), to); }},
-      {"spin", F::spin,
+      {"spin", F::spin, of_grains,
        [](List &list, const Words &words) {
          list.add_each(words.vector, {"w_*", "1/time", intensive, "mean angular velocity *"});
        },
        [](const CellSums &s, double *to) { return write_vector(s, F::spin, s(F::grains), to); }},
-      {"temperature", F::mass | F::momentum | F::centroid | F::motion,
+      {"temperature", F::mass | F::momentum | F::centroid | F::motion, of_mass,
        [](List &list, const Words &words) {
          list.add_each(words.vector, {"T_*", "velocity^2", intensive, "granular temperature *"})
              .add({"T", "velocity^2", intensive, "granular temperature, mean of the axes"});
@@ -118,12 +125,12 @@ const std::vector<FieldQuantities::Quantity> &FieldQuantities::all() {
          *to++ = sum / s.units.dimension;
          return to;
        }},
-      {"stress", F::force,
+      {"stress", F::force, of_volume,
        [](List &list, const Words &words) {
          list.add_each(words.nine, {"s_*", "pressure", intensive, "contact stress *, tension positive"});
        },
        [](const CellSums &s, double *to) { return write_stress(s, F::force, to); }},
-      {"stress_normal", F::force | F::tangential,
+      {"stress_normal", F::force | F::tangential, of_volume,
        [](List &list, const Words &words) {
          list.add_each(words.nine, {"sn_*", "pressure", intensive, "part of s_* from normal forces"});
        },
@@ -132,12 +139,12 @@ const std::vector<FieldQuantities::Quantity> &FieldQuantities::all() {
            *to++ = -s.units.pressure * (s(F::force, k) - s(F::tangential, k)) / s.volume() + 0.0;
          return to;
        }},
-      {"stress_tangential", F::tangential,
+      {"stress_tangential", F::tangential, of_volume,
        [](List &list, const Words &words) {
          list.add_each(words.nine, {"st_*", "pressure", intensive, "part of s_* from tangential forces"});
        },
        [](const CellSums &s, double *to) { return write_stress(s, F::tangential, to); }},
-      {"stress_kinetic", F::mass | F::momentum | F::centroid | F::motion,
+      {"stress_kinetic", F::mass | F::momentum | F::centroid | F::motion, of_volume,
        [](List &list, const Words &words) {
          list.add_each(words.six, {"sk_*", "pressure", intensive, "kinetic stress *, not in s_*"});
        },
@@ -145,12 +152,12 @@ const std::vector<FieldQuantities::Quantity> &FieldQuantities::all() {
          for (int k = 0; k < 6; k++) *to++ = -s.units.kinetic * s(F::motion, k) / s.volume() + 0.0;
          return to;
        }},
-      {"traction", F::traction,
+      {"traction", F::traction, of_volume,
        [](List &list, const Words &words) {
          list.add_each(words.vector, {"t_*", "force/volume", intensive, "force * of walls on grains"});
        },
        [](const CellSums &s, double *to) { return write_vector(s, F::traction, s.volume(), to); }},
-      {"contacts", F::contacts,
+      {"contacts", F::contacts, of_volume,
        [](List &list, const Words &) {
          list.add({"N_c", "-", whole, "contacts between grains"}).add({"N_w", "-", whole, "contacts with walls"});
        },
@@ -158,7 +165,7 @@ const std::vector<FieldQuantities::Quantity> &FieldQuantities::all() {
          for (int k = 0; k < 2; k++) *to++ = s(F::contacts, k) / s.samples;
          return to;
        }},
-      {"coordination", F::ends,
+      {"coordination", F::ends, of_grains,
        [](List &list, const Words &) {
          list.add({"Z", "-", intensive, "contacts of the grains, per grain"});
        },
@@ -166,16 +173,16 @@ const std::vector<FieldQuantities::Quantity> &FieldQuantities::all() {
          *to++ = CellSums::ratio(s(F::ends), s(F::grains));
          return to;
        }},
-      {"fabric", F::contacts | F::fabric,
+      {"fabric", F::contacts | F::fabric, of_contacts,
        [](List &list, const Words &words) {
          list.add_each(words.six, {"F_*", "-", intensive, "fabric *, <n n>"});
        },
        [](const CellSums &s, double *to) {
-         const double n = s(F::contacts, 0) + s(F::contacts, 1);
+         const double n = of_contacts(s);
          for (int k = 0; k < 6; k++) *to++ = CellSums::ratio(s(F::fabric, k), n);
          return to;
        }},
-      {"P_n", F::losses,
+      {"P_n", F::losses, of_volume,
        [](List &list, const Words &) {
          list.add({"P_n", "power/volume", intensive, "power lost by normal damping"});
        },
@@ -183,7 +190,7 @@ const std::vector<FieldQuantities::Quantity> &FieldQuantities::all() {
          *to++ = s(F::losses, 0) / s.volume() + 0.0;
          return to;
        }},
-      {"P_t", F::losses,
+      {"P_t", F::losses, of_volume,
        [](List &list, const Words &) {
          list.add({"P_t", "power/volume", intensive, "power lost by friction of sliding contacts"})
              .add({"P_t_damp", "power/volume", intensive, "power lost by tangential damping of the others"});
@@ -192,20 +199,20 @@ const std::vector<FieldQuantities::Quantity> &FieldQuantities::all() {
          for (int k = 1; k < 3; k++) *to++ = s(F::losses, k) / s.volume() + 0.0;
          return to;
        }},
-      {"overlap", F::contacts | F::overlaps,
+      {"overlap", F::contacts | F::overlaps, of_contacts,
        [](List &list, const Words &) {
          list.add({"overlap", "distance", intensive, "mean overlap"});
        },
        [](const CellSums &s, double *to) {
-         *to++ = CellSums::ratio(s(F::overlaps), s(F::contacts, 0) + s(F::contacts, 1));
+         *to++ = CellSums::ratio(s(F::overlaps), of_contacts(s));
          return to;
        }},
-      {"Q", F::axes,
+      {"Q", F::axes, of_axes,
        [](List &list, const Words &words) {
          list.add_each(words.six, {"Q_*", "-", intensive, "order tensor *, <p p> - 1/3"});
        },
        [](const CellSums &s, double *to) { return write_components(order_tensor(s), to); }},
-      {"S2", F::axes,
+      {"S2", F::axes, of_axes,
        [](List &list, const Words &) {
          list.add({"S2", "-", intensive, "nematic order"});
        },
@@ -214,7 +221,7 @@ const std::vector<FieldQuantities::Quantity> &FieldQuantities::all() {
          *to++ = 1.5 * solver.eigenvalues()[2];
          return to;
        }},
-      {"director", F::axes,
+      {"director", F::axes, of_axes,
        [](List &list, const Words &words) {
          list.add_each(words.vector, {"n_*", "-", intensive, "director *"});
        },
@@ -269,6 +276,17 @@ double *FieldQuantities::write(const FieldSums &sums, int cell, double samples, 
   *to++ = s(FieldSums::grains) / samples;
   for (const Quantity *one : chosen_) to = one->write(s, to);
   return to;
+}
+
+std::vector<double> FieldQuantities::below(const FieldSums &sums, int cell) const {
+  const CellSums s = {sums, cell, 1.0, {}};
+  std::vector<double> values(2, s.volume());  // V, N
+  for (const Quantity *one : chosen_) {
+    OutputList columns;
+    one->declare(columns, cartesian);
+    values.insert(values.end(), columns.size(), one->below(s));
+  }
+  return values;
 }
 
 }

@@ -33,6 +33,8 @@ class FieldQuantities {
   OutputList columns(bool rings) const;
   /** Writes them; returns the place behind. `samples`: how many times are in the sums. */
   double *write(const FieldSums &sums, int cell, double samples, const FieldUnits &units, double *to) const;
+  /** What each of these columns is a ratio to, volume, mass, grains ..., summed: 0 where it means nothing. */
+  std::vector<double> below(const FieldSums &sums, int cell) const;
 
  private:
   struct Quantity;

@@ -2,13 +2,15 @@
 """compute field against numpy in boxes that shear, tilt, flip or have walls; its sums over the cells against the
 measures of the whole box."""
 from dataclasses import replace
+import math
 
 import numpy as np
 
 import clumps
 from case import main, require, require_close, require_equal, require_same_snapshots
+from columns import outputs
 from contact_measures import flipped, undamped
-from deck import Deck, dump_grains
+from deck import Deck, dump_grains, thermo
 from meshes import folder_with
 from oracle import field as oracle
 from oracle.comparison_field import OF_CONTACTS, OF_GRAINS, Asked, block, largest, require_agreement
@@ -277,6 +279,53 @@ def empty_cells(ranks):
             require_equal(found[name], np.zeros(12), name)
 
 
+def on_faces(ranks):
+    """A lattice with grains, contacts and branches on faces and planes between cells: nothing twice, nothing lost."""
+    edge, size = 3, 1.98
+    grains = [Grain(tuple(size * k for k in cell)) for cell in np.ndindex(edge, edge, edge)]
+    deck = Deck(Packing((edge * size,) * 3, grains, atom_style="sphere"))
+    whole = outputs("stress/contact").of("s")
+    grids = ("3 1 1 frame lab", "1 3 6 frame lab", "3 1 1", "6 2 3 x 0 1 frame box", f"3 3 3 y 0.0 {edge * size!r}")
+    body, asked = ["compute s all stress/contact"], [whole["syy"], whole["N_c"]]
+    for k, grid in enumerate(grids):
+        count = math.prod(int(n) for n in grid.split()[:3])
+        body.append(f"compute f{k} all field grid {grid} quantities stress contacts")
+        asked.append(f"c_f{k}[1]")
+        asked += [f"c_f{k}[{row}][{column}]" for row in range(1, count + 1) for column in (10, 15)]
+    table = run(replace(deck, body=[*body, *thermo(1, *asked), "run 0"]), ranks).thermo()[-1]
+    values = iter([float(table[word][0]) for word in asked])
+    stress, contacts = next(values), next(values)
+    require_equal(contacts, 3 * edge**3, "contacts")
+    for grid in grids:
+        count = math.prod(int(n) for n in grid.split()[:3])
+        require_equal(next(values), edge**3, f"grid {grid}: grains")
+        cells = np.array([(next(values), next(values)) for _ in range(count)])
+        require_close(cells[:, 0].mean(), stress, 1e-12, f"grid {grid}: stress")
+        require_equal(cells[:, 1].sum(), contacts, f"grid {grid}: contacts")
+
+
+def other_region(ranks):
+    """A region is known by its ID, also in a run that is not set up."""
+    here, there = "block 0 3 0 3 0 3 units box", "block 1 5 2 4 0 6 units box"
+    start = [f"region place {here}", f"region there {there}"]
+    start += [f"compute {ID} all field grid 1 1 2 region {ID} quantities phi stress" for ID in ("place", "there")]
+    asked = [f"c_{ID}[{row}][{column}]" for ID in ("place", "there") for row in (1, 2) for column in (4, 5, 6, 7)]
+    again = ["region place delete", f"region place {there}", "run 5 pre no"]
+    tables = run(replace(SPHERES, body=[*start, *thermo(5, *asked), "run 5", *again]), ranks).thermo()
+    require(tables[0][asked[0]][0] != tables[0][asked[8]][0], "places that differ")
+    for one, other in zip(asked[:8], asked[8:]):
+        require_equal(tables[1][one][-1:], tables[1][other][-1:], one)
+
+
+def mixture_warned_of(ranks):
+    flat, long = (1.0, 1.0, 0.5), (1.0, 1.0, 2.0)
+    for shapes, warnings in (((flat, long), 1), ((long, long), 0)):
+        grains = [Grain((5.0 * k + 2.5, 5.0, 5.0), shape) for k, shape in enumerate(shapes)]
+        body = ["compute f all field grid 1 1 1 quantities S2", *thermo(1, "c_f[1][6]"), "run 2"]
+        output = run(Deck(Packing((10.0, 10.0, 10.0), grains), body=body), ranks).output
+        require_equal(output.count("mixes flat and long grains"), warnings, f"warnings of {shapes}")
+
+
 def trajectory_untouched(ranks):
     grains = dump_grains(SPHERES.packing, 20)
     body = [*SPHERES.body, FLOW.line]
@@ -340,6 +389,9 @@ CASES = {
     "order-of-columns": order_of_columns,
     "empty-cells": empty_cells,
     "by-region": by_region,
+    "on-faces": on_faces,
+    "other-region": other_region,
+    "mixture-warned-of": mixture_warned_of,
     "trajectory-untouched": trajectory_untouched,
     "clumps-refused": clumps_refused,
     "oracle-clipped-as-sampled": clipped_as_sampled,

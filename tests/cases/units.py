@@ -11,12 +11,17 @@ from run import run
 from wall_measures import BOX
 from watch import Watched, watched_deck
 
+FIELDS = (
+    "density phi momentum velocity spin temperature stress stress_normal stress_tangential stress_kinetic",
+    "traction contacts coordination fabric P_n P_t overlap",
+)
 # LIGGGHTS refuses softer grains with units cgs.
 HARD = Material(young=(5e7,))
 AT_WALLS = [
     Watched("state", "packing", True, 18),
     Watched("forces", "contact/force", True, 27),
     Watched("walls", "wall/contact", True, 6),
+    Watched("cells", f"field grid 1 3 2 quantities {' '.join(FIELDS)}", True, 4, (6, 67)),
 ]
 
 

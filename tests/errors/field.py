@@ -11,6 +11,7 @@ REGIONS = (
     "region ball sphere 2 2 2 1 units box",
     "region part block 0 2 0 3 0 4 units box",
     "region out block 0 2 0 3 0 4 side out units box",
+    "region flat block 0 2 3 3 0 4 units box",
     "region turns block 0 2 0 3 0 4 units box rotate v_turn 1 1 1 0 0 1",
 )
 GRID = "grid 2 3 4"
@@ -51,7 +52,10 @@ REFUSED = {
         (f"{GRID} x 1.0 2.0 x 1.0 2.0 quantities density", ("'x' is given twice",)),
         (f"{GRID} region nowhere quantities density", ("'region' must be a region that is defined", "got 'nowhere'")),
         (f"{GRID} region ball quantities density", ("region", "ball", "block")),
-        (f"{GRID} region out quantities density", ("region", "out")),
+        (f"{GRID} region out quantities density", ("region 'out'", "the inside of a block")),
+        (f"{GRID} region flat quantities density", ("region 'flat' has no thickness along y",)),
+        (f"{GRID} y -1e9 1e9 quantities density", ("images of the box along y, at most 100",)),
+        (f"{GRID} kernel gaussian width 1e300 quantities density", ("images of the box along x, at most 100",)),
         (f"{GRID} region part x 0.0 1.0 quantities density", ("region", "x")),
         (f"{GRID} frame sideways quantities density", ("'frame' must be box or lab, got 'sideways'",)),
     ],
@@ -72,7 +76,7 @@ REFUSED = {
         ("grid 2 3 2 about z 4 4 r 0.5 3 quantities density", ("grid", "1")),
         ("grid 2 1 2 about z 4 4 r 3 0.5 quantities density", ("'r'", "0.5")),
         ("grid 2 1 2 about z 4 4 r -1 3 quantities density", ("'r", "-1")),
-        ("grid 2 1 2 about z 4 4 quantities density", ("about", "r")),
+        ("grid 2 1 2 about z 400 4 quantities density", ("the axis of rings must lie in the box",)),
         (f"{GRID} r 0.5 3 quantities density", ("'r'", "about")),
         (f"{ABOUT} frame box quantities density", ("about", "frame")),
     ],

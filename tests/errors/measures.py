@@ -37,7 +37,7 @@ def all_shaped(shape):
 
 KNOWN = "strain v_strain "
 VARIABLE = ["variable strain equal step"]
-NO_STRAIN = "needs to know the strain: use fix press/strain, or the keyword 'strain' with f_ID[n] or v_name"
+NO_STRAIN = "needs to know the strain: use fix press/strain, or the keyword 'strain' with f_ID[n], v_name or time"
 PRESS = "fix {} all press/strain axis y target 1e5 shear xy rate 0.05 every 1e-3"
 
 CASES = {

@@ -101,7 +101,7 @@ def renumbered_warned(ranks):
     require("other IDs" not in text, "a warning for nothing")
 
 
-NO_STRAIN = "needs to know the strain: use fix press/strain, or the keyword 'strain' with f_ID[n] or v_name"
+NO_STRAIN = "needs to know the strain: use fix press/strain, or the keyword 'strain' with f_ID[n], v_name or time"
 FOLLOW = [PRESS, "compute c all displacement/shear", "compute d all velocity/memory", *thermo(1, "c_c", "c_d")]
 NAMED = [PRESS, "compute c all displacement/shear strain f_press[1]", *thermo(1, "c_c")]
 VARIABLE = ["variable v equal step*1e-3", "compute c all velocity/memory strain v_v", *thermo(1, "c_c")]

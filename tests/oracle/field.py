@@ -9,6 +9,7 @@ What is left open by the definitions is read so:
 - G_k fits v(k') = a + G c(k') over the means of the cell and its neighbours, over corners too, that hold mass, with
   weights M(k'), a free, the least G where it is not determined; G has no part along the edges of axes with one cell.
   (Without the corners four means determine G in three axes, and T of a few grains becomes 10^4 times v^2.)
+- a grid of the laboratory has no neighbours across a face of the box whose edge is tilted;
 - rings fit v_r, v_t, v_a against r and the axis;
 - mean n n and mean overlap are over contacts with grains and walls together."""
 import math

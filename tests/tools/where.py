@@ -216,6 +216,18 @@ TABLE = {
         "grains leave, come": r"energy/ledger-walls-(rained|drained|drops-out)",
         "tilted box": r"energy/ledger-closes-flip",
     },
+    "field": {
+        "two dimensions": r"field-two-dimensions",
+        "walls": r"field-(walls|which-walls)",
+        "gravity": r"field-weight",
+        "several types": r"field-types",
+        "clumps": refused(r"field-clumps-refused"),
+        "region, moving": refused(r"field-refused-bounds"),
+        "region, empty": r"field-empty-cells",
+        "grains leave, come": r"field-mass",
+        "tilted box": r"field-flipping-box",
+        "units": r"every-style-units-walls",
+    },
     "press/strain": {
         "two dimensions": r"press/strain.*two-dimensions-",
         "walls": r"press/strain-refused-cylinder-across-the-axis",

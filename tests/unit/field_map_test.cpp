@@ -20,11 +20,14 @@ Matrix3d tilted_edges() {
   return edges;
 }
 
+using Axes = std::array<bool, 3>;
+const Axes all{{true, true, true}}, none{{false, false, false}};
+
 FieldMap::Space tilted_space() { return {Vector3d(-1.0, 2.0, 0.5), tilted_edges(), {{true, true, true}}}; }
 
 FieldMap whole_box(const FieldCells::Numbers &numbers, Kind kind = Kind::cell, double width = 1.0) {
   const FieldMap::Space space = tilted_space();
-  return FieldMap(FieldCells::blocks(space.corner, space.edges, numbers, {{true, true, true}}), space, true, kind,
+  return FieldMap(FieldCells::blocks(space.corner, space.edges, numbers, {{true, true, true}}), space, true, all, kind,
                   width);
 }
 
@@ -86,7 +89,7 @@ TEST(FieldMap, PartsOfLinesInATiltedPeriodicBox) {
 
 TEST(FieldMap, LinesAlongThePlanesBetweenCells) {
   const FieldMap::Space space = {Vector3d::Zero(), 4.0 * Matrix3d::Identity(), {{true, true, true}}};
-  const FieldMap map(FieldCells::blocks(space.corner, space.edges, {{4, 4, 4}}, {{true, true, true}}), space, true,
+  const FieldMap map(FieldCells::blocks(space.corner, space.edges, {{4, 4, 4}}, {{true, true, true}}), space, true, all,
                      Kind::cell, 0.0);
   for (const Vector3d &a : {Vector3d(0, 0, 0), Vector3d(4, 4, 4), Vector3d(1, 2, 3), Vector3d(-1, 0, 5)})
     for (const Vector3d &d : {Vector3d(1, 0, 0), Vector3d(2, 0, 0), Vector3d(0, -3, 0), Vector3d(1, 1, 1)})
@@ -103,10 +106,33 @@ TEST(FieldMap, PointsOnFacesAreInOneCell) {
   }
 }
 
+TEST(FieldMap, AGridInSpaceOfOnePeriodHasEachPointOnce) {
+  Random random;
+  for (double length : {5.94, 1.9 * 3.3, 7.0, 11.1}) {
+    Matrix3d edges = tilted_edges();
+    edges(0, 0) = length;
+    for (double corner : {0.0, -0.3, 1.1}) {
+      const FieldMap::Space space = {Vector3d(corner, 2.0, 0.5), edges, all};
+      for (int cells : {1, 3, 6, 12, 35}) {
+        const FieldMap map(FieldCells::blocks(space.corner, edges.diagonal().asDiagonal(), {{cells, 3, 1}}, all), space,
+                           false, all, Kind::cell, 0.0);
+        for (int k = -3; k <= 2 * cells + 3; k++) {  // on every plane between cells, and every face
+          const Vector3d x = space.corner + Vector3d(k * length / cells, k * 5.0 / 3.0, 0.0);
+          int found = 0;
+          map.for_each_at(x, [&](int, double, const Vector3d &) { found++; });
+          EXPECT_EQ(found, 1) << length << " " << corner << " " << cells << " " << k;
+          EXPECT_NEAR(sum_of(cut(map, x, x + Vector3d(0.0, 0.0, 3.0))), 1.0, 1e-13);
+          EXPECT_NEAR(sum_of(cut(map, x, x + random.point(-4.0, 4.0))), 1.0, 1e-13);
+        }
+      }
+    }
+  }
+}
+
 TEST(FieldMap, AGridInSpaceSeesImages) {
   const FieldCells cells = FieldCells::blocks(Vector3d(0.0, -4.0, 1.0), Vector3d(9.0, 12.0, 2.0).asDiagonal(),
                                               {{3, 4, 1}}, {{false, false, false}});
-  const FieldMap map(cells, tilted_space(), false, Kind::cell, 0.0);
+  const FieldMap map(cells, tilted_space(), false, none, Kind::cell, 0.0);
   Random random;
   for (int k = 0; k < 60; k++) {
     const Vector3d x = random.point(-3.0, 6.0);
@@ -131,7 +157,7 @@ TEST(FieldMap, Rings) {
   for (int along : {0, 1, 2}) {
     const Vector3d centre(0.3, -0.2, 0.1);
     const FieldCells cells = FieldCells::rings(along, centre, {{0.5, 3.5}}, {{-2.0, 2.0}}, {{5, 1, 3}}, false);
-    const FieldMap map(cells, space, false, Kind::cell, 0.0);
+    const FieldMap map(cells, space, false, none, Kind::cell, 0.0);
     double volume = 0.0;
     for (int cell = 0; cell < cells.count(); cell++) volume += cells.volume(cell);
     EXPECT_NEAR(volume, M_PI * (3.5 * 3.5 - 0.5 * 0.5) * 4.0, 1e-12);
@@ -183,6 +209,18 @@ TEST(FieldKernel, AlongLinesInClosedForm) {
   }
 }
 
+TEST(FieldKernel, AlongLinesThatAreAlmostPoints) {
+  Random random;
+  for (Kind kind : {Kind::lucy, Kind::gaussian}) {
+    const FieldKernel kernel(kind, 0.6, 1);
+    for (double size : {1e-2, 2e-3, 1e-3, 1e-5, 1e-8, 1e-11, 1e-13}) {
+      const Vector3d p(0.3, 0.0, 0.0), d(size, 0.0, 0.0);
+      const double middle = kernel.at((p + 0.5 * d).squaredNorm());
+      EXPECT_NEAR(kernel.along(p, d, 0.0, 1.0), middle, kernel.at(0.0) * (1e-12 + size * size)) << size;
+    }
+  }
+}
+
 TEST(FieldMap, SmoothWeightsOfAPeriodicBoxAddUp) {
   Random random;
   for (Kind kind : {Kind::lucy, Kind::gaussian})
@@ -205,7 +243,7 @@ TEST(FieldMotion, AnAffineFlowHasNone) {
   gradient << 0.1, 2.0, -0.4, 0.3, -0.5, 0.7, 0.2, -0.9, 0.4;
   const FieldMap::Space space = {Vector3d::Zero(), tilted_edges(), {{false, false, false}}};
   const FieldMap map(FieldCells::blocks(space.corner, space.edges, {{3, 4, 2}}, {{false, false, false}}), space, true,
-                     Kind::cell, 0.0);
+                     none, Kind::cell, 0.0);
   FieldSums sums(FieldSums::mass | FieldSums::momentum | FieldSums::centroid, map.cells().count());
   std::vector<Vector3d> points;
   for (int k = 0; k < 300; k++) points.push_back(tilted_edges() * random.point(0.0, 1.0));
