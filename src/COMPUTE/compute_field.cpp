@@ -124,6 +124,9 @@ void ComputeField::add_contact(const Contact &c) {
     map_.for_each_at(centre, add_end);
     if (c.with_own_grain()) map_.for_each_at(centre - c.branch, add_end);
   }
+  constexpr unsigned of_points =
+      FieldSums::contacts | FieldSums::overlaps | FieldSums::losses | FieldSums::fabric | FieldSums::traction;
+  if (!(quantities_.blocks() & of_points)) return;
   map_.for_each_at(point, [&](int cell, double weight, const Vector3d &boxes) {
     weight *= c.weight;
     if (sums_.has(FieldSums::contacts)) sums_.of(FieldSums::contacts, cell)[c.with_wall() ? 1 : 0] += weight;
@@ -146,11 +149,16 @@ void ComputeField::add_contact(const Contact &c) {
 
 void ComputeField::add_branch(const Contact &c, const Vector3d &centre) {
   map_.for_each_along(centre - c.branch, centre, [&](int cell, double share, const Vector3d &middle) {
-    const Matrix3d frame = map_.cells().frame(middle);
-    const Vector3d r = frame * c.branch;
-    if (sums_.has(FieldSums::force)) add_dyad(sums_.of(FieldSums::force, cell), share * c.weight, frame * c.force, r);
+    Vector3d r = c.branch, force = c.force, tangential = c.tangential_force;
+    if (map_.cells().are_rings()) {
+      const Matrix3d frame = map_.cells().frame(middle);
+      r = frame * r;
+      force = frame * force;
+      tangential = frame * tangential;
+    }
+    if (sums_.has(FieldSums::force)) add_dyad(sums_.of(FieldSums::force, cell), share * c.weight, force, r);
     if (sums_.has(FieldSums::tangential))
-      add_dyad(sums_.of(FieldSums::tangential, cell), share * c.weight, frame * c.tangential_force, r);
+      add_dyad(sums_.of(FieldSums::tangential, cell), share * c.weight, tangential, r);
   });
 }
 

@@ -73,8 +73,7 @@ Matrix3d FieldCells::frame(const Vector3d &x) const {
   return rows;
 }
 
-Vector3d FieldCells::coordinates(const Vector3d &x) const {
-  if (!rings_) return inverse_ * (x - corner_);
+Vector3d FieldCells::ring_coordinates(const Vector3d &x) const {
   const Vector3d at = position(x);
   return {(at[0] - radii_[0]) / (radii_[1] - radii_[0]) * numbers_[0], 0.5,
           (at[2] - places_[0]) / (places_[1] - places_[0]) * numbers_[2]};
@@ -83,8 +82,9 @@ Vector3d FieldCells::coordinates(const Vector3d &x) const {
 void FieldCells::find_cuts(const Vector3d &from, const Vector3d &to, double low, double high) const {
   const Vector3d a = coordinates(from), b = coordinates(to);
   if (!rings_)
-    for (int k = 0; k < 2; k++) cut_across(k, a[k], b[k], low, high);
-  cut_across(2, a[2], b[2], low, high);
+    for (int k = 0; k < 2; k++)
+      if (numbers_[k] > 1 || !open_[k]) cut_across(k, a[k], b[k], low, high);
+  if (numbers_[2] > 1 || !open_[2]) cut_across(2, a[2], b[2], low, high);
   if (rings_) cut_by_radii(from, to, low, high);
 }
 

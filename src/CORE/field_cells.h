@@ -17,7 +17,7 @@ class FieldCells {
   using Numbers = std::array<int, 3>;
 
   FieldCells() = default;
-  /** Between the edges, in columns, of a block. Across axis k with `open[k]` the first and the last cell hold what lies
+  /** Between the edges, in columns of an upper triangular matrix, of a block. Across axis k with `open[k]` the first and the last cell hold what lies
    *  beyond them too. */
   static FieldCells blocks(const Eigen::Vector3d &corner, const Eigen::Matrix3d &edges, const Numbers &numbers,
                            const std::array<bool, 3> &open);
@@ -54,7 +54,12 @@ class FieldCells {
   /** -1 for none. */
   int cell_of(const Eigen::Vector3d &x) const { return cell_at(coordinates(x)); }
   /** In units of cells, inside from 0 to the number of cells along each axis. */
-  Eigen::Vector3d coordinates(const Eigen::Vector3d &x) const;
+  Eigen::Vector3d coordinates(const Eigen::Vector3d &x) const {
+    if (rings_) return ring_coordinates(x);
+    const Eigen::Vector3d d = x - corner_;
+    const Eigen::Matrix3d &m = inverse_;  // upper triangular
+    return {m(0, 0) * d[0] + m(0, 1) * d[1] + m(0, 2) * d[2], m(1, 1) * d[1] + m(1, 2) * d[2], m(2, 2) * d[2]};
+  }
 
   /** Calls use(cell, first, last) for the parts of a line that lie in one cell each, of what is between `low` and `high`
    *  of it: from 0, its beginning, to 1, its end. */
@@ -84,6 +89,7 @@ class FieldCells {
   std::array<double, 2> radii_{{0.0, 1.0}}, places_{{0.0, 1.0}};
   mutable std::vector<double> cuts_;  // room for what one call finds
 
+  Eigen::Vector3d ring_coordinates(const Eigen::Vector3d &x) const;
   int cell_at(const Eigen::Vector3d &u) const {
     Numbers at;
     for (int k = 0; k < 3; k++) {
