@@ -32,12 +32,15 @@ COMPUTES = [
     "contact/force",
     "contact/local strong cluster",
     "packing",
+    "field grid 4 4 4 quantities stress temperature Q",
+    "field grid 1 8 1 kernel lucy width 1.0 quantities density stress",
     *(w.command for w in everything(dense_packing(1.5))),
 ]
 FIXES = [
     "nve/spheroid",
     "press/strain axis y target 2e4 shear xy rate 0.02 every 1e-3",
     "press/strain axis z target v_held every/step 5",
+    "field/write 1 2 10 c_cells file cells.*.csv cells.vts blocks 2",
     "wall/gran model hertz tangential history surface ellipsoid primitive type 1 zplane -2.0 "
     "allow_special_domain_periodic yes",
 ]
@@ -61,7 +64,7 @@ def packed():
         dense_packing(1.5),
         surface="ellipsoid",
         extra="ledger on tangential_damping off",
-        body=["variable strain equal 0.02*step*dt", "variable held equal 2e4"],
+        body=["variable strain equal 0.02*step*dt", "variable held equal 2e4", "compute cells all field grid 1 4 1"],
     )
 
 

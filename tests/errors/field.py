@@ -118,7 +118,7 @@ def taken(ranks):
     for words in (
         "grid 1 1 1 quantities density",
         "grid 1 1 1000 quantities contacts overlap",
-        f"{GRID} x -1e3 1e3 quantities stress",
+        f"{GRID} x -1e2 1e2 quantities stress",
         f"{GRID} kernel gaussian width 1e-3 quantities density",
         f"{GRID} kernel lucy width 2.0 quantities stress",
         f"{ABOUT} quantities temperature",
