@@ -406,7 +406,7 @@ add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study CASES b
 add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study LONG_RANKS 1 CASES
   failing-runs-do-not-stop-others study-goes-on)
 add_cases(study-fields cases/field_pictures.py LABEL case STYLES study CASES
-  cells-in-order profiles error-bands several-files maps tilted-maps slices arrows rings animation groups-and-columns
+  cells-in-order profiles empty-cells error-bands several-files maps tilted-maps slices arrows rings animation groups-and-columns
   not-finite bad-files command-line)
 add_cases(study-slurm cases/study_slurm.py LABEL long STYLES study CASES slurm-grid)
 

@@ -10,6 +10,8 @@ from shear_output import InputError, numbers
 
 COORDINATES = (("x", "y", "z"), ("r", "t", "a"))  # of a box, and of rings about an axis
 ERROR = "_error"
+# Columns that mean nothing where there is no grain, and are 0 in the files.
+OF_GRAINS = re.compile(r"(v|w|T|Z|F|Q|S2|n|overlap)(_[a-z]+)?")
 
 
 @dataclass
@@ -53,6 +55,12 @@ class Field:
     def __getitem__(self, name):
         """A column without the axes along which there is one cell."""
         return np.squeeze(self.columns[name])
+
+    def seen(self, name):
+        """The same to be drawn: nan where it means nothing."""
+        if "N" not in self.columns or not OF_GRAINS.fullmatch(name):
+            return self[name]
+        return np.where(self["N"] > 0, self[name], np.nan)
 
     def error(self, name):
         """The error of a column, or None."""

@@ -35,7 +35,7 @@ def limits(fields, names, with_errors=False):
     for field in fields:
         for name in names:
             error = field.error(name) if with_errors else None
-            found += [field[name]] if error is None else [field[name] - error, field[name] + error]
+            found += [field.seen(name)] if error is None else [field.seen(name) - error, field.seen(name) + error]
     values = np.concatenate([np.ravel(values) for values in found])
     values = values[np.isfinite(values)]
     return (values.min(), values.max()) if values.size else (0.0, 1.0)
@@ -52,10 +52,10 @@ def draw_profiles(figure, shown, fields, groups):
                 single = len(shown) == 1  # components by colours then, else by dashes
                 style = {"color": COLOURS[number % len(COLOURS)] if single else colour}
                 style["linestyle"] = STYLES[(number // len(COLOURS) if single else number) % len(STYLES)]
-                axis.plot(field[along], field[name], label=name if field is shown[0] else None, **style)
+                axis.plot(field[along], field.seen(name), label=name if field is shown[0] else None, **style)
                 error = field.error(name)
                 if error is not None:
-                    low, high = field[name] - error, field[name] + error
+                    low, high = field.seen(name) - error, field.seen(name) + error
                     axis.fill_between(field[along], low, high, color=style["color"], alpha=0.2, linewidth=0)
         axis.set_title(title)
         if len(names) > 1:
@@ -107,7 +107,7 @@ def in_plane(field, prefix):
     missing = [name for name in names if name not in field.columns]
     if missing:
         raise InputError(f"--vectors {prefix} needs columns {' and '.join(names)} of {field.path}; {field.has}")
-    return [field[name] for name in names]
+    return [field.seen(name) for name in names]
 
 
 def draw_arrows(axis, field, fields, prefix):
@@ -128,10 +128,10 @@ def draw_map(figure, axis, field, fields, name, vectors):
     colours = colour_scale(fields, name)
     x, y = corners(across), corners(up)
     if is_tilted(across, up):
-        image = axis.pcolormesh(x, y, field[name], **colours)
+        image = axis.pcolormesh(x, y, field.seen(name), **colours)
     else:
         extent = (x[0, 0], x[0, -1], y[0, 0], y[-1, 0])
-        image = axis.imshow(field[name], origin="lower", extent=extent, interpolation="nearest", **colours)
+        image = axis.imshow(field.seen(name), origin="lower", extent=extent, interpolation="nearest", **colours)
     axis.set_aspect("equal")
     figure.colorbar(image, ax=axis, shrink=0.8)
     if vectors:

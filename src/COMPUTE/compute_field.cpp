@@ -59,6 +59,7 @@ FieldQuantities ComputeField::read(int &iarg, int narg, char **arg) {
     if (scope_.read(arguments, keyword) || settings_.read(arguments, keyword)) continue;
     names = arguments.words_before(words, "the names of quantities");
   }
+  if (names == std::vector<std::string>{"all"}) names = FieldQuantities::names(domain->dimension);
   settings_.complete(arguments);
   grainscope::require_grains(lmp, arguments);
   return FieldQuantities(arguments, names);
@@ -69,9 +70,8 @@ void ComputeField::init() {
   const grainscope::Arguments errors(lmp, name_);
   grainscope::require_no_bodies(lmp, errors, "they would count sphere by sphere");
   settings_.require_dimension(errors, domain->dimension);
-  if (domain->dimension == 2)
-    for (const char *name : {"Q", "S2", "director"})
-      if (quantities_.has(name)) errors.fail("'" + std::string(name) + "' needs dimension 3");
+  if (domain->dimension == 2 && (quantities_.blocks() & FieldSums::axes))
+    errors.fail("Q, S2 and director need dimension 3");
   if (quantities_.blocks() & FieldSums::losses) require_known_losses();
   const grainscope::BoxState box(lmp);
   settings_.find_region(lmp, name_);

@@ -233,10 +233,17 @@ const std::vector<FieldQuantities::Quantity> &FieldQuantities::all() {
   return quantities;
 }
 
+std::vector<std::string> FieldQuantities::names(int dimension) {
+  std::vector<std::string> names;
+  for (const Quantity &one : all())
+    if (dimension == 3 || !(one.blocks & FieldSums::axes)) names.push_back(one.name);
+  return names;
+}
+
 FieldQuantities::FieldQuantities(const Arguments &errors, const std::vector<std::string> &names) {
   blocks_ = FieldSums::volume | FieldSums::grains | FieldSums::mass;
-  std::string known;
-  for (const Quantity &one : all()) known += (known.empty() ? "" : ", ") + std::string(one.name);
+  std::string known = "all";
+  for (const Quantity &one : all()) known += ", " + std::string(one.name);
   for (const std::string &name : names) {
     if (std::count(names.begin(), names.end(), name) > 1) errors.fail("'quantities' has '" + name + "' twice");
     const auto same = [&name](const Quantity &one) { return name == one.name; };
@@ -248,10 +255,6 @@ FieldQuantities::FieldQuantities(const Arguments &errors, const std::vector<std:
       chosen_.push_back(&one);
       blocks_ |= one.blocks;
     }
-}
-
-bool FieldQuantities::has(const std::string &name) const {
-  return std::any_of(chosen_.begin(), chosen_.end(), [&name](const Quantity *one) { return name == one->name; });
 }
 
 bool FieldQuantities::need_contacts() const {

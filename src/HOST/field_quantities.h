@@ -25,10 +25,11 @@ class FieldQuantities {
   /** Those of these names; errors for one that there is not. */
   FieldQuantities(const Arguments &errors, const std::vector<std::string> &names);
 
+  /** All that there are; with `dimension 2` those that it has. */
+  static std::vector<std::string> names(int dimension);
   /** FieldSums::Block, together. */
   unsigned blocks() const { return blocks_; }
   bool need_contacts() const;
-  bool has(const std::string &name) const;
   /** After the middle and the volume of the cell; components by r, t, a instead of x, y, z for rings. */
   OutputList columns(bool rings) const;
   /** Writes them; returns the place behind. `samples`: how many times are in the sums. */

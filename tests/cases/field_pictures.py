@@ -25,14 +25,16 @@ def quantity(k, place, step):
     return (k + 1.0) * ((place - 0.5 * SIZE) @ [1.0, 10.0, 100.0]) + k + step
 
 
-def write(name, cells, names=("rho", "v_x", "v_y", "v_z"), step=0, tilt=0.0, errors=False, coordinates="xyz"):
+def write(
+    name, cells, names=("rho", "v_x", "v_y", "v_z"), step=0, tilt=0.0, errors=False, coordinates="xyz", first=1.0
+):
     """A csv file of quantities at the middles of a grid of SIZE, tilted along x over y; errors are 1, 2, ... times
     0.1."""
     index = np.array([(x, y, z) for z in range(cells[2]) for y in range(cells[1]) for x in range(cells[0])])
     place = (index + 0.5) / cells * SIZE
     place[:, 0] += tilt * place[:, 1]
     columns = {one: place[:, k] for k, one in enumerate(coordinates)}
-    columns |= {"V": np.full(len(place), np.prod(SIZE / cells)), "N": np.arange(len(place), dtype=float)}
+    columns |= {"V": np.full(len(place), np.prod(SIZE / cells)), "N": np.arange(len(place), dtype=float) + first}
     columns |= {one: quantity(k, place, step) for k, one in enumerate(names)}
     if errors:
         columns |= {one + "_error": 0.0 * values + 0.1 * k for k, (one, values) in enumerate(list(columns.items()), 1)}
@@ -62,7 +64,7 @@ def cells_in_order(ranks):
     """x is the fastest; numbers come back to the last bit."""
     field = read_field(write("a.csv", (3, 2, 4), step=7))
     require(field.cells == (3, 2, 4) and field.step == 7 and field.time == 3.5, f"{field}")
-    require_equal(field.columns["N"], np.arange(24.0).reshape(4, 2, 3), "number of a cell")
+    require_equal(field.columns["N"], np.arange(24.0).reshape(4, 2, 3) + 1.0, "number of a cell")
     require_equal(field.columns["x"][3, 1], (np.arange(3) + 0.5) / 3 * 4.0, "x along a row")
     require_equal(field.columns["z"][:, 1, 2], (np.arange(4) + 0.5) / 4 * 10.0, "z along a column")
     require(field.quantities == ["N", "rho", "v_x", "v_y", "v_z"], f"quantities {field.quantities}")
@@ -83,6 +85,16 @@ def profiles(ranks):
                 require_close(line.get_xdata(), where, 1e-15, f"places of {name}")
                 require_equal(line.get_ydata(), field.columns[name].ravel(), f"values of {name}")
         plt.close(figure)
+
+
+def empty_cells(ranks):
+    """What is of grains is not drawn where there are none; a density is 0 there."""
+    field = read_field(write("a.csv", (5, 1, 1), first=0.0))
+    figure = draw([field], ["rho", "v"])
+    for panel, names in zip(figure.axes, (["rho"], ["v_x", "v_y", "v_z"])):
+        for line, name in zip(panel.lines, names):
+            require_equal(np.isnan(line.get_ydata()), [name != "rho", *[False] * 4], f"{name}: what is not drawn")
+    plt.close(figure)
 
 
 def error_bands(ranks):
@@ -132,7 +144,7 @@ def maps(ranks):
         low, high = figure.axes[1].images[0].get_clim()
         require(low == -high and high == np.abs(field["v_x"]).max(), f"colours from {low} to {high}")
         colours = draw([field], ["N"]).axes[0].images[0].get_clim()
-        require(colours == (0.0, 11.0), f"colours of what has one sign: {colours}")
+        require(colours == (1.0, 12.0), f"colours of what has one sign: {colours}")
         plt.close(figure)
 
 
@@ -311,6 +323,7 @@ main(
     {
         "cells-in-order": cells_in_order,
         "profiles": profiles,
+        "empty-cells": empty_cells,
         "error-bands": error_bands,
         "several-files": several_files,
         "maps": maps,

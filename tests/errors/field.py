@@ -89,6 +89,7 @@ REFUSED = {
 }
 DISCS = {
     "grid 2 2 2 quantities density": ("grid", "dimension 2"),
+    "grid 2 2 1 quantities density all": ("'quantities'", "got 'all'"),
     "grid 2 2 1 quantities density Q": ("Q",),
     "grid 2 2 1 quantities S2": ("S2",),
     "grid 2 2 1 quantities director": ("director",),
@@ -123,6 +124,7 @@ def taken(ranks):
         f"{GRID} kernel lucy width 2.0 quantities stress",
         f"{ABOUT} quantities temperature",
         f"{GRID} quantities Q S2 director",  # spheres have no axes: 0
+        f"{GRID} quantities all",
         f"{GRID} region part quantities phi",
         f"{GRID} frame box x 0.0 0.5 quantities phi",
     ):
