@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "arguments.h"
+#include "nearest_name.h"
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -7,6 +8,12 @@
 #include <cstdlib>
 
 namespace grainscope {
+
+namespace {
+
+const std::size_t shortest_guess = 2;  // letters: of such a word any other is near
+
+}
 
 Arguments::Arguments(LAMMPS_NS::LAMMPS *lmp, const std::string &style, int first, int narg, char **arg)
     : lmp_(lmp), style_(style), words_(arg + std::min(first, narg), arg + narg) {}
@@ -45,7 +52,8 @@ std::string Arguments::choice(const std::string &keyword, const std::vector<std:
   std::string got = word(list);
   for (const std::string &one : choices)
     if (got == one) return got;
-  fail(keyword, list, got);
+  const std::string nearest = got.size() > shortest_guess ? nearest_name(got, choices) : "";
+  fail("'" + keyword + "' must be " + list + ", got '" + got + "'" + nearest);
 }
 
 bool Arguments::is_number(const std::string &text, double &value) {

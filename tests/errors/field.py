@@ -42,6 +42,7 @@ REFUSED = {
         (f"{GRID} quantities Density", ("got 'Density'",)),
         (f"{GRID} quantities density density", ("density", "twice")),
         (f"{GRID} quantities", ("quantities", "got the end of the command")),
+        (f"{GRID} quantites density", ("got 'quantites': did you mean 'quantities'?",)),
         (f"{GRID} quantities density quantities phi", ("'quantities' is given twice",)),
     ],
     "bounds": [

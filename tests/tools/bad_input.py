@@ -2,6 +2,7 @@
 """From a description of a style's command line, the inputs that must be refused, each with the message that must say
 so."""
 from dataclasses import dataclass, field
+import re
 
 from case import require
 from refusal import require_refused
@@ -131,6 +132,8 @@ def require_all_refused(style, inputs, ranks):
     """Each in a process of its own, where nothing else is right either: the words come first."""
     for command, message in inputs:
         deck = "\n".join([*style.before, command, 'print "the line was taken"', "run 1"]) + "\n"
-        result = require_refused(deck, ranks, f"ERROR: {style.name}: {message} (")
+        result = require_refused(deck, ranks, f"ERROR: {style.name}: {message}")
+        whole = re.escape(message) + r"(: did you mean '[^']+'\?)? \("  # no more than a guess follows
+        require(re.search(whole, " ".join(result.output.split())), f"the message goes on: {result.output[-500:]}")
         require("the line was taken" not in result.output, f"refused too late: {command}")
     print(f"{len(inputs)} inputs tried and refused on {ranks} rank(s)")
