@@ -82,6 +82,7 @@ struct FieldQuantities::Quantity {
 const std::vector<FieldQuantities::Quantity> &FieldQuantities::all() {
   using F = FieldSums;
   using List = OutputList;
+  // clang-format off
   static const std::vector<Quantity> quantities = {
       {"density", F::mass, of_volume,
        [](List &list, const Words &) {
@@ -230,6 +231,7 @@ const std::vector<FieldQuantities::Quantity> &FieldQuantities::all() {
          return std::copy_n(n.data(), 3, to);
        }},
   };
+  // clang-format on
   return quantities;
 }
 

@@ -8,7 +8,7 @@ import numpy as np
 import clumps
 from case import main, require, require_close, require_equal, require_same_snapshots
 from columns import outputs
-from deck import Deck, dump_grains, dump_local, shear, thermo
+from deck import Deck, dump_grains, dump_local, number, shear, thermo
 from oracle import network
 from packing import Grain, Packing, dense_packing, disc_packing
 from run import run
@@ -100,7 +100,7 @@ def of_types(ranks):
 def in_a_region(ranks):
     """The contacts whose points are in it."""
     deck = Deck(dense_packing(sizes=(0.9, 1.0, 1.1), atom_style="sphere", overlap=0.001, speed=1.0, minimum=200))
-    middle = " ".join(repr(0.5 * e) for e in deck.packing.edges)
+    middle = " ".join(number(0.5 * e) for e in deck.packing.edges)
     deck.body = [shear(0.3), f"region ball sphere {middle} 4.5 units box"]
     for one in measured(deck, ranks, "region ball"):
         require_agreement(*one)

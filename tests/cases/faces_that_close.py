@@ -19,10 +19,8 @@ FLOWS = {
 
 def loose_grains():
     """Spheres of radius 1 near a lattice, none touching another."""
-    random = np.random.default_rng(5)
-    places = SPACING * (np.array(list(np.ndindex(EDGE, EDGE, EDGE))) + 0.5) + random.uniform(
-        -0.12, 0.12, (EDGE**3, 3)
-    )
+    aside = np.random.default_rng(5).uniform(-0.12, 0.12, (EDGE**3, 3))
+    places = SPACING * (np.array(list(np.ndindex(EDGE, EDGE, EDGE))) + 0.5) + aside
     return [Grain(tuple(x)) for x in places]
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from case import main, require, require_close, require_equal
 from contact_measures import undamped
-from deck import DENSITY, Deck
+from deck import DENSITY, Deck, number
 from field import measured
 from oracle.comparison_field import Asked, block, largest, require_agreement
 from oracle.field_grid import Grid
@@ -142,7 +142,7 @@ def pile():
     lowest = min(g.position[2] for g in packing.grains)
     deck.body = [
         gravity(np.array([0.0, 0.0, -WEIGHT])),
-        wall(deck, "floor", f"primitive type 1 zplane {lowest - 0.999!r}"),
+        wall(deck, "floor", f"primitive type 1 zplane {number(lowest - 0.999)}"),
         "fix drag all viscous 2e4",
         "thermo 500",
         "run 1000",

@@ -8,7 +8,7 @@ from scipy.special import beta
 
 from case import main, require, require_close, require_equal
 from columns import outputs
-from deck import DENSITY, Deck, dump_grains, dump_local, shear, thermo
+from deck import DENSITY, Deck, dump_grains, dump_local, number, shear, thermo
 from oracle import network
 from packing import Grain, Packing, dense_packing, disc_packing
 from run import run
@@ -135,7 +135,7 @@ def blocky(ranks):
     # compute fluctuation scales its lever by the same diameter
     d = np.mean([2.0 * np.cbrt(fullness * math.prod(grain.semi_axes)) for grain in packing.grains])
     deck = sheared(packing)
-    deck.body += ["compute own all fluctuation", f"compute given all fluctuation diameter {d!r}"]
+    deck.body += ["compute own all fluctuation", f"compute given all fluctuation diameter {number(d)}"]
     deck.body += [*thermo(5, "c_own", "c_given"), "run 5"]
     table = run(deck, ranks).thermo()[-1]
     require_close(table["c_own"], table["c_given"], 1e-12, "lever")
@@ -189,8 +189,8 @@ def in_regions(ranks):
     packing = replace(dense_packing(sizes=(0.9, 1.0, 1.1), atom_style="sphere", **LOOSE), triclinic=False)
     (lx, ly, lz), deck = packing.edges, Deck(packing)
     deck.body = [
-        f"region left block 0 {0.4 * lx!r} 0 {ly!r} 0 {lz!r} units box",
-        f"region right block 0 {0.4 * lx!r} 0 {ly!r} 0 {lz!r} side out units box",
+        f"region left block 0 {number(0.4 * lx)} 0 {number(ly)} 0 {number(lz)} units box",
+        f"region right block 0 {number(0.4 * lx)} 0 {number(ly)} 0 {number(lz)} side out units box",
         *(f"compute {name} all packing rate 1 {words}" for name, words in PARTS.items()),
         *thermo(20, *(word for name in PARTS for word in MEASURE.of(name).vector())),
         "run 60",

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_equal
-from deck import YOUNG, Deck, dump_local, thermo
+from deck import YOUNG, Deck, dump_local, number, thermo
 import meshes
 from oracle import comparison, measures
 from oracle.state import ROW_COLUMNS, ROW_WIDTH, chosen_rows
@@ -24,7 +24,7 @@ UNDAMPED = "tangential_damping off"
 
 def gravity(g=GRAVITY):
     size = float(np.linalg.norm(g))
-    return f"fix gravity all gravity {size!r} vector " + " ".join(repr(float(x / size)) for x in g)
+    return f"fix gravity all gravity {number(size)} vector " + " ".join(repr(float(x / size)) for x in g)
 
 
 def short(walls, name):
@@ -88,7 +88,7 @@ def box_of_walls(**choices):
     for axis in range(3):
         for side in (0, 1):
             place = packing.edges[axis] + 0.29 if side else -0.29
-            plane = f"primitive type 1 {'xyz'[axis]}plane {place!r}"
+            plane = f"primitive type 1 {'xyz'[axis]}plane {number(place)}"
             moving = " shear x 0.5" if (axis, side) == (2, 0) else ""
             deck.body.append(wall(deck, f"plane{axis}{side}", plane + moving))
     return deck

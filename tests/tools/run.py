@@ -53,6 +53,7 @@ def environment(ranks, session=None):
     env = dict(
         os.environ,
         OMP_NUM_THREADS="1",
+        OMPI_MCA_btl="^tcp",  # ranks of one machine need no network, which Open MPI may complain of
         OMPI_MCA_btl_vader_single_copy_mechanism="none",
         OMPI_MCA_rmaps_base_oversubscribe="1",
         OMPI_MCA_mpi_yield_when_idle="1",
