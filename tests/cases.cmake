@@ -534,7 +534,7 @@ add_cases(field cases/field.py LABEL case STYLES field CASES
 add_cases(field cases/field_balances.py LABEL case STYLES field RANKS 1 2 LONG_RANKS 4 CASES
   cold-affine cold-rotation cold-rotation-in-rings cold-sheared-box mass weight)
 add_cases(field cases/field_balances.py LABEL case STYLES field RANKS 1 LONG_RANKS 2 4 CASES
-  cold-layers momentum momentum-gaussian)
+  cold-layers momentum momentum-sheared momentum-gaussian)
 
 # Includes between the folders of src/
 add_cases(suite-floors cases/floors.py LABEL case STYLES suite CASES
