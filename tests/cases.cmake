@@ -532,7 +532,8 @@ add_cases(field cases/field.py LABEL case STYLES field CASES
   oracle-clipped-as-sampled oracle-by-hand oracle-weights-of-kernels oracle-sums oracle-sums-ellipsoids
   oracle-sums-between-walls)
 add_cases(field cases/field_balances.py LABEL case STYLES field RANKS 1 2 LONG_RANKS 4 CASES
-  cold-affine cold-rotation cold-rotation-in-rings cold-sheared-box mass weight)
+  cold-affine cold-rotation cold-rotation-in-rings cold-sheared-box mass weight silo
+  under-a-plate)
 add_cases(field cases/field_balances.py LABEL case STYLES field RANKS 1 LONG_RANKS 2 4 CASES
   cold-layers momentum momentum-sheared momentum-gaussian)
 

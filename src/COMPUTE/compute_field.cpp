@@ -187,6 +187,10 @@ bool ComputeField::for_each_share(int i, const Use &use) const {
 
 void ComputeField::add_grain(int i) {
   const double mass = grainscope::mass_of(*atom, i);
+  const grainscope::SymmetryAxis kind = axis_of(i);
+  const bool oriented = kind.index >= 0;
+  Vector3d axis = Vector3d::Zero();
+  if (oriented) axis = grainscope::orientation(*atom, i) * Vector3d::Unit(kind.index);
   const bool seen = for_each_share(i, [&](const Share &s) {
     *sums_.of(FieldSums::grains, s.cell) += s.weight;
     *sums_.of(FieldSums::mass, s.cell) += s.weight * mass;
@@ -199,27 +203,21 @@ void ComputeField::add_grain(int i) {
     if (sums_.has(FieldSums::centroid))
       Map<Vector3d>(sums_.of(FieldSums::centroid, s.cell)) +=
           s.weight * mass * (map_.cells().position(s.at) - map_.cells().middle(s.cell));
-    if (sums_.has(FieldSums::axes)) add_axis(i, s.frame, s.weight, sums_.of(FieldSums::axes, s.cell));
+    if (!oriented) return;
+    const Vector3d p = s.frame * axis;
+    grainscope::add_components(sums_.of(FieldSums::axes, s.cell), s.weight, grainscope::dyad(p, p));
+    sums_.of(FieldSums::axes, s.cell)[6] += s.weight;
   });
   if (!seen) outside_ += 1.0;
-  if (seen && sums_.has(FieldSums::axes)) count_axis(i);
-}
-
-void ComputeField::add_axis(int i, const Matrix3d &frame, double weight, double *to) const {
-  if (!atom->superquadric_flag) return;
-  const grainscope::SymmetryAxis axis = grainscope::chosen_axis(atom->shape[i], scope_.axis_choice());
-  if (axis.index < 0) return;
-  const Vector3d p = frame * (grainscope::orientation(*atom, i) * Vector3d::Unit(axis.index));
-  grainscope::add_components(to, weight, grainscope::dyad(p, p));
-  to[6] += weight;
-}
-
-void ComputeField::count_axis(int i) {
-  if (!atom->superquadric_flag) return;
-  const grainscope::SymmetryAxis axis = grainscope::chosen_axis(atom->shape[i], scope_.axis_choice());
-  if (axis.index < 0) return;
+  if (!seen || !oriented) return;
   with_axis_ += 1.0;
-  if (axis.shape == grainscope::Shape::oblate) flat_ += 1.0;
+  if (kind.shape == grainscope::Shape::oblate) flat_ += 1.0;
+}
+
+/** The axis that stands for grain i, where one is asked for; index -1 where it has none. */
+grainscope::SymmetryAxis ComputeField::axis_of(int i) const {
+  if (!atom->superquadric_flag || !sums_.has(FieldSums::axes)) return {grainscope::Shape::sphere, -1};
+  return grainscope::chosen_axis(atom->shape[i], scope_.axis_choice());
 }
 
 /** Of grains against the mean motion about each cell, which must be known. */

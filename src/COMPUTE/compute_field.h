@@ -64,8 +64,7 @@ class ComputeField : public grainscope::ContactCompute,
   template <class Use>
   bool for_each_share(int i, const Use &use) const;
   void add_grain(int i);
-  void add_axis(int i, const Eigen::Matrix3d &frame, double weight, double *to) const;
-  void count_axis(int i);
+  grainscope::SymmetryAxis axis_of(int i) const;
   void add_motion();
   void warn_of_mixture();
 };

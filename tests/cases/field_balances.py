@@ -12,7 +12,7 @@ from field import measured
 from oracle.comparison_field import Asked, block, largest, require_agreement
 from oracle.field_grid import Grid
 from packing import Grain, Packing, dense_packing
-from wall_measures import gravity, wall
+from wall_measures import GRAVITY, HOPPER, PISTON, gravity, wall
 from watch import deforming
 
 WEIGHT = 9.81
@@ -157,39 +157,56 @@ BLOCKS = Grid((2, 3, 5), periodic=IN_PILE)
 BALANCED = ("density", "momentum", "stress", "traction")
 
 
-def weight(ranks):
+def require_layers_in_balance(asked, moment, pull):
     """With psi = the share of the cells k that lies below z, A integral of sigma_az over layer k is minus the sum over
     grains of psi (f - m g) plus the sum over contacts with walls of psi F, whatever moves: f is the grains' force of
-    this step. And the floor bears what hangs on it."""
+    this step, g = `pull`. And walls bear what hangs on them."""
+    g, rows, table, layers = moment.grains, moment.rows, asked.found(moment), asked.grid.cells[2]
+    own = g.force - g.mass[:, None] * pull
+    at_wall = rows["id"][:, 1] == 0
+    require(at_wall.sum() > 5, "grains at walls")
+    size = np.abs(rows["force"]).sum()
+    thick = moment.force_box.edges[2, 2] / layers
+    for k in range(layers):
+        cells = np.arange(asked.grid.number).reshape(layers, -1)[k]
+        sides = (0.0 if k else -np.inf, 1.0 if k < layers - 1 else np.inf)  # the last ones go on
+        psi, psi_wall = (
+            np.clip((z - moment.force_box.origin[2]) / thick - k, *sides)
+            for z in (g.x[:, 2], rows["point"][at_wall][:, 2])
+        )
+        expected = -(psi @ own) + psi_wall @ rows["force"][at_wall]
+        found = [(table[f"s_{a}z"][cells] * table["V"][cells]).sum() / thick for a in "xyz"]
+        require_close(found, expected, EXACT, f"{asked.name}, layer {k}", size)
+    found = (block(table, "traction") * table["V"][:, None]).sum(axis=0)
+    require_close(found, own.sum(axis=0), EXACT, f"{asked.name}: the walls", size)
+    held = (table["rho"] * table["V"]).sum()
+    require_close(held, g.mass.sum(), 1e-13, "all of the mass")
+
+
+def weight(ranks):
+    """A pile that is at rest, but for what its grains still push each other."""
     asked = [Asked("column", COLUMN, BALANCED), Asked("blocks", BLOCKS, BALANCED)]
-    deck = pile()
-    moments = measured(deck, asked, ranks, steps=20, every=10)
+    moments = measured(pile(), asked, ranks, steps=20, every=10)
     for moment in moments:
-        g, rows = moment.grains, moment.rows
-        own = g.force - g.mass[:, None] * [0.0, 0.0, -WEIGHT]
-        at_wall = rows["id"][:, 1] == 0
-        require(at_wall.sum() > 5, "grains on the floor")
-        height = moment.force_box.edges[2, 2]
-        size = np.abs(rows["force"]).sum()
         for one in asked:
-            table, layers = one.found(moment), one.grid.cells[2]
-            thick = height / layers
-            for k in range(layers):
-                cells = np.arange(one.grid.number).reshape(layers, -1)[k]
-                sides = (0.0 if k else -np.inf, 1.0 if k < layers - 1 else np.inf)  # the last ones go on
-                psi, psi_wall = (
-                    np.clip((z - moment.force_box.origin[2]) / thick - k, *sides)
-                    for z in (g.x[:, 2], rows["point"][at_wall][:, 2])
-                )
-                expected = -(psi @ own) + psi_wall @ rows["force"][at_wall]
-                found = [(table[f"s_{a}z"][cells] * table["V"][cells]).sum() / thick for a in "xyz"]
-                require_close(found, expected, EXACT, f"{one.name}, layer {k}", size)
-            found = (block(table, "traction") * table["V"][:, None]).sum(axis=0)
-            require_close(found, own.sum(axis=0), EXACT, f"{one.name}: the floor", size)
-            held = (table["rho"] * table["V"]).sum()
-            require_close(held, g.mass.sum(), 1e-13, "all of the mass")
-    rest = np.abs(moments[-1].grains.force).sum() / (WEIGHT * moments[-1].grains.mass.sum())
+            require_layers_in_balance(one, moment, np.array([0.0, 0.0, -WEIGHT]))
+    grains = moments[-1].grains
+    rest = np.abs(grains.force).sum() / (WEIGHT * grains.mass.sum())
     require(rest < 0.05, f"the pile is at rest: forces are {rest:.2g} of its weight")
+
+
+def between_meshes(scene, moves):
+    def case(ranks):
+        asked = [Asked("column", replace(COLUMN, periodic=NOT_PERIODIC), BALANCED)]
+        asked.append(Asked("blocks", replace(BLOCKS, periodic=NOT_PERIODIC), BALANCED))
+        moments = measured(scene.deck, asked, ranks, settle=scene.settle, meshes=scene.meshes)
+        for moment in moments:
+            for one in asked:
+                require_layers_in_balance(one, moment, GRAVITY)
+        fastest = np.abs(moments[-1].grains.v[:, 2]).max()
+        require(fastest > moves, f"grains move at {fastest:.2g}")
+
+    return case
 
 
 # Momentum
@@ -274,6 +291,8 @@ CASES = {
     "cold-sheared-box": cold_sheared_box,
     "mass": mass,
     "weight": weight,
+    "silo": between_meshes(HOPPER, 0.1),
+    "under-a-plate": between_meshes(PISTON, 0.1),
     "momentum": momentum,
     "momentum-sheared": sheared_momentum,
     "momentum-gaussian": gaussian_momentum,
