@@ -269,6 +269,13 @@ void EnergyLedger::start_with_weight(const Grain &g, const Vector3d &weight, dou
   starts_.weight += weight.dot(v - next_.flow(x) + 0.5 * dt / g.mass * force);
 }
 
+void EnergyLedger::start_with_jump(const Grain &g, const Vector3d &given) {
+  const Map<const Vector3d> x(g.x), v(g.v);
+  const auto before_it = [&](const Vector3d &peculiar) { return g.mass * given.dot(0.5 * given - peculiar); };
+  if (driven_) starts_.k_carried += before_it(v - carried_.flow(x));
+  if (moved_) starts_.k_old += before_it(v - frame_.flow(x));
+}
+
 double EnergyLedger::kinetic_in_step(const Grain &g, const double omega[3], const double momentum[3]) const {
   const Vector3d p = Map<const Vector3d>(g.v) - frame_.flow(Map<const Vector3d>(g.x));
   return 0.5 * (g.mass * p.squaredNorm() + Map<const Vector3d>(omega).dot(Map<const Vector3d>(momentum)));

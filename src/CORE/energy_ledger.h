@@ -121,6 +121,9 @@ class EnergyLedger {
   void begin_start_of_step(const LedgerFrame &frame);
   void start_of_step(const Grain &grain, const double omega_after[3], const double momentum[3], double dt);
   void start_with_weight(const Grain &grain, const Eigen::Vector3d &weight, double dt);
+  /** Of its velocity `given` came with the frame's change, because the grain lies beyond a face; after
+   *  start_of_step(). */
+  void start_with_jump(const Grain &grain, const Eigen::Vector3d &given);
   /** Books what was changed between the steps, and takes the frame. */
   void book_start(double dt);
   /** Some left and some came between two steps. */

@@ -4,39 +4,76 @@
 
 #include "contact_law.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 namespace grainscope {
 
-/** What the contact network says along one axis, in one evaluation or summed over a window of evaluations. With every
- *  contact moved affinely along the axis n, a change of the box length L gives dP = (stiffness) dL/L + (damping)
- *  (dL/dt)/L, per unit volume:
- *  stiffness = sum (k n_a^2 + k_t (1 - n_a^2)) r_a^2, damping = sum (gamma_n n_a^2 + gamma_t (1 - n_a^2)) r_a^2, k the
- *  tangent normal stiffness, gamma_t that of contacts whose tangential force is not cut. */
-struct NetworkResponse {
-  double pressure = 0.0;  // sum F_a r_a / volume
-  double stiffness = 0.0;
-  double damping = 0.0;
+/** The six ways in which a box of edges x, y, z and tilts yz, xz, xy deforms, in the host's order: at unit rate every
+ *  branch r takes the velocity r_gradient along the axis `flow`. */
+struct BoxMode {
+  int flow, gradient;
+};
+inline constexpr BoxMode box_modes[6] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
+inline constexpr int number_of_box_modes = 6;
 
-  void add(const Contact &c, int axis) {
+/** What the contact network says, in one evaluation or summed over a window of evaluations. With every contact moved
+ *  affinely at the rates e_b of the modes b, stresses fall by
+ *    dP_a = sum_b (K_ab de_b + eta_ab d(de_b/dt)),
+ *    K_ab = (1/volume) sum d_a . (k n n + k_t (1 - n n)) d_b,   d_a: r_gradient along `flow`, of mode a,
+ *  eta likewise with gamma_n and gamma_t; k the tangent normal stiffness, gamma_t that of contacts whose tangential
+ *  force is not cut. Both are symmetric and, being sums of squares, not negative. Plain doubles, so that ranks add them
+ *  up. */
+struct NetworkResponse {
+  // sum F_flow r_gradient / volume: the pressure along an edge, minus the shear stress of a tilt
+  std::array<double, 6> pressure{};
+  std::array<double, 21> stiffness{}, damping{};  // upper triangles
+
+  static constexpr int place(int a, int b) { return a < b ? b * (b + 1) / 2 + a : a * (a + 1) / 2 + b; }
+
+  /** `modes`: those whose stiffness is wanted. */
+  void add(const Contact &c, const std::vector<int> &modes) {
     const ContactLaw &law = *c.law;
-    const double n2 = c.normal[axis] * c.normal[axis], r = c.branch[axis], wr2 = c.weight * r * r;
     const ContactMotion &m = *c.motion;
-    pressure += c.weight * c.force[axis] * r;
-    stiffness += wr2 * (law.tangent_stiffness(m) * n2 + (law.sticks() ? m.tangential_stiffness * (1.0 - n2) : 0.0));
-    damping += wr2 * (m.damping_coefficient * n2 + (m.damped ? m.tangential_damping * (1.0 - n2) : 0.0));
+    for (int a = 0; a < number_of_box_modes; a++)
+      pressure[a] += c.weight * c.force[box_modes[a].flow] * c.branch[box_modes[a].gradient];
+    if (modes.empty()) return;
+    const double k_n = law.tangent_stiffness(m), k_t = law.sticks() ? m.tangential_stiffness : 0.0;
+    const double gamma_n = m.damping_coefficient, gamma_t = m.damped ? m.tangential_damping : 0.0;
+    for (std::size_t p = 0; p < modes.size(); p++) {
+      const BoxMode a = box_modes[modes[p]];
+      const double n_a = c.normal[a.flow], wr_a = c.weight * c.branch[a.gradient];
+      for (std::size_t q = 0; q <= p; q++) {
+        const BoxMode b = box_modes[modes[q]];
+        const double along = n_a * c.normal[b.flow], across = (a.flow == b.flow ? 1.0 : 0.0) - along;
+        const double wr2 = wr_a * c.branch[b.gradient];
+        const int k = place(modes[p], modes[q]);
+        stiffness[k] += wr2 * (k_n * along + k_t * across);
+        damping[k] += wr2 * (gamma_n * along + gamma_t * across);
+      }
+    }
   }
   void add(const NetworkResponse &other, double factor) {
-    pressure += factor * other.pressure;
-    stiffness += factor * other.stiffness;
-    damping += factor * other.damping;
+    for (int k = 0; k < 6; k++) pressure[k] += factor * other.pressure[k];
+    for (int k = 0; k < 21; k++) {
+      stiffness[k] += factor * other.stiffness[k];
+      damping[k] += factor * other.damping[k];
+    }
+  }
+  /** eta_ab + K_ab T. */
+  double resistance(int a, int b, double interval) const {
+    return damping[place(a, b)] + stiffness[place(a, b)] * interval;
   }
 };
 
-/** The controller: at each input dL/dt = kp (P - P_target), held until the next. With the automatic gain kp = beta
- *  L/(eta + K T), T the time between inputs, a network that answers affinely is stable for every beta < 1 (sampled
- *  recursion of the window average and the velocity held before it, by the Jury criterion). 0.5 leaves a factor of two
- *  for what is not affine; smaller values make a dilute start slow. */
+/** The controller of one stress: at each input the rate of its mode becomes (P - P_target) times a gain, held until the
+ *  next. The automatic gain is beta/D, D >= eta + K T, T the time between inputs. Of one mode that answers affinely the
+ *  sampled recursion (window average, and the rate held before it) is stable for every beta < 1 by the Jury criterion.
+ *  So are several modes at once when each D_a is the sum over the driven modes b of |eta_ab + K_ab T|: D - (eta + K T)
+ *  is diagonally dominant then and not negative, every eigenvector of the loop obeys the recursion of one mode with
+ *  the values that it takes of D^-1/2 K D^-1/2 and D^-1/2 eta D^-1/2, and these together are at most 1. beta = 0.5
+ *  leaves a factor of two for what is not affine; smaller values make a dilute start slow. */
 struct PressureControl {
   static constexpr double beta = 0.5;
 
@@ -50,13 +87,25 @@ struct PressureControl {
     bool clipped;
   };
 
-  Input input(const NetworkResponse &window, double target, double length, double interval) const {
+  /** `error`: P - P_target; `resistance`: D; `length`: L, and 1 where a rate is wanted in place of a velocity. */
+  Input input(double error, double resistance, double length, double interval) const {
+    return clip(error == 0.0 ? 0.0 : kp(resistance, length) * error, length, interval);
+  }
+
+  /** Of a shear stress, whose rate need not end at zero: `base` is added to the rate and takes a tenth of the elastic
+   *  share K T/D of what the error asks for at each input, slowly against the loop; it stays while the rate is clipped.
+   *  `elastic`: K T. */
+  Input input_with_base(double error, double resistance, double elastic, double interval, double &base) const {
+    const double wanted = error == 0.0 ? 0.0 : kp(resistance, 1.0) * error;
+    const Input input = clip(base + wanted, 1.0, interval);
+    if (!input.clipped && elastic > 0.0) base += 0.1 * elastic / resistance * wanted;
+    return input;
+  }
+
+ private:
+  double kp(double resistance, double length) const { return automatic ? beta * length / resistance : gain; }
+  Input clip(double wanted, double length, double interval) const {  // infinite where nothing resists
     const double bound = length * std::min(limit / interval, max_rate);
-    const double resistance = window.damping + window.stiffness * interval;
-    const double kp = automatic ? beta * length / resistance : gain;
-    const double error = window.pressure - target;
-    if (error == 0.0) return {0.0, false};
-    const double wanted = kp * error;  // infinite where nothing resists: clipped
     return {std::clamp(wanted, -bound, bound), std::fabs(wanted) > bound};
   }
 };

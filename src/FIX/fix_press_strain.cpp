@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_press_strain.h"
+#include "box_jump.h"
 #include "clipping_watch.h"
 #include "contact_observer.h"
 #include "fluctuations.h"
@@ -15,32 +16,64 @@
 #include "force.h"
 #include "modify.h"
 #include "update.h"
+#include <functional>
 
 using namespace LAMMPS_NS;
+using grainscope::box_modes;
+using grainscope::BoxJump;
+using grainscope::BoxMotion;
+using grainscope::BoxRates;
+using grainscope::BoxState;
 using grainscope::Fluctuations;
 using grainscope::NetworkResponse;
+using grainscope::number_of_box_modes;
 using grainscope::press_strain_error;
 using grainscope::PressStrainHostArguments;
+using grainscope::PressureControl;
 using Every = grainscope::PressStrainSettings::Every;
+using How = BoxMotion::How;
 
 namespace {
 
+/** Loops of the controller: one of each mode of the box, and that of the mean pressure. */
+constexpr int mean_loop = number_of_box_modes, loops = mean_loop + 1;
+/** Order of tilts in the output: xy, xz, yz. */
+constexpr int planes[3] = {5, 4, 3};
+
+/** What inputs have set. */
+struct Driven {
+  // edges: dL/dt with a target of their own; tilts: the shear rate, and what it is made of besides the error
+  double rates[number_of_box_modes], bases[number_of_box_modes];
+  double mean_rate;  // common (dL/dt)/L of the edges that move with the mean, before their ratios
+};
+
 /** In restart files. The window is summed over ranks, so that any number of them may continue. */
 struct SavedControl {
-  static constexpr std::uint32_t version = 1;
-  double strain, velocity, averaged_pressure, inputs, clipped;
-  double window_steps, window_pressure, window_stiffness, window_damping;
+  static constexpr std::uint32_t version = 2;
+  double strain, averaged_pressure, inputs, clipped;
+  Driven driven;
+  double strains[number_of_box_modes], clipped_of[loops];
+  NetworkResponse window;
+  double window_steps;
   double every, interval, passed, next;  // how inputs are counted, and how far
 };
+
+std::array<bool, number_of_box_modes> turned_back(const grainscope::PressStrainSettings &settings) {
+  std::array<bool, number_of_box_modes> turns{};
+  for (int k = 3; k < number_of_box_modes; k++) turns[k] = settings.motions[k].given;
+  return turns;
+}
 
 }
 
 struct FixPressStrain::Impl {
   Impl(LAMMPS *lmp, int narg, char **arg)
-      : settings(lmp, narg, arg), box(lmp, settings.axis, settings.shear), intervals(settings.interval),
-        forecast(lmp, settings) {}
+      : settings(lmp, narg, arg), dimension(lmp->domain->dimension), controlled(settings.controlled_modes(dimension)),
+        box(lmp, turned_back(settings)), intervals(settings.interval), forecast(lmp, settings) {}
 
   grainscope::PressStrainSettings settings;
+  int dimension;
+  std::vector<int> controlled;  // modes whose stiffness is wanted
   grainscope::ShearedBox box;
   grainscope::Intervals intervals;
   grainscope::PressStrainForecast forecast;
@@ -53,33 +86,102 @@ struct FixPressStrain::Impl {
   NetworkResponse now;     // this rank's sums of the last evaluation, over volume
   NetworkResponse window;  // the same since the last input
   double window_steps = 0.0;
-  double strain = 0.0, velocity = 0.0, averaged_pressure = 0.0, inputs = 0.0, clipped = 0.0;
-  grainscope::ClippingWatch clipping;
+  double strain = 0.0, averaged_pressure = 0.0, inputs = 0.0, clipped = 0.0;
+  Driven driven{};
+  double strains[number_of_box_modes] = {}, clipped_of[loops] = {};
+  grainscope::ClippingWatch clipping[loops];
+  std::unique_ptr<BoxJump> jump;  // of the last step
   bigint pressure_step = -1;
-  double pressure = 0.0;
+  std::array<double, number_of_box_modes> pressures{};  // of that step
+
+  double mean_of(const std::array<double, number_of_box_modes> &of) const;
+  double main_of(const std::array<double, number_of_box_modes> &of) const;
+  double main_target() const;
+  double target_of(int mode) const {
+    const BoxMotion &motion = settings.motions[mode];
+    return motion.how == How::target ? motion.value.value : 0.0;
+  }
+  int shown_edge() const;
+  double true_rate(int mode) const;
+  BoxRates rates() const;
 
   /** What an element of the vector is, and its value. */
   struct Element {
     grainscope::NamedOutput output;
-    double (*value)(FixPressStrain &);
+    std::function<double(FixPressStrain &)> value;
   };
   static const std::vector<Element> &elements();
+  static void add_edges(std::vector<Element> &all);
+  static void add_planes(std::vector<Element> &all);
   static grainscope::Outputs declared();
 };
 
 const std::vector<FixPressStrain::Impl::Element> &FixPressStrain::Impl::elements() {
   using F = FixPressStrain;
   constexpr auto intensive = grainscope::Extent::intensive;
-  static const std::vector<Element> all = {
-      {{"strain", "-", intensive, "accumulated strain, sum of |rate| dt"}, [](F &f) { return f.impl_->strain; }},
-      {{"target", "pressure", intensive, "pressure to hold, P_t"}, [](F &f) { return f.impl_->settings.target.value; }},
-      {{"P", "pressure", intensive, "pressure of this step's contacts"}, [](F &f) { return f.pressure_now(); }},
-      {{"L", "distance", intensive, "box length along the axis"}, [](F &f) { return f.impl_->box.length(); }},
-      {{"L_rate", "velocity", intensive, "dL/dt"}, [](F &f) { return f.impl_->velocity; }},
-      {{"inputs", "-", intensive, "inputs so far"}, [](F &f) { return f.impl_->inputs; }},
-      {{"clipped", "-", intensive, "inputs clipped so far"}, [](F &f) { return f.impl_->clipped; }},
-      {{"error", "-", intensive, "P_mean/P_t - 1, 0 when P_t is 0"}, [](F &f) { return f.relative_error(); }}};
+  static const std::vector<Element> all = [] {
+    std::vector<Element> list = {
+        {{"strain", "-", intensive, "accumulated strain that inputs count, sum of |rate| dt"},
+         [](F &f) { return f.impl_->strain; }},
+        {{"target", "pressure", intensive, "pressure to hold, P_t"}, [](F &f) { return f.impl_->main_target(); }},
+        {{"P", "pressure", intensive, "pressure of this step's contacts"},
+         [](F &f) { return f.impl_->main_of(f.pressures_now()); }},
+        {{"L", "distance", intensive, "box length along the axis"},
+         [](F &f) { return f.impl_->box.length(f.impl_->shown_edge()); }},
+        {{"L_rate", "velocity", intensive, "dL/dt"}, [](F &f) { return f.impl_->rates()[f.impl_->shown_edge()]; }},
+        {{"inputs", "-", intensive, "inputs so far"}, [](F &f) { return f.impl_->inputs; }},
+        {{"clipped", "-", intensive, "inputs clipped so far"}, [](F &f) { return f.impl_->clipped; }},
+        {{"error", "-", intensive, "P_mean/P_t - 1, 0 when P_t is 0"}, [](F &f) { return f.relative_error(); }}};
+    add_edges(list);
+    add_planes(list);
+    list.push_back(
+        {{"pressure", "pressure", intensive, "mean of the pressures along the axes, of this step's contacts"},
+         [](F &f) { return f.impl_->mean_of(f.pressures_now()); }});
+    list.push_back({{"target_mean", "pressure", intensive, "target of the mean pressure, 0 without"},
+                    [](F &f) { return f.impl_->settings.has_mean ? f.impl_->settings.mean.value : 0.0; }});
+    list.push_back({{"clipped_mean", "-", intensive, "inputs of the mean pressure clipped so far"},
+                    [](F &f) { return f.impl_->clipped_of[mean_loop]; }});
+    return list;
+  }();
   return all;
+}
+
+void FixPressStrain::Impl::add_edges(std::vector<Element> &all) {
+  using F = FixPressStrain;
+  constexpr auto intensive = grainscope::Extent::intensive;
+  for (int k = 0; k < 3; k++) {
+    const std::string axis(1, "xyz"[k]);
+    all.push_back({{"P_" + axis, "pressure", intensive, "pressure along " + axis + " of this step's contacts"},
+                   [k](F &f) { return f.pressures_now()[k]; }});
+    all.push_back({{"target_" + axis, "pressure", intensive, "pressure to hold along " + axis + ", 0 without"},
+                   [k](F &f) { return f.impl_->target_of(k); }});
+    all.push_back({{"L_" + axis, "distance", intensive, "box length along " + axis},
+                   [k](F &f) { return f.impl_->box.length(k); }});
+    all.push_back({{"rate_" + axis, "1/time", intensive, "(dL/dt)/L along " + axis},
+                   [k](F &f) { return f.impl_->true_rate(k); }});
+    all.push_back({{"strain_" + axis, "-", intensive, "strain along " + axis + ", sum of (dL/dt)/L dt"},
+                   [k](F &f) { return f.impl_->strains[k]; }});
+    all.push_back({{"clipped_" + axis, "-", intensive, "inputs of " + axis + " clipped so far"},
+                   [k](F &f) { return f.impl_->clipped_of[k]; }});
+  }
+}
+
+void FixPressStrain::Impl::add_planes(std::vector<Element> &all) {
+  using F = FixPressStrain;
+  constexpr auto intensive = grainscope::Extent::intensive;
+  for (int k : planes) {
+    const std::string plane = grainscope::name_of_box_mode(k);
+    all.push_back({{"s_" + plane, "pressure", intensive, "shear stress " + plane + " of this step's contacts"},
+                   [k](F &f) { return -f.pressures_now()[k]; }});
+    all.push_back({{"target_" + plane, "pressure", intensive, "shear stress to hold in " + plane + ", 0 without"},
+                   [k](F &f) { return f.impl_->target_of(k); }});
+    all.push_back({{"rate_" + plane, "1/time", intensive, "shear rate in " + plane},
+                   [k](F &f) { return f.impl_->true_rate(k); }});
+    all.push_back({{"strain_" + plane, "-", intensive, "shear strain in " + plane + ", sum of rate dt"},
+                   [k](F &f) { return f.impl_->strains[k]; }});
+    all.push_back({{"clipped_" + plane, "-", intensive, "inputs of the shear in " + plane + " clipped so far"},
+                   [k](F &f) { return f.impl_->clipped_of[k]; }});
+  }
 }
 
 grainscope::Outputs FixPressStrain::Impl::declared() {
@@ -88,6 +190,48 @@ grainscope::Outputs FixPressStrain::Impl::declared() {
       {"P_mean", "pressure", grainscope::Extent::intensive, "pressure averaged over the last completed interval"}};
   for (const Element &one : elements()) outputs.vector.add(one.output);
   return outputs;
+}
+
+double FixPressStrain::Impl::mean_of(const std::array<double, number_of_box_modes> &of) const {
+  return (of[0] + of[1] + (dimension == 3 ? of[2] : 0.0)) / dimension;
+}
+
+/** The first edge with a target of its own, or else the mean. */
+double FixPressStrain::Impl::main_of(const std::array<double, number_of_box_modes> &of) const {
+  const int edge = settings.main_edge();
+  return edge >= 0 && settings.motions[edge].how == How::target ? of[edge] : mean_of(of);
+}
+
+double FixPressStrain::Impl::main_target() const {
+  const int edge = settings.main_edge();
+  return settings.has_mean ? settings.mean.value : edge >= 0 ? target_of(edge) : 0.0;
+}
+
+/** Whose length the first elements give: of the edge that is controlled, or else the first that moves. */
+int FixPressStrain::Impl::shown_edge() const {
+  if (settings.main_edge() >= 0) return settings.main_edge();
+  for (int k = 0; k < 3; k++)
+    if (settings.motions[k].moves()) return k;
+  return 0;
+}
+
+/** Relative rate of an edge, shear rate of a tilt. */
+double FixPressStrain::Impl::true_rate(int mode) const {
+  const BoxMotion &motion = settings.motions[mode];
+  if (motion.how == How::rate) return motion.value.value;
+  if (motion.how == How::mean) return driven.mean_rate * motion.ratio;
+  if (motion.how == How::still) return 0.0;
+  return mode < 3 ? driven.rates[mode] / box.length(mode) : driven.rates[mode];
+}
+
+/** As the box is moved: those of edges with targets are held in dL/dt. */
+BoxRates FixPressStrain::Impl::rates() const {
+  BoxRates all{};
+  for (int k = 0; k < number_of_box_modes; k++)
+    all[k] = k >= 3                                   ? true_rate(k)
+             : settings.motions[k].how == How::target ? driven.rates[k]
+                                                      : true_rate(k) * box.length(k);
+  return all;
 }
 
 FixPressStrain::FixPressStrain(LAMMPS *lmp, int narg, char **arg)
@@ -116,8 +260,9 @@ void FixPressStrain::init() {
   requirements.require_group(my.momentum_group.c_str(), my.momentum_groupbit);
   my.observer = &PairGranInsitu::required_by(lmp, "fix press/strain")->observer();
   my.observer->add(this);
-  my.settings.evaluate_rate(lmp);
-  my.box.set_rates(my.velocity, my.settings.rate.value);
+  my.settings.evaluate_rates(lmp);
+  my.box.set_rates(my.rates());
+  my.jump.reset();
   plan_flip();
 }
 
@@ -130,10 +275,10 @@ void FixPressStrain::setup(int) {
 /** Every step, so that the computes that a variable uses can be announced for the next one. */
 void FixPressStrain::evaluate_variables() {
   auto &settings = impl_->settings;
-  if (settings.target.variable.empty() && settings.rate.variable.empty()) return;
+  if (!settings.follows_variables()) return;
   modify->clearstep_compute();
-  settings.evaluate_rate(lmp);
-  settings.evaluate_target(lmp);
+  settings.evaluate_rates(lmp);
+  settings.evaluate_targets(lmp);
   modify->addstep_compute(update->ntimestep + 1);
 }
 
@@ -143,7 +288,7 @@ void FixPressStrain::begin_contacts() {
 }
 
 void FixPressStrain::add_contacts(grainscope::ContactSpan contacts) {
-  for (const grainscope::Contact &contact : contacts) impl_->now.add(contact, impl_->settings.axis);
+  for (const grainscope::Contact &contact : contacts) impl_->now.add(contact, impl_->controlled);
 }
 
 void FixPressStrain::plan_flip() {
@@ -155,13 +300,20 @@ void FixPressStrain::plan_flip() {
 void FixPressStrain::pre_exchange() {
   if (!impl_->flip_pending) return;
   impl_->flip_pending = false;
-  impl_->box.flip(impl_->velocity, impl_->settings.rate.value);
+  impl_->box.flip(impl_->rates());
+}
+
+/** Rate of the strain that inputs are counted in. */
+double FixPressStrain::strain_rate() const {
+  double rates[number_of_box_modes];
+  for (int k = 0; k < number_of_box_modes; k++) rates[k] = impl_->true_rate(k);
+  return impl_->settings.strain_rate(rates);
 }
 
 /** How far one step brings the quantity that inputs are counted in. */
 double FixPressStrain::progress_of_a_step() const {
   switch (impl_->settings.every) {
-    case Every::strain: return std::fabs(impl_->settings.rate.value) * update->dt;
+    case Every::strain: return strain_rate() * update->dt;
     case Every::time: return update->dt;
     default: return 1.0;
   }
@@ -172,39 +324,58 @@ double FixPressStrain::time_between_inputs() const {
   return std::ceil(impl_->settings.interval / progress_of_a_step() - 1e-9) * update->dt;
 }
 
-/** Kinetic part of the pressure; collective. Zero unless asked for. */
-double FixPressStrain::kinetic_pressure() const {
-  if (!impl_->settings.kinetic) return 0.0;
-  const grainscope::BoxState &box = impl_->observer->box();
-  const int axis = impl_->settings.axis;
-  return Fluctuations(lmp, {"fix press/strain", groupbit}, box).momentum_flux()(axis, axis) * force->mvv2e *
-         force->nktv2p / box.volume;
+/** Kinetic part of the pressures; collective. Zero unless asked for. */
+void FixPressStrain::add_kinetic_part(std::array<double, number_of_box_modes> &pressures, double factor) const {
+  if (!impl_->settings.kinetic) return;
+  const BoxState &box = impl_->observer->box();
+  const Eigen::Matrix3d flux = Fluctuations(lmp, {"fix press/strain", groupbit}, box).momentum_flux();
+  for (int k = 0; k < number_of_box_modes; k++)
+    pressures[k] += flux(box_modes[k].flow, box_modes[k].gradient) * force->mvv2e * force->nktv2p / box.volume * factor;
 }
 
 void FixPressStrain::end_of_step() {
   Impl &my = *impl_;
   my.window.add(my.now, force->nktv2p / my.observer->box().volume);
-  my.window.pressure += kinetic_pressure() / comm->nprocs;
+  add_kinetic_part(my.window.pressure, 1.0 / comm->nprocs);
   my.window_steps += 1.0;
 
   evaluate_variables();
-  if (my.settings.shear) my.strain += std::fabs(my.settings.rate.value) * update->dt;
+  for (int k = 0; k < number_of_box_modes; k++) my.strains[k] += my.true_rate(k) * update->dt;
+  my.strain += strain_rate() * update->dt;
+  const BoxState before(lmp);
   if (my.intervals.advance(progress_of_a_step())) take_input();
   // The box moves by the rates that its images take in the coming step: the springs of contacts across faces follow
   // velocities, overlaps the box.
-  my.box.set_rates(my.velocity, my.settings.rate.value);
+  my.box.set_rates(my.rates());
   my.box.advance();
-  my.box.set_rates(my.velocity, my.settings.rate.value);
+  my.box.set_rates(my.rates());
+  give_new_velocity_outside(before);
   plan_flip();
+}
+
+/** To grains that are to be wrapped at the next neighbour list. */
+void FixPressStrain::give_new_velocity_outside(const BoxState &before) {
+  impl_->jump.reset(new BoxJump(before, grainscope::upper_triangular(domain->h_rate)));
+  if (impl_->jump->none()) return;
+  Eigen::Vector3d velocity;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (impl_->jump->gives(Eigen::Map<const Eigen::Vector3d>(atom->x[i]), velocity))
+      Eigen::Map<Eigen::Vector3d>(atom->v[i]) += velocity;
+}
+
+const BoxJump *FixPressStrain::last_jump_of(LAMMPS *lmp) {
+  for (int k = 0; k < lmp->modify->nfix; k++)
+    if (const auto *fix = dynamic_cast<const FixPressStrain *>(lmp->modify->fix[k])) return fix->impl_->jump.get();
+  return nullptr;
 }
 
 void FixPressStrain::take_input() {
   Impl &my = *impl_;
-  double sums[3] = {my.window.pressure, my.window.stiffness, my.window.damping};
-  MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, world);
+  static_assert(sizeof(NetworkResponse) == 48 * sizeof(double), "what ranks add up");
+  MPI_Allreduce(MPI_IN_PLACE, &my.window, 48, MPI_DOUBLE, MPI_SUM, world);
   NetworkResponse mean;
-  mean.add({sums[0], sums[1], sums[2]}, 1.0 / my.window_steps);
-  my.averaged_pressure = mean.pressure;
+  mean.add(my.window, 1.0 / my.window_steps);
+  my.averaged_pressure = my.main_of(mean.pressure);
   my.window = NetworkResponse();
   my.window_steps = 0.0;
 
@@ -215,23 +386,70 @@ void FixPressStrain::take_input() {
       if (atom->mask[i] & my.momentum_groupbit)
         for (int k = 0; k < 3; k++) atom->v[i][k] -= drift[k];
   }
-  const auto input = my.settings.control.input(mean, my.settings.target.value, my.box.length(), time_between_inputs());
-  my.velocity = input.velocity;
   my.inputs += 1.0;
-  if (input.clipped) my.clipped += 1.0;
-  my.clipping.watch(lmp, my.inputs, input);
+  if (set_driven_rates(mean)) my.clipped += 1.0;
 }
 
-/** Collective, once per evaluation; the last value when the pair style has been replaced since. */
-double FixPressStrain::pressure_now() {
+/** Of all modes that are controlled, at an input; true if one was clipped. */
+bool FixPressStrain::set_driven_rates(const NetworkResponse &mean) {
   Impl &my = *impl_;
-  if (my.pressure_step == update->ntimestep || !attached()) return my.pressure;
+  const PressureControl &control = my.settings.control;
+  const double interval = time_between_inputs();
+  bool clipped = false;
+  const auto book = [&](int loop, const PressureControl::Input &input) {
+    my.clipped_of[loop] += input.clipped ? 1.0 : 0.0;
+    my.clipping[loop].watch(lmp, my.inputs, input);
+    clipped = clipped || input.clipped;
+    return input.velocity;
+  };
+  for (int k = 0; k < number_of_box_modes; k++) {
+    if (my.settings.motions[k].how != How::target) continue;
+    const double resistance = resistance_of(mean, k, interval);
+    if (k < 3) {
+      const double error = mean.pressure[k] - my.target_of(k);
+      my.driven.rates[k] = book(k, control.input(error, resistance, my.box.length(k), interval));
+    } else {
+      const double error = mean.pressure[k] + my.target_of(k);
+      const double elastic = mean.stiffness[NetworkResponse::place(k, k)] * interval;
+      my.driven.rates[k] = book(k, control.input_with_base(error, resistance, elastic, interval, my.driven.bases[k]));
+    }
+  }
+  if (my.settings.has_mean)
+    my.driven.mean_rate = book(mean_loop, control.input(my.mean_of(mean.pressure) - my.settings.mean.value,
+                                                        resistance_of(mean, mean_loop, interval), 1.0, interval));
+  return clipped;
+}
+
+/** What a loop's stress answers at most to the rates of all loops together, per unit rate of each. */
+double FixPressStrain::resistance_of(const NetworkResponse &mean, int loop, double interval) const {
+  const auto &settings = impl_->settings;
+  const int dimension = impl_->dimension;
+  // |answer of mode a| to the rates of all loops
+  const auto answer = [&](int a) {
+    double sum = 0.0;
+    for (int b = 0; b < number_of_box_modes; b++)
+      if (settings.motions[b].controlled())
+        sum += (b == a ? mean.resistance(a, b, interval) : std::fabs(mean.resistance(a, b, interval))) *
+               settings.motions[b].ratio;
+    return sum;
+  };
+  if (loop != mean_loop) return answer(loop);
+  double sum = 0.0;
+  for (int a = 0; a < dimension; a++) sum += answer(a) / dimension;
+  return sum;
+}
+
+/** Collective, once per evaluation; the last values when the pair style has been replaced since. */
+const std::array<double, number_of_box_modes> &FixPressStrain::pressures_now() {
+  Impl &my = *impl_;
+  if (my.pressure_step == update->ntimestep || !attached()) return my.pressures;
   my.observer->require_complete("fix press/strain");
   my.pressure_step = update->ntimestep;
-  my.pressure = my.now.pressure * force->nktv2p / my.observer->box().volume;
-  MPI_Allreduce(MPI_IN_PLACE, &my.pressure, 1, MPI_DOUBLE, MPI_SUM, world);
-  my.pressure += kinetic_pressure();
-  return my.pressure;
+  for (int k = 0; k < number_of_box_modes; k++)
+    my.pressures[k] = my.now.pressure[k] * force->nktv2p / my.observer->box().volume;
+  MPI_Allreduce(MPI_IN_PLACE, my.pressures.data(), number_of_box_modes, MPI_DOUBLE, MPI_SUM, world);
+  add_kinetic_part(my.pressures, 1.0);
+  return my.pressures;
 }
 
 double FixPressStrain::compute_scalar() { return impl_->averaged_pressure; }
@@ -239,34 +457,48 @@ double FixPressStrain::compute_scalar() { return impl_->averaged_pressure; }
 double FixPressStrain::compute_vector(int n) { return Impl::elements()[n].value(*this); }
 
 double FixPressStrain::relative_error() const {
-  const double target = impl_->settings.target.value;
+  const double target = impl_->main_target();
   return target > 0.0 && impl_->inputs > 0.0 ? impl_->averaged_pressure / target - 1.0 : 0.0;
 }
 
 void FixPressStrain::write_restart(FILE *file) {
   Impl &my = *impl_;
-  double sums[3] = {my.window.pressure, my.window.stiffness, my.window.damping};
-  MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, world);
+  NetworkResponse sums = my.window;
+  MPI_Allreduce(MPI_IN_PLACE, &sums, 48, MPI_DOUBLE, MPI_SUM, world);
   my.window = NetworkResponse();
   if (comm->me != 0) return;
   // as a continued run will have it: the run that goes on stays equal to it, bit by bit
-  my.window = {sums[0], sums[1], sums[2]};
-  grainscope::write_state(file, SavedControl{my.strain, my.velocity, my.averaged_pressure, my.inputs, my.clipped,
-                                             my.window_steps, sums[0], sums[1], sums[2],
-                                             static_cast<double>(my.settings.every), my.settings.interval,
-                                             my.intervals.passed(), my.intervals.next()});
+  my.window = sums;
+  SavedControl saved{my.strain,
+                     my.averaged_pressure,
+                     my.inputs,
+                     my.clipped,
+                     my.driven,
+                     {},
+                     {},
+                     sums,
+                     my.window_steps,
+                     static_cast<double>(my.settings.every),
+                     my.settings.interval,
+                     my.intervals.passed(),
+                     my.intervals.next()};
+  std::copy(std::begin(my.strains), std::end(my.strains), saved.strains);
+  std::copy(std::begin(my.clipped_of), std::end(my.clipped_of), saved.clipped_of);
+  grainscope::write_state(file, saved);
 }
 
 void FixPressStrain::restart(char *buffer) {
   Impl &my = *impl_;
   const auto saved = grainscope::read_state<SavedControl>(lmp, *this, "press/strain", buffer);
   my.strain = saved.strain;
-  my.velocity = saved.velocity;
   my.averaged_pressure = saved.averaged_pressure;
   my.inputs = saved.inputs;
   my.clipped = saved.clipped;
+  my.driven = saved.driven;
+  std::copy(std::begin(saved.strains), std::end(saved.strains), my.strains);
+  std::copy(std::begin(saved.clipped_of), std::end(saved.clipped_of), my.clipped_of);
   my.window_steps = saved.window_steps;
-  if (comm->me == 0) my.window = {saved.window_pressure, saved.window_stiffness, saved.window_damping};
+  if (comm->me == 0) my.window = saved.window;
   // Counted otherwise than before, inputs begin again, with one at the first step.
   if (static_cast<double>(my.settings.every) == saved.every && my.settings.interval == saved.interval)
     my.intervals.restore(saved.passed, saved.next);

@@ -11,18 +11,23 @@ FixStyle(press/strain,FixPressStrain)
 #include "contact_sink.h"
 #include "fix_deform.h"
 #include "outputs.h"
+#include <array>
 #include <memory>
 
 namespace grainscope {
+class BoxJump;
+struct BoxState;
+struct NetworkResponse;
 class PressStrainHostArguments;
 }
 
 namespace LAMMPS_NS {
 
-/** Shears the box at a true rate and holds the normal pressure along one axis by moving that box length at strain
- *  (or time) intervals. Scalar: pressure averaged over the last completed interval. It is a fix deform to the host,
- *  which then remaps velocities across the moving faces. Source: Bilotto, Trulsson & Molinari 2025, Sec. II; doi
- *  10.1103/tj41-6qqk. */
+/** Deforms the box along a path: each edge is fixed, moves at a true rate, or so that the pressure along it (or, with
+ *  others, the mean pressure) is held; each tilt is sheared at a true rate, or so that a shear stress is held. Stresses
+ *  are controlled at strain, time or step intervals. Scalar: pressure averaged over the last completed interval. It is a
+ *  fix deform to the host, which then remaps velocities across the moving faces. Source: Bilotto, Trulsson & Molinari
+ *  2025, Sec. II; doi 10.1103/tj41-6qqk. */
 class FixPressStrain : public FixDeform, public grainscope::DeclaresOutputs, public grainscope::ContactSink {
  public:
   FixPressStrain(class LAMMPS *lmp, int narg, char **arg);
@@ -41,6 +46,10 @@ class FixPressStrain : public FixDeform, public grainscope::DeclaresOutputs, pub
   void begin_contacts() override;
   void add_contacts(grainscope::ContactSpan contacts) override;
 
+  /** What the change of the box's velocities at the end of the last step gave to grains outside it, by the deck's fix
+   *  press/strain; null without one, or before the first step of a run. */
+  static const grainscope::BoxJump *last_jump_of(class LAMMPS *lmp);
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
@@ -48,12 +57,16 @@ class FixPressStrain : public FixDeform, public grainscope::DeclaresOutputs, pub
   FixPressStrain(class LAMMPS *lmp, int narg, char **arg, const grainscope::PressStrainHostArguments &host);
 
   void evaluate_variables();
+  double strain_rate() const;
   double progress_of_a_step() const;
   double time_between_inputs() const;
   void plan_flip();
+  void give_new_velocity_outside(const grainscope::BoxState &before);
   void take_input();
-  double kinetic_pressure() const;
-  double pressure_now();
+  bool set_driven_rates(const grainscope::NetworkResponse &mean);
+  double resistance_of(const grainscope::NetworkResponse &mean, int loop, double interval) const;
+  void add_kinetic_part(std::array<double, 6> &pressures, double factor) const;
+  const std::array<double, 6> &pressures_now();
   double relative_error() const;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ledger_motion.h"
+#include "box_jump.h"
 #include "box_state.h"
+#include "fix_press_strain.h"
 #include "grain_shape.h"
 #include "spheroid_rotation.h"
 #include "atom.h"
@@ -73,6 +75,8 @@ void LedgerMotion::coming_spin(const EnergyLedger::Grain &grain, double momentum
 void LedgerMotion::start_step(EnergyLedger &ledger) const {
   const bool pulled = !gravity_.none();
   gravity_.update();
+  const BoxJump *const jump = LAMMPS_NS::FixPressStrain::last_jump_of(lmp);
+  Vector3d given;
   ledger.begin_start_of_step(frame_of(lmp));
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit_)) continue;
@@ -81,6 +85,7 @@ void LedgerMotion::start_step(EnergyLedger &ledger) const {
     coming_spin(grain, momentum, omega_after);
     ledger.start_of_step(grain, omega_after, momentum, update->dt);
     if (pulled) ledger.start_with_weight(grain, weight(i), update->dt);
+    if (jump && jump->gives(Map<const Vector3d>(grain.x), given)) ledger.start_with_jump(grain, given);
   }
   ledger.book_start(update->dt);
 }
@@ -112,9 +117,15 @@ std::unique_ptr<LedgerGrains> LedgerMotion::grains_in_step(const EnergyLedger &l
 
 std::unique_ptr<LedgerGrains> LedgerMotion::grains_between_steps(const EnergyLedger &ledger) const {
   std::unique_ptr<LedgerGrains> grains(new LedgerGrains);
+  const BoxJump *const jump = LAMMPS_NS::FixPressStrain::last_jump_of(lmp);
+  Vector3d given, before;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit_)) continue;
-    const EnergyLedger::Grain grain = shown(i);
+    EnergyLedger::Grain grain = shown(i);
+    if (jump && jump->gives(Map<const Vector3d>(grain.x), given)) {
+      before = Map<const Vector3d>(grain.v) - given;  // the frame is that of the last step
+      grain.v = before.data();
+    }
     double momentum[3], omega_after[3];
     coming_spin(grain, momentum, omega_after);
     grains->add(atom->tag[i], ledger.kinetic_between_steps(grain, omega_after, momentum, update->dt));

@@ -48,10 +48,18 @@ bool PressStrainForecast::grains_may_change() const {
                      [](const LAMMPS_NS::Fix *fix) { return !strncmp(fix->style, "insert/", 7); });
 }
 
-/** What flows slowly is dense: free grains without cohesion and rolling friction, sheared at a steady inertial number
- *  of at most 0.1 in a box that a controller of known gain moves. */
-bool PressStrainForecast::flows_slowly(const Grains &grains) const {
-  const bool steady = settings_.shear && settings_.target.variable.empty() && settings_.rate.variable.empty() &&
+/** What flows slowly is dense: free grains without cohesion and rolling friction, sheared in one plane at a steady
+ *  inertial number of at most 0.1 in a box that a controller of known gain moves along one edge. */
+bool PressStrainForecast::flows_slowly(const Grains &grains, int edge) const {
+  using How = BoxMotion::How;
+  const BoxMotion *plane = nullptr;
+  for (int k = 3; k < number_of_box_modes; k++) {
+    const BoxMotion &motion = settings_.motions[k];
+    if (!motion.moves()) continue;
+    if (plane || motion.how != How::rate) return false;
+    plane = &motion;
+  }
+  const bool steady = plane && settings_.motions[edge].how == How::target && !settings_.follows_variables() &&
                       settings_.control.automatic;
   if (!steady || domain->dimension != 3 || !domain->xperiodic || !domain->yperiodic || !domain->zperiodic) return false;
   const auto moves = [](const LAMMPS_NS::Fix *fix) { return fix->time_integrate != 0; };
@@ -61,8 +69,8 @@ bool PressStrainForecast::flows_slowly(const Grains &grains) const {
   const ContactLaw &law = LAMMPS_NS::PairGranInsitu::required_by(lmp, "fix press/strain")->law();
   if (law.cohesive || law.rolls) return false;
   const double rho = grains.mass / grains.volume, d = grains.diameters / grains.number;
-  const double pressure = settings_.target.value / (force->mvv2e * force->nktv2p);
-  return std::fabs(settings_.rate.value) * d * std::sqrt(rho / pressure) <= slow;
+  const double pressure = settings_.motions[edge].value.value / (force->mvv2e * force->nktv2p);
+  return std::fabs(plane->value.value) * d * std::sqrt(rho / pressure) <= slow;
 }
 
 /** Whether the run is long enough for the box to shrink by this logarithmic strain. */
@@ -71,15 +79,54 @@ bool PressStrainForecast::reaches(double strain, double interval) const {
   return (update->laststep - update->ntimestep) * update->dt * fastest >= strain;
 }
 
+/** Edges that a pressure above 0 moves. */
+std::vector<int> PressStrainForecast::pressed_edges() const {
+  using How = BoxMotion::How;
+  std::vector<int> edges;
+  for (int k = 0; k < 3; k++) {
+    const BoxMotion &motion = settings_.motions[k];
+    if ((motion.how == How::target && motion.value.value > 0.0) ||
+        (motion.how == How::mean && settings_.mean.value > 0.0))
+      edges.push_back(k);
+  }
+  return edges;
+}
+
 void PressStrainForecast::check(double interval) {
   const bool history = LAMMPS_NS::PairGranInsitu::required_by(lmp, "fix press/strain")->is_history();
-  if (!history || !(settings_.target.value > 0.0) || grains_may_change()) return;
+  const std::vector<int> edges = pressed_edges();
+  if (!history || edges.empty() || grains_may_change()) return;
   const Grains all = grains();
   if (all.number == 0.0) return;
+  if (edges.size() == 1) check_edge(all, edges.front(), interval);
+  else check_edges(all, edges);
+}
+
+/** Edges that shrink alike, until the grains are packed as closely as they can be. */
+void PressStrainForecast::check_edges(const Grains &all, const std::vector<int> &edges) {
+  if (warned_) return;
   const BoxState box(lmp);
-  const double height = box.height(settings_.axis), needed = 2.0 * neighbor->cutneighmax;
+  const double close = close_packing(domain->dimension), needed = 2.0 * neighbor->cutneighmax;
+  const double shrinks = std::pow(all.volume / (close * box.volume), 1.0 / edges.size());
+  for (int edge : edges) {
+    const double height = box.height(edge) * shrinks;
+    if (height >= needed) continue;
+    char numbers[384];
+    snprintf(
+        numbers, sizeof numbers,
+        "the box may become too small: at a solid fraction of %g these %.0f grains make it %.6g high along %c, and "
+        "contact history needs 2 x (largest diameter x contact distance factor + skin) = %.6g. Take more grains",
+        close, all.number, height, "xyz"[edge], needed);
+    return warn(numbers);
+  }
+}
+
+void PressStrainForecast::check_edge(const Grains &all, int edge, double interval) {
+  const BoxState box(lmp);
+  const double height = box.height(edge), needed = 2.0 * neighbor->cutneighmax;
   const double area = box.volume / height, phi = all.volume / (area * needed);
-  const bool certain = phi < least_of_slow_flows && flows_slowly(all) && reaches(std::log(height / needed), interval);
+  const bool certain =
+      phi < least_of_slow_flows && flows_slowly(all, edge) && reaches(std::log(height / needed), interval);
   if (!certain && (warned_ || phi >= close_packing(domain->dimension))) return;
   const double bound = certain ? least_of_slow_flows : close_packing(domain->dimension);
   char numbers[384];
@@ -87,11 +134,15 @@ void PressStrainForecast::check(double interval) {
            "the box %s too small: at a solid fraction of %g these %.0f grains fill it up to a height of %.6g along %c, "
            "and contact history needs 2 x (largest diameter x contact distance factor + skin) = %.6g. Take %.0f grains "
            "or more, or a box that is narrower across %c",
-           certain ? "becomes" : "may become", bound, all.number, all.volume / (area * bound), "xyz"[settings_.axis],
-           needed, std::ceil(all.number * close_packing(domain->dimension) / phi), "xyz"[settings_.axis]);
+           certain ? "becomes" : "may become", bound, all.number, all.volume / (area * bound), "xyz"[edge], needed,
+           std::ceil(all.number * close_packing(domain->dimension) / phi), "xyz"[edge]);
   if (certain) Arguments(lmp, "fix press/strain").fail(numbers);
+  warn(numbers);
+}
+
+void PressStrainForecast::warn(const char *message) {
   warned_ = true;
-  if (comm->me == 0) error->warning(FLERR, ("fix press/strain: " + std::string(numbers)).c_str());
+  if (comm->me == 0) error->warning(FLERR, ("fix press/strain: " + std::string(message)).c_str());
 }
 
 }

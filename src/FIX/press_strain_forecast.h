@@ -3,6 +3,7 @@
 #define GRAINSCOPE_PRESS_STRAIN_FORECAST_H
 
 #include "pointers.h"
+#include <vector>
 
 namespace grainscope {
 
@@ -14,7 +15,8 @@ struct PressStrainSettings;
  *    phi_h < 0.45: a slow flow (I <= 0.1) of grains without cohesion and rolling friction is denser than that (Bilotto
  *    et al. 2025, Sec. II, doi 10.1103/tj41-6qqk), and so the box would become lower than h: an error, if the run is
  *    long enough for it.
- *    phi_h < 0.64, of random close packings of spheres, 0.84 of discs: likely; a warning, once. */
+ *    phi_h < 0.64, of random close packings of spheres, 0.84 of discs: likely; a warning, once.
+ *  Several edges under pressure are taken to shrink alike: a warning, once, where one would be lower than h then. */
 class PressStrainForecast : private LAMMPS_NS::Pointers {
  public:
   PressStrainForecast(LAMMPS_NS::LAMMPS *lmp, const PressStrainSettings &settings)
@@ -32,8 +34,12 @@ class PressStrainForecast : private LAMMPS_NS::Pointers {
   };
   Grains grains() const;
   bool grains_may_change() const;
-  bool flows_slowly(const Grains &grains) const;
+  bool flows_slowly(const Grains &grains, int edge) const;
   bool reaches(double strain, double interval) const;
+  std::vector<int> pressed_edges() const;
+  void check_edge(const Grains &all, int edge, double interval);
+  void check_edges(const Grains &all, const std::vector<int> &edges);
+  void warn(const char *message);
 };
 
 }

@@ -3,27 +3,29 @@
 #include "sheared_box.h"
 #include "domain.h"
 #include "lammps.h"
-#include <cstring>
+#include <algorithm>
 
 namespace grainscope {
 
 PressStrainHostArguments::PressStrainHostArguments(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg)
     : words_{arg[0], arg[1], "deform", "1"} {
   const LAMMPS_NS::Domain *domain = lmp->domain;
-  std::string axis = "y", shear;
-  for (int k = 3; k + 1 < narg; k++) {
-    if (!strcmp(arg[k], "axis") && strlen(arg[k + 1]) == 1 && strchr("xyz", arg[k + 1][0])) axis = arg[k + 1];
-    for (const Tilt &tilt : tilts)
-      if (!strcmp(arg[k], "shear") && !strcmp(arg[k + 1], tilt.name) && domain->triclinic &&
-          domain->boundary[tilt.gradient][0] < 2 && domain->boundary[tilt.gradient][1] < 2)
-        shear = tilt.name;
-  }
-  const int *boundary = domain->boundary[axis[0] - 'x'];
-  if (boundary[0] >= 2 || boundary[1] >= 2) axis.clear();  // refused in our own words, later
-  for (const std::string &one : {axis, shear})
-    if (!one.empty()) words_.insert(words_.end(), {one, "vel", "0"});
+  const std::vector<std::string> given(arg + std::min(narg, 3), arg + narg);
+  const auto has = [&given](const std::string &word) {
+    return std::find(given.begin(), given.end(), word) != given.end();
+  };
+  // What the host would refuse is refused in our own words, later.
+  const auto shrinks = [domain](int edge) { return domain->boundary[edge][0] >= 2 || domain->boundary[edge][1] >= 2; };
+  for (int edge = 0; edge < domain->dimension; edge++)
+    if ((has(std::string(1, "xyz"[edge])) || has("mean")) && !shrinks(edge)) move(std::string(1, "xyz"[edge]));
+  for (const Tilt &tilt : tilts)
+    if (has(tilt.name) && domain->triclinic && !shrinks(tilt.gradient)) move(tilt.name);
   words_.insert(words_.end(), {"remap", "v", "units", "box"});
   for (std::string &word : words_) pointers_.push_back(&word[0]);
+}
+
+void PressStrainHostArguments::move(const std::string &parameter) {
+  words_.insert(words_.end(), {parameter, "vel", "0"});
 }
 
 }

@@ -26,6 +26,8 @@ class PressStrainHostArguments {
  private:
   std::vector<std::string> words_;
   std::vector<char *> pointers_;  // into words_
+
+  void move(const std::string &parameter);
 };
 
 }

@@ -32,19 +32,27 @@ bool pushes_along(PrimitiveWall *wall, int axis) {
 
 void PressStrainRequirements::require_controllable_box(const ShearedBox &box) const {
   const int periodic[3] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
-  if (!periodic[settings_.axis])
-    press_strain_error(lmp, std::string("cannot move box edges along '") + "xyz"[settings_.axis] +
-                                "': the box must be periodic there");
-  if (settings_.shear) {
-    const std::string shear = std::string("'shear ") + settings_.shear->name + "'";
-    if (!periodic[settings_.shear->flow] || !periodic[settings_.shear->gradient])
+  for (int k = 0; k < 3; k++)
+    if (settings_.motions[k].moves() && !periodic[k])
+      press_strain_error(lmp,
+                         std::string("cannot move box edges along '") + "xyz"[k] + "': the box must be periodic there");
+  for (const Tilt &tilt : tilts) {
+    if (!settings_.motions[tilt.index].given) continue;
+    const std::string shear = std::string("'shear ") + tilt.name + "'";
+    if (!periodic[tilt.flow] || !periodic[tilt.gradient])
       press_strain_error(lmp, shear + " needs a box periodic along both axes");
-    for (const Tilt &tilt : tilts)
-      if (&tilt != settings_.shear && box.tilt(tilt) != 0.0)
-        press_strain_error(lmp, "with " + shear + " the tilt " + tilt.name + " must be 0, got " +
-                                    Arguments::text(box.tilt(tilt)));
+    for (const Tilt &other : tilts)
+      if (!settings_.motions[other.index].given && !takes_part(other) && box.tilt(other) != 0.0)
+        press_strain_error(lmp, "with " + shear + " the tilt " + other.name + " must be 0, got " +
+                                    Arguments::text(box.tilt(other)) + " (or keep it, by 'shear " + other.name +
+                                    " fixed')");
   }
   require_alone();
+}
+
+/** A box that is sheared in xy and yz takes on the tilt xz. */
+bool PressStrainRequirements::takes_part(const Tilt &tilt) const {
+  return tilt.index == 4 && settings_.motions[5].given && settings_.motions[3].given;
 }
 
 void PressStrainRequirements::require_alone() const {
@@ -57,17 +65,19 @@ void PressStrainRequirements::require_alone() const {
                                   ": only one fix deform or press/strain at a time");
     if (fix->rigid_flag || strstr(fix->style, "multisphere"))
       press_strain_error(lmp, "does not work with rigid bodies " + which);
-    if (!strncmp(fix->style, "wall/", 5)) require_no_wall_on_axis(fix);
+    if (strncmp(fix->style, "wall/", 5)) continue;
+    for (int edge = 0; edge < 3; edge++)
+      if (settings_.motions[edge].moves()) require_no_wall_on_axis(fix, edge);
   }
 }
 
-void PressStrainRequirements::require_no_wall_on_axis(Fix *fix) const {
-  const char axis = "xyz"[settings_.axis];
+void PressStrainRequirements::require_no_wall_on_axis(Fix *fix, int edge) const {
+  const char axis = "xyz"[edge];
   FixWallGran *wall = dynamic_cast<FixWallGran *>(fix);
   if (!wall || wall->is_mesh_wall())
     press_strain_error(lmp, std::string("cannot move a box that holds a wall of style ") + fix->style + " (fix " +
                                 fix->id + "): only primitive walls of wall/gran on another axis");
-  if (wall->primitiveWall() && pushes_along(wall->primitiveWall(), settings_.axis))
+  if (wall->primitiveWall() && pushes_along(wall->primitiveWall(), edge))
     press_strain_error(lmp, std::string("cannot move box edges along '") + axis + "': fix " + fix->id +
                                 " is a wall on that axis");
 }

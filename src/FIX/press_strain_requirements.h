@@ -12,6 +12,7 @@ namespace grainscope {
 
 struct PressStrainSettings;
 class ShearedBox;
+struct Tilt;
 
 /** What fix press/strain needs of the box and of other fixes: what is not met ends the run. In its constructor and
  *  before each run. */
@@ -32,7 +33,8 @@ class PressStrainRequirements : private LAMMPS_NS::Pointers {
   const PressStrainSettings &settings_;
 
   void require_alone() const;
-  void require_no_wall_on_axis(LAMMPS_NS::Fix *wall) const;
+  void require_no_wall_on_axis(LAMMPS_NS::Fix *wall, int edge) const;
+  bool takes_part(const Tilt &tilt) const;
 };
 
 }

@@ -24,9 +24,10 @@ std::string Arguments::word(const std::string &wanted) {
   return words_[at_++];
 }
 
-std::string Arguments::keyword(const std::vector<std::string> &keywords, const std::string &kind) {
+std::string Arguments::keyword(const std::vector<std::string> &keywords, const std::string &kind,
+                               const std::string &many) {
   std::string got = choice(kind, keywords);
-  if (!keywords_.insert(got).second) fail("'" + got + "' is given twice");
+  if (!keywords_.insert(got).second && got != many) fail("'" + got + "' is given twice");
   return got;
 }
 

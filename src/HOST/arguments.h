@@ -29,8 +29,9 @@ class Arguments {
   /** The next word; an error that names `wanted` when there is none. */
   std::string word(const std::string &wanted);
   /** The next keyword (or, for messages, the next `kind` of word), one of `keywords`; an error when it was read
-   *  before. */
-  std::string keyword(const std::vector<std::string> &keywords, const std::string &kind = "keyword");
+   *  before, unless it is `many`. */
+  std::string keyword(const std::vector<std::string> &keywords, const std::string &kind = "keyword",
+                      const std::string &many = "");
   /** The words up to the next of `keywords`, at least one. */
   std::vector<std::string> words_before(const std::vector<std::string> &keywords, const std::string &wanted);
   /** For a style without keywords: an error when there is a word. */

@@ -4,18 +4,25 @@
 #include "domain.h"
 #include "irregular.h"
 #include "update.h"
+#include <algorithm>
 #include <cmath>
 
 namespace grainscope {
 
-ShearedBox::ShearedBox(LAMMPS_NS::LAMMPS *lmp, int axis, const Tilt *shear)
-    : Pointers(lmp), axis_(axis), shear_(shear) {
-  if (shear) irregular_.reset(new LAMMPS_NS::Irregular(lmp));
+namespace {
+
+const Tilt &xy = tilts[0], &xz = tilts[1], &yz = tilts[2];
+
+}
+
+ShearedBox::ShearedBox(LAMMPS_NS::LAMMPS *lmp, const std::array<bool, 6> &turns) : Pointers(lmp), turns_(turns) {
+  turns_[xz.index] = turns_[xz.index] || (turns_[xy.index] && turns_[yz.index]);
+  if (std::find(turns_.begin(), turns_.end(), true) != turns_.end()) irregular_.reset(new LAMMPS_NS::Irregular(lmp));
 }
 
 ShearedBox::~ShearedBox() {}
 
-double ShearedBox::length() const { return domain->prd[axis_]; }
+double ShearedBox::length(int edge) const { return domain->prd[edge]; }
 
 double &ShearedBox::tilt_of(const Tilt &which) const {
   return which.index == 5 ? domain->xy : which.index == 4 ? domain->xz : domain->yz;
@@ -23,41 +30,63 @@ double &ShearedBox::tilt_of(const Tilt &which) const {
 
 double ShearedBox::tilt(const Tilt &which) const { return domain->triclinic ? tilt_of(which) : 0.0; }
 
-void ShearedBox::set_rates(double velocity, double rate) {
+void ShearedBox::set_rates(const BoxRates &rates) {
   for (int k = 0; k < 6; k++) domain->h_rate[k] = 0.0;
-  for (int k = 0; k < 3; k++) domain->h_ratelo[k] = 0.0;
-  domain->h_rate[axis_] = velocity;
-  domain->h_ratelo[axis_] = -0.5 * velocity;
+  for (int k = 0; k < 3; k++) {
+    domain->h_rate[k] = rates[k];
+    domain->h_ratelo[k] = -0.5 * rates[k];
+  }
   if (!domain->triclinic) return;
   for (const Tilt &one : tilts) {
-    if (one.flow == axis_) domain->h_rate[one.index] += tilt_of(one) * velocity / domain->prd[axis_];
-    if (&one == shear_) domain->h_rate[one.index] += rate * domain->prd[one.gradient];
+    double &rate = domain->h_rate[one.index];
+    if (rates[one.flow] != 0.0) rate += tilt_of(one) * rates[one.flow] / domain->prd[one.flow];
+    if (rates[one.index] != 0.0) rate += rates[one.index] * domain->prd[one.gradient];
   }
+  if (rates[xy.index] != 0.0) domain->h_rate[xz.index] += rates[xy.index] * tilt_of(yz);
 }
 
 void ShearedBox::advance() {
-  const double dt = update->dt, half = 0.5 * domain->h_rate[axis_] * dt;
-  domain->boxlo[axis_] -= half;
-  domain->boxhi[axis_] += half;
+  const double dt = update->dt;
+  for (int k = 0; k < 3; k++) {
+    const double half = 0.5 * domain->h_rate[k] * dt;
+    domain->boxlo[k] -= half;
+    domain->boxhi[k] += half;
+  }
   if (domain->triclinic)
     for (const Tilt &one : tilts) tilt_of(one) += domain->h_rate[one.index] * dt;
   domain->set_global_box();
   domain->set_local_box();
 }
 
-bool ShearedBox::needs_flip() const { return shear_ && std::fabs(tilt_of(*shear_)) > 0.5 * domain->prd[shear_->flow]; }
+bool ShearedBox::beyond_half(const Tilt &which) const {
+  return turns_[which.index] && std::fabs(tilt_of(which)) > 0.5 * domain->prd[which.flow];
+}
 
-void ShearedBox::flip(double velocity, double rate) {
+bool ShearedBox::needs_flip() const {
+  return std::any_of(std::begin(tilts), std::end(tilts), [this](const Tilt &one) { return beyond_half(one); });
+}
+
+/** Turns one tilt back; by how many edges, -1, 0 or 1. */
+int ShearedBox::turn(const Tilt &which) {
+  if (!beyond_half(which)) return 0;
+  const int edges = tilt_of(which) > 0.0 ? -1 : 1;
+  tilt_of(which) += edges * domain->prd[which.flow];
+  return edges;
+}
+
+void ShearedBox::flip(const BoxRates &rates) {
   domain->x2lamda(atom->nlocal);
   domain->pbc();
   domain->lamda2x(atom->nlocal);
 
-  const int turn = tilt_of(*shear_) > 0.0 ? -1 : 1;
-  tilt_of(*shear_) += turn * domain->prd[shear_->flow];
+  // the third edge by whole second ones, then what is left of it and the second by whole first ones
+  const int of_yz = turn(yz);
+  domain->xz += of_yz * domain->xy;
+  const int of_xz = turn(xz), of_xy = turn(xy);
   domain->set_global_box();
   domain->set_local_box();
-  set_rates(velocity, rate);
-  domain->image_flip(shear_->index == 5 ? turn : 0, shear_->index == 4 ? turn : 0, shear_->index == 3 ? turn : 0);
+  set_rates(rates);
+  domain->image_flip(of_xy, of_xz, of_yz);
 
   domain->x2lamda(atom->nlocal);
   domain->pbc();

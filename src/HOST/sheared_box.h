@@ -3,6 +3,7 @@
 #define GRAINSCOPE_SHEARED_BOX_H
 
 #include "pointers.h"
+#include <array>
 #include <memory>
 
 namespace LAMMPS_NS {
@@ -19,33 +20,38 @@ struct Tilt {
 };
 inline const Tilt tilts[3] = {{5, 0, 1, "xy"}, {4, 0, 2, "xz"}, {3, 1, 2, "yz"}};
 
-/** Moves the host's box: one edge length at a given speed, symmetrically about its middle, and one tilt at a given
- *  shear rate. domain->h_rate always holds the rates of the coming step: the host's ghost velocities follow it. */
+/** How fast the box deforms, in the host's order: of the edges x, y, z the change of length, dL/dt; of the tilts yz, xz,
+ *  xy the true shear rate. */
+using BoxRates = std::array<double, 6>;
+
+/** Moves the host's box: its edge lengths at given speeds, symmetrically about its middle, and its tilts at given shear
+ *  rates. domain->h_rate always holds the rates of the coming step: the host's ghost velocities follow it. */
 class ShearedBox : private LAMMPS_NS::Pointers {
  public:
-  /** `shear` may be null: no tilt is driven. */
-  ShearedBox(LAMMPS_NS::LAMMPS *lmp, int axis, const Tilt *shear);
+  /** `turns`: tilts (by index, as in BoxRates) that are turned back by an edge when they have grown beyond half of it;
+   *  the tilt xz, which a box that is sheared in xy and yz takes on, with both. */
+  ShearedBox(LAMMPS_NS::LAMMPS *lmp, const std::array<bool, 6> &turns);
   ~ShearedBox() override;
 
-  double length() const;
+  double length(int edge) const;
   double tilt(const Tilt &which) const;
-  /** Rates of the coming step: dL/dt along the axis, tilt by rate x (edge along the gradient). Other tilts with a
-   *  component along the axis keep their shape. */
-  void set_rates(double velocity, double rate);
+  /** Rates of the coming step, dH/dt = L H with L_ab the shear rate in the plane ab and L_aa = (dL_a/dt)/L_a. */
+  void set_rates(const BoxRates &rates);
   /** One time step at the rates that are set. */
   void advance();
   /** A tilt beyond half the box is due to be turned back by one edge. */
   bool needs_flip() const;
   /** Turns it back, before neighbour lists are built. Grains are wrapped into the old box and then into the new one,
    *  each time with the velocity of the face that they cross. Collective. */
-  void flip(double velocity, double rate);
+  void flip(const BoxRates &rates);
 
  private:
-  int axis_;
-  const Tilt *shear_;
+  std::array<bool, 6> turns_;
   std::unique_ptr<LAMMPS_NS::Irregular> irregular_;
 
   double &tilt_of(const Tilt &which) const;
+  bool beyond_half(const Tilt &which) const;
+  int turn(const Tilt &which);
 };
 
 }

@@ -104,13 +104,24 @@ def press(**changes):
     return "fix press all press/strain " + " ".join(f"{k} {v}" for k, v in words.items() if v)
 
 
+BARE = "fix press all press/strain"
+PLANE_MOVES = "'rate' and a shear rate, 'target' and a shear stress, or 'fixed'"
 PRESS = Style(
     "fix press/strain",
     "fix press all press/strain",
     [
         Keyword("axis", choice("x", "y", "z")),
         Keyword("target", quantity("a pressure >= 0", ("0", "1e300"), ("-1e-9", "-3"))),
-        Keyword("shear", Kind("xy, xz or yz", ("xy rate 1", "xz rate 1"), ("yx", "XY", "", "nan", "x"))),
+        Keyword(
+            "x", Kind("target, rate or fixed", ("target 5", "rate -0.1", "rate v_strain", "fixed"), ("5", "mean", ""))
+        ),
+        Keyword("z", Kind("target, rate or fixed", ("target v_strain", "rate 0", "fixed"), ("Target", "nan"))),
+        Keyword("x target", quantity("a pressure >= 0", ("0", "1e300"), ("-1e-9", "-3"))),
+        Keyword("x rate", number("a rate or a variable v_name", ("0", "-5", "v_strain"), ())),
+        Keyword(
+            "shear",
+            Kind("xy, xz or yz", ("xy rate 1", "xz rate 1", "yz fixed", "xy rate 2"), ("yx", "XY", "", "nan", "x")),
+        ),
         Keyword("shear xy rate", quantity("a shear rate other than 0", ("1e-300", "-5"), ("0", "-0.0")), "rate"),
         Keyword("every", number("a strain > 0", ("1e-9", "1e9"), ("0", "-1"))),
         Keyword("every/time", number("a time > 0", ("1e-9", "1e9"), ("0", "-1"))),
@@ -126,6 +137,11 @@ PRESS = Style(
     order=(
         "axis",
         "target",
+        "x",
+        "y",
+        "z",
+        "mean",
+        "ratio",
         "shear",
         "every",
         "every/time",
@@ -137,15 +153,56 @@ PRESS = Style(
         "kinetic",
     ),
     more=[
-        (press(shear="xy"), "expected 'rate' and a shear rate after 'xy', got the end of the command"),
-        (press(shear="xy speed 1"), "'shear xy' must be followed by 'rate' and a shear rate, got 'speed'"),
+        (press(shear="xy"), f"expected {PLANE_MOVES} after 'xy', got the end of the command"),
+        (press(shear="xy speed 1"), f"'shear xy' must be followed by {PLANE_MOVES}, got 'speed'"),
+        (press(shear="xy target x"), "'shear xy target' must be a shear stress or a variable v_name, got 'x'"),
+        (
+            press(shear="xy target 1", every=None) + " every/step 5",
+            "'shear' with 'target' needs 'maxrate': grains that yield would be sheared ever faster",
+        ),
+        (
+            press(shear="xy target 1", every=None) + " every/step 5 maxrate 1 gain 1e-6",
+            "'gain' must be auto with 'target' of a shear, got 1e-06",
+        ),
+        (press() + " y fixed", "'axis y' and 'y' exclude each other"),
+        (BARE + " every/step 5", "nothing is to move: give 'axis' and 'target', x, y, z, 'mean' or 'shear'"),
+        (BARE + " ratio 1 1 1 x fixed every/step 5", "'ratio' needs 'mean target' and a pressure"),
+        (BARE + " mean pressure 5", "'mean' must be target, got 'pressure'"),
+        (BARE + " mean target -5", "'mean target' must be a pressure >= 0 or a variable v_name, got '-5'"),
+        (
+            BARE + " mean target 5 ratio 1 1",
+            "expected three numbers >= 0, of x, y and z after '1', got the end of the command",
+        ),
+        (BARE + " mean target 5 ratio 1 -1 1", "'ratio' must be three numbers >= 0, of x, y and z, got '-1'"),
+        (
+            BARE + " mean target 5 ratio 1 1 1 z rate 1 every/step 5",
+            "'ratio' of z must be 0 beside 'z', got 1",
+        ),
+        (
+            BARE + " mean target 5 ratio 0 0 0 every/step 5",
+            "'mean' moves no edge: all are fixed, driven or have a ratio of 0",
+        ),
+        (
+            BARE + " mean target 5 x target 3 every/step 5",
+            "'mean' and 'x target' exclude each other: hold each edge by a target of its own",
+        ),
+        (BARE + " mean target 5 gain 1 every/step 5", "'gain' must be auto with 'mean', got 1"),
+        (
+            BARE + " x fixed y target 4 every 1e-3",
+            "'every' counts strain, and without 'shear' or an edge with 'rate' the box has none: use 'every/time' or "
+            "'every/step'",
+        ),
         (press(axis=None), "'axis x', 'axis y' or 'axis z' is required"),
         (press(target=None), "'target' and a pressure are required"),
         (press(every=None), "'every', 'every/time' or 'every/step' is required"),
-        (press(every=None, shear=None), "without 'shear', 'every/time' or 'every/step' is required"),
+        (
+            press(every=None, shear=None),
+            "without 'shear' or an edge with 'rate', 'every/time' or 'every/step' is required",
+        ),
         (
             press(shear=None),
-            "'every' counts strain, and without 'shear' the box has none: use 'every/time' or 'every/step'",
+            "'every' counts strain, and without 'shear' or an edge with 'rate' the box has none: use 'every/time' or "
+            "'every/step'",
         ),
         (
             press() + " every/step 3",

@@ -26,10 +26,9 @@ Contact contact_of(fuzz::Input &input) {
 }
 
 /** The box moves the way that lowers the error, never faster than it may, and says so when it would. */
-void check_input(const PressureControl &control, const NetworkResponse &window, double target, double length,
-                 double interval) {
-  const PressureControl::Input input = control.input(window, target, length, interval);
-  const double bound = length * std::min(control.limit / interval, control.max_rate), error = window.pressure - target;
+void check_input(const PressureControl &control, double error, double resistance, double length, double interval) {
+  const PressureControl::Input input = control.input(error, resistance, length, interval);
+  const double bound = length * std::min(control.limit / interval, control.max_rate);
   require(std::isfinite(input.velocity), "an input is finite", input.velocity);
   require_below(std::fabs(input.velocity), bound, "an input keeps its limit");
   require(input.velocity * error >= 0.0, "the box grows where the pressure is too high", input.velocity);
@@ -66,7 +65,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
   control.gain = input.flag() ? input.logarithmic(1e-12, 1e12) : 0.0;
   control.limit = input.uniform(1e-9, 1.0 - 1e-9);
   if (input.flag()) control.max_rate = input.logarithmic(1e-9, 1e9);
-  const int axis = input.whole(0, 2);
+  std::vector<int> modes;
+  for (int k = 0; k < number_of_box_modes; k++)
+    if (input.flag()) modes.push_back(k);
   NetworkResponse evaluation, window;
   ContactLaw law;
   for (int n = input.whole(0, 8); n > 0; n--) {
@@ -74,16 +75,23 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     law.tangential = input.flag() ? TangentialLaw::spring : TangentialLaw::none;
     Contact c = contact_of(input);
     c.law = &law;
-    evaluation.add(c, axis);
-    require(evaluation.stiffness >= 0.0 && evaluation.damping >= 0.0, "a network resists", evaluation.stiffness);
+    evaluation.add(c, modes);
+    for (int k : modes) require(evaluation.resistance(k, k, 1.0) >= 0.0, "a network resists", k);
   }
   window.add(evaluation, input.logarithmic(1e-3, 1.0));
   const double length = input.logarithmic(1e-6, 1e6), interval = input.logarithmic(1e-12, 1e6);
-  check_input(control, window, input.flag() ? 100.0 * input.uniform(0.0, 1.0) : 0.0, length, interval);
-  check_input(control, window, window.pressure, length, interval);
+  const double target = input.flag() ? 100.0 * input.uniform(0.0, 1.0) : 0.0;
+  for (int k : modes) {
+    const double resistance = window.resistance(k, k, interval);
+    check_input(control, window.pressure[k] - target, resistance, length, interval);
+    check_input(control, 0.0, resistance, length, interval);
+    double base = 0.0;
+    control.input_with_base(window.pressure[k], resistance, window.stiffness[NetworkResponse::place(k, k)], interval,
+                            base);
+    require(std::isfinite(base), "the base of a shear rate is finite", base);
+  }
   check_intervals(input);
 
-  const NetworkResponse anything{input.any(), input.any(), input.any()};  // of a run that has blown up
-  control.input(anything, input.any(), length, interval);
+  control.input(input.any(), input.any(), length, interval);  // of a run that has blown up
   return 0;
 }
