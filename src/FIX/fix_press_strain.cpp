@@ -103,7 +103,7 @@ struct FixPressStrain::Impl {
   }
   int shown_edge() const;
   double true_rate(int mode) const;
-  BoxRates rates() const;
+  BoxRates rates(double ahead = 0.0) const;
 
   /** What an element of the vector is, and its value. */
   struct Element {
@@ -224,13 +224,14 @@ double FixPressStrain::Impl::true_rate(int mode) const {
   return mode < 3 ? driven.rates[mode] / box.length(mode) : driven.rates[mode];
 }
 
-/** As the box is moved: those of edges with targets are held in dL/dt. */
-BoxRates FixPressStrain::Impl::rates() const {
+/** As the box is moved: those of edges with targets are held in dL/dt. `ahead`: the time in which the box takes on the
+ *  length to which the true rates of edges belong. */
+BoxRates FixPressStrain::Impl::rates(double ahead) const {
   BoxRates all{};
   for (int k = 0; k < number_of_box_modes; k++)
     all[k] = k >= 3                                   ? true_rate(k)
              : settings.motions[k].how == How::target ? driven.rates[k]
-                                                      : true_rate(k) * box.length(k);
+                                                      : true_rate(k) * box.length(k) / (1.0 - true_rate(k) * ahead);
   return all;
 }
 
@@ -346,9 +347,7 @@ void FixPressStrain::end_of_step() {
   if (my.intervals.advance(progress_of_a_step())) take_input();
   // The box moves by the rates that its images take in the coming step: the springs of contacts across faces follow
   // velocities, overlaps the box.
-  my.box.set_rates(my.rates());
-  my.box.advance();
-  my.box.set_rates(my.rates());
+  my.box.advance(my.rates(update->dt));
   give_new_velocity_outside(before);
   plan_flip();
 }

@@ -45,17 +45,25 @@ void ShearedBox::set_rates(const BoxRates &rates) {
   if (rates[xy.index] != 0.0) domain->h_rate[xz.index] += rates[xy.index] * tilt_of(yz);
 }
 
-void ShearedBox::advance() {
+void ShearedBox::advance(const BoxRates &rates) {
   const double dt = update->dt;
+  double growth[3];
   for (int k = 0; k < 3; k++) {
-    const double half = 0.5 * domain->h_rate[k] * dt;
+    const double half = 0.5 * rates[k] * dt, before = domain->prd[k];
     domain->boxlo[k] -= half;
     domain->boxhi[k] += half;
+    growth[k] = rates[k] == 0.0 ? 1.0 : (domain->boxhi[k] - domain->boxlo[k]) / before;
   }
+  // a tilt grows with the edge along it, and by the shear of the box after the step
   if (domain->triclinic)
-    for (const Tilt &one : tilts) tilt_of(one) += domain->h_rate[one.index] * dt;
+    for (const Tilt *one : {&yz, &xz, &xy}) {
+      double shear = rates[one->index] * (domain->boxhi[one->gradient] - domain->boxlo[one->gradient]);
+      if (one == &xz) shear += rates[xy.index] * tilt_of(yz);
+      tilt_of(*one) = tilt_of(*one) * growth[one->flow] + shear * growth[one->flow] * dt;
+    }
   domain->set_global_box();
   domain->set_local_box();
+  set_rates(rates);
 }
 
 bool ShearedBox::beyond_half(const Tilt &which) const {

@@ -35,10 +35,11 @@ class ShearedBox : private LAMMPS_NS::Pointers {
 
   double length(int edge) const;
   double tilt(const Tilt &which) const;
-  /** Rates of the coming step, dH/dt = L H with L_ab the shear rate in the plane ab and L_aa = (dL_a/dt)/L_a. */
+  /** Rates of the box as it is, dH/dt = L H with L_ab the shear rate in the plane ab and L_aa = (dL_a/dt)/L_a. */
   void set_rates(const BoxRates &rates);
-  /** One time step at the rates that are set. */
-  void advance();
+  /** One time step, to a box that has these rates: H grows by exactly dH/dt dt, the velocities of images by which grains
+   *  are wrapped after it. */
+  void advance(const BoxRates &rates);
   /** A tilt beyond half the box is due to be turned back by one edge. */
   bool needs_flip() const;
   /** Turns it back, before neighbour lists are built. Grains are wrapped into the old box and then into the new one,
