@@ -178,6 +178,21 @@ add_cases(press/strain-control cases/press_strain.py LABEL case STYLES press/str
 add_cases(press/strain-analytic cases/press_analytic.py LABEL case STYLES press/strain RANKS 1 LONG_RANKS 2 CASES
   automatic-gain-compresses automatic-gain-expands automatic-gain-of-hooke)
 add_cases(press/strain-analytic cases/press_analytic.py LABEL case STYLES press/strain RANKS 1 2 CASES given-gain)
+add_cases(press/strain-path-by-hand cases/stress_path_analytic.py LABEL case STYLES press/strain CASES
+  two-edges an-edge-by-the-old-form-and-one-driven mean-with-ratios-beside-a-rate shear-stress
+  sheared-in-two-planes-under-pressure)
+add_cases(press/strain-path-by-hand cases/stress_path_analytic.py LABEL case STYLES press/strain RANKS 1 LONG_RANKS 2
+  CASES three-edges mean shear-stress-and-pressure)
+add_cases(press/strain-path cases/stress_paths.py LABEL case STYLES press/strain CASES
+  oedometer-frictionless oedometer-with-springs lattice-under-a-mean sheared-in-xy-and-xz sheared-in-xy-and-yz
+  volume-stays targets-follow-variables in-two-dimensions)
+add_cases(press/strain-path cases/stress_paths.py LABEL case STYLES press/strain RANKS 1 LONG_RANKS 2 4 CASES
+  lattice-under-three-targets holds-a-shear-stress)
+add_cases(press/strain-path cases/stress_paths.py LABEL case STYLES press/strain RANKS 1 2 LONG_RANKS 4 CASES
+  sheared-in-three-planes-and-stretched whatever-lists-are-built whatever-lists-are-built-on-every-edge
+  restart-continues restart-continues-with-a-mean-and-a-shear-stress)
+add_cases(press/strain-path cases/stress_paths.py LABEL case STYLES press/strain RANKS 2 LONG_RANKS 4 CASES
+  same-on-ranks same-on-ranks-with-a-mean-and-a-shear-stress)
 add_cases(press/strain-range cases/ranges.py LABEL case STYLES press/strain RANKS 1 LONG_RANKS 2 CASES clipping)
 
 # nve/spheroid

@@ -30,7 +30,7 @@ class Pair:
         self.grains = [Grain(tuple(middle + side * 0.5 * self.distance)) for side in (-1, 1)]
 
     def answer(self, h, rates, mass):
-        """Pressures, stiffness and damping matrices of all modes, times volume. h: edges in columns; rates dh/dt."""
+        """Pressures, stiffness and damping matrices of all modes, times volume. h: edges in columns; rates: dh/dt."""
         branch, opening = h @ self.image - self.distance, rates @ self.image
         length = np.linalg.norm(branch)
         normal, overlap = branch / length, max(2.0 - length, 0.0)
@@ -52,8 +52,8 @@ class Network:
 
 CORNER = Pair((0.48, 0.6, 0.64), (1, 1, 1))
 UPRIGHT = [Pair((1, 0, 0), (1, 0, 0)), Pair((0, 1, 0), (0, 1, 0)), Pair((0, 0, 1), (0, 0, 1)), CORNER]
-# Spheres do not follow the box, as those of a packing do: its whole displacement goes into these contacts, L/r times the
-# affine one, and the gain has a factor of four in hand here.
+# Spheres do not follow the box, as those of a packing do: its whole displacement goes into these contacts, L/r times
+# the affine one, and the gain has a factor of four in hand here.
 OBLIQUE = [UPRIGHT[0], UPRIGHT[2], CORNER, Pair((-0.5, 0.8, 0.33), (0, 1, 0))]
 
 
@@ -76,10 +76,10 @@ class ByHand:
             rates[name] = value / (self.h[flow, flow] + value * self.dt) if len(name) == 1 else value
         if self.mean:
             rates |= {name: self.common * ratio for name, ratio in self.mean[1].items()}
-        l = np.zeros((3, 3))
-        for name, (flow, gradient) in MODES.items():
-            l[flow, gradient] = rates[name]
-        return l
+        gradient = np.zeros((3, 3))
+        for name, place in MODES.items():
+            gradient[place] = rates[name]
+        return gradient
 
     def inputs(self, window):
         pressure, stiffness, damping = (
@@ -105,17 +105,17 @@ class ByHand:
             self.common = BETA / resistance * (pressure[:3].mean() - self.mean[0])
 
     def run(self):
-        window, table, l = [], [], self.gradient()
+        window, table, gradient = [], [], self.gradient()
         for step in range(STEPS + 1):
-            network = Network(self.pairs, self.h, l @ self.h, self.mass)
+            network = Network(self.pairs, self.h, gradient @ self.h, self.mass)
             if step:
                 window.append(network)
                 if step == 1 or step % EVERY == 0:
                     self.inputs(window)
                     window = []
             if step:
-                l = self.gradient()
-                self.h = np.linalg.solve(np.eye(3) - l * self.dt, self.h)
+                gradient = self.gradient()
+                self.h = np.linalg.solve(np.eye(3) - gradient * self.dt, self.h)
             table.append([*network.pressure, *self.h[np.triu_indices(3)]])
         return np.array(table)
 

@@ -1,0 +1,344 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""fix press/strain along stress paths: moduli of a lattice against closed forms, boxes sheared in two planes against
+their own geometry, whatever steps neighbour lists are built in, restarts and ranks."""
+from dataclasses import replace
+import math
+
+import numpy as np
+
+from case import main, require, require_close, require_same_snapshots
+from columns import outputs
+from deck import POISSON, YOUNG, Deck, Material, box_columns, dump_grains, number, thermo
+from oracle.state import grains_of
+from packing import dense_packing, disc_packing
+from run import run
+
+F = outputs("press/strain").of("press")
+MODULUS, SHEAR_MODULUS = YOUNG / (2 * (1 - POISSON**2)), YOUNG / (4 * (2 - POISSON) * (1 + POISSON))
+QUIET = Material(restitution=(0.1,), friction=(10.0,))
+
+
+def lattice_pressures(cell, start, friction):
+    """Pressures along x, y, z of a face-centred lattice of spheres of radius 1 that was stretched from cubic cells of
+    edge `start` to `cell`, each grain in its place: Hertz and, with friction, springs whose stiffness follows the
+    overlap. In small steps, by the law of each of the six pairs of neighbours."""
+    path = np.linspace(np.full(3, start), cell, 2001)
+    total = np.zeros(3)
+    for direction in ([1, 1, 0], [1, -1, 0], [1, 0, 1], [1, 0, -1], [0, 1, 1], [0, 1, -1]):
+        branches = 0.5 * path * np.array(direction)
+        spring = np.zeros(3)
+        for before, now in zip(branches[:-1], branches[1:]):
+            normal = now / np.linalg.norm(now)
+            spring += (now - before) - normal * (normal @ (now - before))
+            spring -= normal * (normal @ spring)
+        overlap = 2.0 - np.linalg.norm(branches[-1])
+        root, normal = math.sqrt(0.5 * overlap), branches[-1] / np.linalg.norm(branches[-1])
+        force = 4.0 / 3.0 * MODULUS * root * overlap * normal
+        if friction:
+            force -= 8.0 * SHEAR_MODULUS * root * spring
+        total += force * branches[-1]
+    return 4.0 * total / np.prod(cell)  # four grains in a cell, each with one half of twelve contacts
+
+
+def lattice():
+    packing = replace(dense_packing(atom_style="sphere", speed=0.0), triclinic=False)
+    start = 2.0 * math.sqrt(2.0) * 0.98
+    return packing, start, np.rint(np.array(packing.edges) / start)
+
+
+def oedometer(friction):
+    """One edge driven, two fixed, with the flow's velocities from the start: stresses as those of the lattice."""
+
+    def case(ranks):
+        packing, start, cells = lattice()
+        strain, steps = 2e-3, 2000
+        deck = Deck(
+            packing,
+            material=QUIET,
+            tangential="history" if friction else "off",
+            extra="tangential_damping off" if friction else "",
+        )
+        rate = strain / (steps * deck.dt())
+        speed = 0.5 * rate * packing.edges[2]
+        deck.body = [
+            f"velocity all ramp vz {number(speed)} {number(-speed)} z 0 {number(packing.edges[2])} units box",
+            f"fix press all press/strain x fixed y fixed z rate {number(-rate)} every 1e-4",
+            *thermo(100, F["P_x"], F["P_y"], F["P_z"], F["strain_z"], F["strain"], "lx", "ly", "lz"),
+            f"run {steps}",
+        ]
+        table = run(deck, ranks).thermo()[0]
+        require_close(table[F["strain_z"]], -table["step"] * deck.dt() * rate, 1e-12, "strain", strain)
+        require_close(table[F["strain"]], -table[F["strain_z"]], 1e-12, "strain that is counted", strain)
+        # the rate is that of the length after the step
+        lengths = packing.edges[2] * (1.0 + rate * deck.dt()) ** -table["step"]
+        require_close(table["lz"], lengths, 1e-12, "lz")
+        before = (table["lz"][0], table["lz"][-1] * (1.0 + rate * deck.dt()))  # of the step whose forces are printed
+        for row, length in zip((0, -1), before):
+            cell = np.array([table["lx"][row], table["ly"][row], length]) / cells
+            expected = lattice_pressures(cell, start, friction)
+            found = [table[F[f"P_{a}"]][row] for a in "xyz"]
+            # 1e-3: of the change, for what damping and inertia hold
+            slack = 1e-3 * np.ptp(table[F["P_z"]]) / expected.max()
+            require_close(found, expected, slack, f"pressures in row {row}", expected.max())
+        require(np.ptp(table[F["P_z"]]) > 0.1 * table[F["P_z"]][0], "the lattice was hardly compressed")
+
+    return case
+
+
+def ends_at(words, targets):
+    """`targets`: over the pressure at the start. Where the box comes to rest the lattice has these pressures."""
+
+    def case(ranks):
+        packing, start, cells = lattice()
+        deck = Deck(packing, material=QUIET, tangential="off")
+        first = lattice_pressures(np.full(3, start), start, False)
+        wanted = first * targets
+        line = words.format(*(number(p) for p in (wanted if words.count("{") > 1 else wanted[:1])))
+        deck.body = [
+            f"fix press all press/strain {line} every/step 10",
+            *thermo(100, F["P_x"], F["P_y"], F["P_z"], F["pressure"], F["inputs"], "lx", "ly", "lz"),
+            "run 6000",
+        ]
+        table = run(deck, ranks).thermo()[0]
+        found = np.array([table[F[f"P_{a}"]][-1] for a in "xyz"])
+        cell = np.array([table["lx"][-1], table["ly"][-1], table["lz"][-1]]) / cells
+        # 1e-6: what is left of an exponential approach
+        require_close(found, lattice_pressures(cell, start, False), 1e-6, "pressures of the lattice at rest")
+        require_close(found, wanted, 1e-6, "targets")
+        require_close(table[F["pressure"]][-1], found.mean(), 1e-12, "mean pressure")
+
+    return case
+
+
+def reduced(h):
+    """The box of the same lattice whose tilts are within half an edge."""
+    h = h.copy()
+    h[:, 2] -= np.rint(h[1, 2] / h[1, 1]) * h[:, 1]
+    h[:, 1] -= np.rint(h[0, 1] / h[0, 0]) * h[:, 0]
+    h[:, 2] -= np.rint(h[0, 2] / h[0, 0]) * h[:, 0]
+    return h
+
+
+def sheared_in_two_planes(planes, moved):
+    """A gas of grains that move with the flow stays where the flow carries it: x = F X for every grain, up to edges of
+    the box, and the box is F H reduced; F = (1 - L dt)^-n."""
+
+    def case(ranks):
+        packing = dense_packing(atom_style="sphere", overlap=-0.3, speed=0.0, minimum=100)
+        steps, deck = 1200, Deck(packing)
+        strain = {"xy": 0.9, "xz": -0.7, "yz": 0.8, "x": 0.12, "y": -0.1}
+        gradient = np.zeros((3, 3))
+        places = {"xy": (0, 1), "xz": (0, 2), "yz": (1, 2), "x": (0, 0), "y": (1, 1)}
+        words = []
+        for name in (*moved, *planes):
+            rate = strain[name] / (steps * deck.dt())
+            gradient[places[name]] = rate
+            words.append(f"{'shear ' if len(name) > 1 else ''}{name} rate {number(rate)}")
+        centre = 0.5 * np.array(packing.edges)
+        grains = [replace(g, velocity=tuple(gradient @ (np.array(g.position) - centre))) for g in packing.grains]
+        deck = replace(deck, packing=replace(packing, grains=grains))
+        deck.body = [
+            f"fix press all press/strain {' '.join(words)} every/step 5 momentum no",
+            *thermo(1, *box_columns(), *(F[f"strain_{name}"] for name in strain)),
+            *dump_grains(packing, steps),
+            f"run {steps}",
+        ]
+        result = run(deck, ranks)
+        table, (_, last) = result.thermo()[0], result.dump("grains.dump")[-1]
+        h0, h = np.diag(packing.edges), np.zeros((3, 3))
+        step = np.linalg.inv(np.eye(3) - gradient * deck.dt())
+        flow = np.linalg.matrix_power(step, steps)
+        for place, name in zip(((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)), ("lx", "ly", "lz", "xy", "xz", "yz")):
+            h[place] = table[name][-1]
+        require(np.abs(flow @ h0 - h).max() > 0.5 * packing.edges[0], "no tilt was turned back")
+        require_close(h, reduced(flow @ h0), 1e-9, "the box", packing.edges[0])
+        for name, value in strain.items():
+            driven = name in (*planes, *moved)
+            require_close(table[F[f"strain_{name}"]][-1], value if driven else 0.0, 1e-9, f"strain {name}", 1.0)
+        found = grains_of(last)
+        # grains drift by their own velocities v (0 in the flow): x_n+1 = x_n + v_n dt with v that of the start, so that
+        # they follow the straight line x_0 + L (x_0 - centre) t, whatever faces they cross
+        start = np.array([g.position for g in grains])[found.ids - 1]
+        line = start + (start - centre) @ gradient.T * steps * deck.dt()
+        away = np.linalg.solve(h, (found.x - line).T)
+        require_close(away, np.rint(away), 1e-8, "places, in edges of the box", 1.0)
+        crossings = np.rint(away).T @ (gradient @ h).T
+        require_close(
+            found.v,
+            (start - centre) @ gradient.T + crossings,
+            1e-6,
+            "velocities after crossings",
+            np.abs(found.v).max(),
+        )
+
+    return case
+
+
+def whatever_lists_are_built(words):
+    """Grains cross faces while the box changes its velocity: with neighbour lists in every step, and when grains have
+    moved by half the skin, the same forces to rounding."""
+
+    def case(ranks):
+        packing = dense_packing(atom_style="sphere", speed=0.3)
+        drifting = [replace(g, velocity=tuple(np.add(g.velocity, (0.3, 2.0, -1.1)))) for g in packing.grains]
+        deck = Deck(replace(packing, grains=drifting))
+        ends, builds = [], []
+        for check in ("yes", "no"):
+            deck.body = [
+                f"neigh_modify every 1 delay 0 check {check}",
+                f"fix press all press/strain {words} every/step 10 momentum no",
+                *thermo(10, F["P_x"], F["P_y"], F["s_xy"], F["clipped"]),
+                *dump_grains(packing, 200),
+                "run 200",
+            ]
+            result = run(deck, ranks)
+            ends.append((grains_of(result.dump("grains.dump")[-1][1]), result.thermo()[0]))
+            builds.append(int(result.output.split("Neighbor list builds = ")[1].split()[0]))
+        require(5 < builds[0] < 100 and builds[1] == 200, f"lists were built {builds} times")
+        (one, table), (two, other) = ends
+        # Rounding grows to 1e-11 in 200 chaotic steps; the change of the box's velocity felt by some contacts only made
+        # 1e-4.
+        require_close(one.v, two.v, 1e-9, "velocities", np.abs(two.v).max())
+        require_close(one.force, two.force, 1e-9, "forces", np.abs(two.force).max())
+        for name in (F["P_x"], F["P_y"], F["s_xy"]):
+            require_close(table[name], other[name], 1e-9, name, np.abs(other[name]).max())
+
+    return case
+
+
+TRIAXIAL = "x target 3e5 y target 4e5 z rate -0.01"
+THREE = f"{TRIAXIAL} shear xy rate 0.03 shear yz rate -0.02"
+HELD = "mean target 3e5 shear xy target 2e4 maxrate 0.1"
+
+
+def state_columns():
+    return ["f_press", *F.vector()]
+
+
+def restart_continues(words):
+    def case(ranks):
+        packing = dense_packing(1.5)
+        deck = Deck(packing)
+        line = f"fix press all press/strain {words} every/step 7"
+        rest = [*thermo(1, *state_columns()), *dump_grains(packing, 100), "run 100"]
+        through = run(replace(deck, body=[line, "run 153", "write_restart half.restart", *rest]), ranks)
+        again = run(deck.restarted(through.folder / "half.restart", [line, *rest]), ranks)
+        require_same_snapshots(
+            again.dump("grains.dump")[-1:], through.dump("grains.dump")[-1:], "restarted against write-and-continue"
+        )
+        tables = again.thermo()[-1], through.thermo()[-1]
+        for name in state_columns():
+            require_close(tables[0][name][1:], tables[1][name][1:], 0.0, name, 1.0)
+        require(tables[0][F["inputs"]][-1] > tables[0][F["inputs"]][1] > 1.0, "no input after the restart")
+
+    return case
+
+
+def same_on_ranks(words):
+    def case(ranks):
+        packing = dense_packing(atom_style="sphere")
+        deck = Deck(packing)
+        deck.body = [f"fix press all press/strain {words} every/step 5", *thermo(1, *state_columns()), "run 40"]
+        one, many = run(deck, 1).thermo()[0], run(deck, ranks).thermo()[0]
+        for name in state_columns():
+            # Sums in another order, through 40 chaotic steps.
+            require_close(many[name], one[name], 1e-9, name, max(1e-6, np.abs(one[name]).max()))
+
+    return case
+
+
+def volume_stays(ranks):
+    """Sheared without a target: only the tilt moves, and pressures are those of stress/contact."""
+    packing = dense_packing(1.5)
+    stress = outputs("stress/contact").of("s")
+    deck = Deck(packing, surface="ellipsoid")
+    deck.body = [
+        "fix press all press/strain shear xy rate 0.05 every 1e-3",
+        "compute s all stress/contact",
+        *thermo(1, *box_columns(), *F.vector(), *(stress[f"s{ab}"] for ab in ("xx", "yy", "zz", "xy", "xz", "yz"))),
+        "run 60",
+    ]
+    table = run(deck, ranks).thermo()[0]
+    require_close(table["vol"], np.full(61, table["vol"][0]), 1e-14, "volume")
+    require_close(table["xy"], 0.05 * table["step"] * deck.dt() * table["ly"], 1e-12, "tilt", table["ly"][0])
+    for axis in "xyz":
+        require_close(table[F[f"P_{axis}"]], -table[stress[f"s{axis}{axis}"]], 1e-10, f"pressure along {axis}")
+    scale = np.abs(table[stress["sxx"]]).max()
+    require_close(table[F["s_xy"]], table[stress["sxy"]], 1e-10, "shear stress xy", scale)
+    require_close(table[F["P"]], table[F["pressure"]], 0.0, "without a target P is the mean pressure", 1.0)
+
+
+def targets_follow_variables(ranks):
+    """Mean pressure held by a variable of the fix's own pressures: both lateral edges at (3 p - P_z)/2."""
+    packing = dense_packing(atom_style="sphere", speed=0.0)
+    deck = Deck(packing, material=QUIET)
+    deck.body = [
+        "variable side equal (3*3e5-f_press[21])/2",
+        "fix press all press/strain x target v_side y target v_side z rate -0.002 every/step 5",
+        *thermo(1, F["target_x"], F["target_y"], F["P_z"], F["pressure"], F["P_x"]),
+        "run 2000",
+    ]
+    require(F["P_z"] == "f_press[21]", f"P_z is {F['P_z']}")
+    table = run(deck, ranks).thermo()[0]
+    require_close(table[F["target_x"]][1:], (9e5 - table[F["P_z"]][1:]) / 2, 1e-12, "target of this step's P_z")
+    late = table["step"] > 1000
+    require_close(table[F["pressure"]][late].mean(), 3e5, 1e-2, "mean pressure")
+
+
+def in_two_dimensions(ranks):
+    """Discs under pressure from both sides; nothing moves along z."""
+    packing = disc_packing(sizes=(1.0,), speed=0.0)
+    deck = Deck(packing, material=Material(restitution=(0.1,)))
+    deck.body = [
+        "fix press all press/strain mean target 3e4 every/step 20",
+        *thermo(20, F["pressure"], F["P_x"], F["P_y"], F["rate_x"], F["rate_y"], F["rate_z"], "lx", "ly", "lz"),
+        "run 4000",
+    ]
+    table = run(deck, ranks).thermo()[0]
+    require_close(table[F["pressure"]][-1], 3e4, 1e-4, "mean pressure of a lattice at rest")
+    require_close(table[F["pressure"]], 0.5 * (table[F["P_x"]] + table[F["P_y"]]), 1e-12, "mean of two", 3e4)
+    require_close(table[F["rate_x"]], table[F["rate_y"]], 0.0, "both edges at one rate", 1.0)
+    require_close(table["lz"], np.full(len(table["lz"]), table["lz"][0]), 0.0, "lz", 1.0)
+
+
+def holds_a_shear_stress(ranks):
+    """A packing that bears it comes to rest; one that does not flows at the rate where it does."""
+    packing = dense_packing(atom_style="sphere", speed=0.0)
+    deck = Deck(packing, material=QUIET)
+    stress = 4e4
+    deck.body = [
+        f"fix press all press/strain y target 4e5 shear xy target {number(stress)} every/step 5 maxrate 1",
+        *thermo(50, F["s_xy"], F["rate_xy"], F["P_y"], F["strain_xy"], F["clipped"]),
+        "run 6000",
+    ]
+    table = run(deck, ranks).thermo()[0]
+    require_close(table[F["s_xy"]][-1], stress, 1e-3, "shear stress at rest")
+    require_close(table[F["P_y"]][-1], 4e5, 1e-3, "pressure at rest")
+    require(abs(table[F["rate_xy"]][-1]) < 1e-3 * np.abs(table[F["rate_xy"]]).max(), "the packing still moves")
+    require(table[F["strain_xy"]][-1] > 1e-4, "it was not sheared")
+
+
+CASES = {
+    "oedometer-frictionless": oedometer(False),
+    "oedometer-with-springs": oedometer(True),
+    "lattice-under-three-targets": ends_at("x target {0} y target {1} z target {2}", np.array([1.2, 1.1, 1.3])),
+    "lattice-under-a-mean": ends_at("mean target {0}", np.array([1.3, 1.3, 1.3])),
+    "sheared-in-xy-and-xz": sheared_in_two_planes(("xy", "xz"), ()),
+    "sheared-in-xy-and-yz": sheared_in_two_planes(("xy", "yz"), ()),
+    "sheared-in-three-planes-and-stretched": sheared_in_two_planes(("xy", "xz", "yz"), ("x", "y")),
+    "whatever-lists-are-built": whatever_lists_are_built("axis y target 3e5 shear xy rate 0.05"),
+    "whatever-lists-are-built-on-every-edge": whatever_lists_are_built(
+        "x target 4e5 y target 3e5 z rate -0.01 shear xy rate 0.05 shear yz rate 0.03"
+    ),
+    "restart-continues": restart_continues(THREE),
+    "restart-continues-with-a-mean-and-a-shear-stress": restart_continues(HELD),
+    "same-on-ranks": same_on_ranks(THREE),
+    "same-on-ranks-with-a-mean-and-a-shear-stress": same_on_ranks(HELD),
+    "volume-stays": volume_stays,
+    "targets-follow-variables": targets_follow_variables,
+    "in-two-dimensions": in_two_dimensions,
+    "holds-a-shear-stress": holds_a_shear_stress,
+}
+
+if __name__ == "__main__":
+    main(CASES)
