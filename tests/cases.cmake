@@ -193,6 +193,7 @@ add_cases(press/strain-path cases/stress_paths.py LABEL case STYLES press/strain
   restart-continues restart-continues-with-a-mean-and-a-shear-stress)
 add_cases(press/strain-path cases/stress_paths.py LABEL case STYLES press/strain RANKS 2 LONG_RANKS 4 CASES
   same-on-ranks same-on-ranks-with-a-mean-and-a-shear-stress)
+add_cases(press/strain-path cases/stress_paths.py LABEL long STYLES press/strain CASES flows-at-a-shear-stress)
 add_cases(press/strain-range cases/ranges.py LABEL case STYLES press/strain RANKS 1 LONG_RANKS 2 CASES clipping)
 
 # nve/spheroid

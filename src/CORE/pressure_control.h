@@ -36,8 +36,9 @@ struct NetworkResponse {
   void add(const Contact &c, const std::vector<int> &modes) {
     const ContactLaw &law = *c.law;
     const ContactMotion &m = *c.motion;
+    const Eigen::Vector3d force = c.weight * c.force;
     for (int a = 0; a < number_of_box_modes; a++)
-      pressure[a] += c.weight * c.force[box_modes[a].flow] * c.branch[box_modes[a].gradient];
+      pressure[a] += force[box_modes[a].flow] * c.branch[box_modes[a].gradient];
     if (modes.empty()) return;
     const double k_n = law.tangent_stiffness(m), k_t = law.sticks() ? m.tangential_stiffness : 0.0;
     const double gamma_n = m.damping_coefficient, gamma_t = m.damped ? m.tangential_damping : 0.0;

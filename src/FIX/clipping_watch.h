@@ -4,15 +4,16 @@
 
 #include "pressure_control.h"
 #include "range_warning.h"
+#include <string>
 
 namespace grainscope {
 
-/** Warns once when so many inputs of fix press/strain are clipped that the pressure is not under control. Fractions
+/** Warns once when so many inputs of fix press/strain are clipped that a stress is not under control. Fractions
  *  are running means over about a hundred inputs. */
 class ClippingWatch {
  public:
-  /** After each input; `inputs`: their number so far, this one included. */
-  void watch(LAMMPS_NS::LAMMPS *lmp, double inputs, const PressureControl::Input &input);
+  /** After each input; `inputs`: their number so far, this one included; `stress`: what it is to hold. */
+  void watch(LAMMPS_NS::LAMMPS *lmp, double inputs, const PressureControl::Input &input, const std::string &stress);
 
  private:
   double clipped_ = 1.0;                           // fraction of inputs; 1 because a start is clipped

@@ -397,17 +397,18 @@ bool FixPressStrain::set_driven_rates(const NetworkResponse &mean) {
   bool clipped = false;
   const auto book = [&](int loop, const PressureControl::Input &input) {
     my.clipped_of[loop] += input.clipped ? 1.0 : 0.0;
-    my.clipping[loop].watch(lmp, my.inputs, input);
+    my.clipping[loop].watch(lmp, my.inputs, input, loop < 3 || loop == mean_loop ? "pressure" : "shear stress");
     clipped = clipped || input.clipped;
     return input.velocity;
   };
   for (int k = 0; k < number_of_box_modes; k++) {
     if (my.settings.motions[k].how != How::target) continue;
-    const double resistance = resistance_of(mean, k, interval);
+    double resistance = resistance_of(mean, k, interval);
     if (k < 3) {
       const double error = mean.pressure[k] - my.target_of(k);
       my.driven.rates[k] = book(k, control.input(error, resistance, my.box.length(k), interval));
     } else {
+      resistance += inertial_resistance(mean, k);
       const double error = mean.pressure[k] + my.target_of(k);
       const double elastic = mean.stiffness[NetworkResponse::place(k, k)] * interval;
       my.driven.rates[k] = book(k, control.input_with_base(error, resistance, elastic, interval, my.driven.bases[k]));
@@ -436,6 +437,18 @@ double FixPressStrain::resistance_of(const NetworkResponse &mean, int loop, doub
   double sum = 0.0;
   for (int a = 0; a < dimension; a++) sum += answer(a) / dimension;
   return sum;
+}
+
+/** Of a shear: h sqrt(rho K), h the edge along its gradient, rho the mass per volume of the box: that of a time in which
+ *  sound crosses the box. Tangential springs need not be damped, and inputs in step with their vibrations would feed
+ *  them. Collective. */
+double FixPressStrain::inertial_resistance(const NetworkResponse &mean, int mode) const {
+  double mass = 0.0;
+  for (int i = 0; i < atom->nlocal; i++) mass += atom->rmass[i];
+  MPI_Allreduce(MPI_IN_PLACE, &mass, 1, MPI_DOUBLE, MPI_SUM, world);
+  const double unit = force->mvv2e * force->nktv2p, stiffness = mean.stiffness[NetworkResponse::place(mode, mode)];
+  return impl_->box.length(box_modes[mode].gradient) *
+         std::sqrt(mass / impl_->observer->box().volume * stiffness * unit);
 }
 
 /** Collective, once per evaluation; the last values when the pair style has been replaced since. */

@@ -83,7 +83,7 @@ void PressStrainRequirements::require_no_wall_on_axis(Fix *fix, int edge) const 
 }
 
 void PressStrainRequirements::require_known_stiffness() const {
-  if (!settings_.control.automatic) return;
+  if (!settings_.control.automatic || settings_.controlled_modes(domain->dimension).empty()) return;
   const auto require = [this](const ContactLaw &law, const std::string &got) {
     if (!law.knows_stiffness())
       press_strain_error(lmp, std::string("'gain auto' knows the stiffness of the normal models ") +

@@ -204,13 +204,13 @@ void PressStrainSettings::require_consistent(LAMMPS_NS::LAMMPS *lmp, const Argum
   if (!every_given)
     errors.fail(driven ? "'every', 'every/time' or 'every/step' is required"
                        : "without 'shear' or an edge with 'rate', 'every/time' or 'every/step' is required");
-  if (sheared() && !lmp->domain->triclinic)
-    errors.fail("'shear' needs a triclinic box: add 'change_box all triclinic' after the grains are in");
   if (held_shear && !max_rate_given)
     errors.fail("'shear' with 'target' needs 'maxrate': grains that yield would be sheared ever faster");
   if (!control.automatic && (held_shear || has_mean))
     errors.fail(std::string("'gain' must be auto with ") + (has_mean ? "'mean'" : "'target' of a shear") + ", got " +
                 Arguments::text(control.gain));
+  if (sheared() && !lmp->domain->triclinic)
+    errors.fail("'shear' needs a triclinic box: add 'change_box all triclinic' after the grains are in");
 }
 
 int PressStrainSettings::main_edge() const {

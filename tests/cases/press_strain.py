@@ -17,7 +17,7 @@ from run import run
 F_PRESS = outputs("press/strain").of("press")
 
 STATE = ["f_press", *F_PRESS.vector()]
-STRAIN, TARGET, NOW, LENGTH, VELOCITY, INPUTS, CLIPPED, ERROR = STATE[1:]
+STRAIN, TARGET, NOW, LENGTH, VELOCITY, INPUTS, CLIPPED, ERROR = STATE[1:9]
 
 
 def press(target, rate=0.05, every="every 1e-3", rest="", axis="y", name="press"):

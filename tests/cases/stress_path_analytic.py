@@ -97,9 +97,13 @@ class ByHand:
                 length = self.h[k, k]
                 self.held[name] = BETA * length / answer(k) * (pressure[k] - self.targets[name])
             else:
-                wanted = BETA / answer(k) * (pressure[k] + self.targets[name])
+                density = 2 * len(self.pairs) * self.mass / np.linalg.det(self.h)
+                gradient = MODES[name][1]
+                sound = self.h[gradient, gradient] * math.sqrt(density * stiffness[k, k])
+                resistance = answer(k) + sound
+                wanted = BETA / resistance * (pressure[k] + self.targets[name])
                 self.held[name] = self.bases[name] + wanted
-                self.bases[name] += 0.1 * stiffness[k, k] * interval / answer(k) * wanted
+                self.bases[name] += 0.1 * stiffness[k, k] * interval / resistance * wanted
         if self.mean:
             resistance = sum(answer(a) for a in range(3)) / 3.0
             self.common = BETA / resistance * (pressure[:3].mean() - self.mean[0])
@@ -145,7 +149,8 @@ def follows_by_hand(words, ends, targets=None, mean=None, rates=None, tilted=Fal
         box = ["lx", "xy", "xz", "ly", "yz", "lz"] if tilted else ["lx", "ly", "lz"]
         deck.body = [
             "unfix integrate",
-            f"fix press all press/strain {words.format(*stresses)} every/step {EVERY} limit 0.5 maxrate 1e3 momentum no",
+            f"fix press all press/strain {words.format(*stresses)} every/step {EVERY} limit 0.5 maxrate 1e3 "
+            "momentum no",
             *thermo(1, *columns, *box, F["clipped"]),
             f"run {STEPS}",
         ]

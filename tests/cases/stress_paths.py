@@ -10,7 +10,7 @@ from case import main, require, require_close, require_same_snapshots
 from columns import outputs
 from deck import POISSON, YOUNG, Deck, Material, box_columns, dump_grains, number, thermo
 from oracle.state import grains_of
-from packing import dense_packing, disc_packing
+from packing import Grain, dense_packing, disc_packing
 from run import run
 
 F = outputs("press/strain").of("press")
@@ -18,11 +18,12 @@ MODULUS, SHEAR_MODULUS = YOUNG / (2 * (1 - POISSON**2)), YOUNG / (4 * (2 - POISS
 QUIET = Material(restitution=(0.1,), friction=(10.0,))
 
 
-def lattice_pressures(cell, start, friction):
+def lattice_pressures(cell, start, friction, cell_rate=(0.0, 0.0, 0.0)):
     """Pressures along x, y, z of a face-centred lattice of spheres of radius 1 that was stretched from cubic cells of
-    edge `start` to `cell`, each grain in its place: Hertz and, with friction, springs whose stiffness follows the
-    overlap. In small steps, by the law of each of the six pairs of neighbours."""
+    edge `start` to `cell` and goes on at `cell_rate`, each grain in its place: Hertz, its damping and, with friction,
+    springs whose stiffness follows the overlap. In small steps, by the law of each of the six pairs of neighbours."""
     path = np.linspace(np.full(3, start), cell, 2001)
+    log_e = math.log(QUIET.restitution[0])
     total = np.zeros(3)
     for direction in ([1, 1, 0], [1, -1, 0], [1, 0, 1], [1, 0, -1], [0, 1, 1], [0, 1, -1]):
         branches = 0.5 * path * np.array(direction)
@@ -33,7 +34,12 @@ def lattice_pressures(cell, start, friction):
             spring -= normal * (normal @ spring)
         overlap = 2.0 - np.linalg.norm(branches[-1])
         root, normal = math.sqrt(0.5 * overlap), branches[-1] / np.linalg.norm(branches[-1])
-        force = 4.0 / 3.0 * MODULUS * root * overlap * normal
+        mass = 0.5 * Grain((0, 0, 0)).mass()
+        damping = (
+            -2.0 * math.sqrt(5.0 / 6.0) * log_e / math.hypot(log_e, math.pi) * math.sqrt(2 * MODULUS * root * mass)
+        )
+        opening = normal @ (0.5 * np.array(cell_rate) * direction)
+        force = (4.0 / 3.0 * MODULUS * root * overlap - damping * opening) * normal
         if friction:
             force -= 8.0 * SHEAR_MODULUS * root * spring
         total += force * branches[-1]
@@ -75,12 +81,12 @@ def oedometer(friction):
         before = (table["lz"][0], table["lz"][-1] * (1.0 + rate * deck.dt()))  # of the step whose forces are printed
         for row, length in zip((0, -1), before):
             cell = np.array([table["lx"][row], table["ly"][row], length]) / cells
-            expected = lattice_pressures(cell, start, friction)
+            expected = lattice_pressures(cell, start, friction, (0.0, 0.0, -rate * cell[2]))
             found = [table[F[f"P_{a}"]][row] for a in "xyz"]
-            # 1e-3: of the change, for what damping and inertia hold
+            # 1e-3: of the change, for springs and grains that lag behind by part of a step
             slack = 1e-3 * np.ptp(table[F["P_z"]]) / expected.max()
             require_close(found, expected, slack, f"pressures in row {row}", expected.max())
-        require(np.ptp(table[F["P_z"]]) > 0.1 * table[F["P_z"]][0], "the lattice was hardly compressed")
+        require(np.ptp(table[F["P_z"]]) > 0.05 * table[F["P_z"]][0], "the lattice was hardly compressed")
 
     return case
 
@@ -120,12 +126,12 @@ def reduced(h):
 
 
 def sheared_in_two_planes(planes, moved):
-    """A gas of grains that move with the flow stays where the flow carries it: x = F X for every grain, up to edges of
-    the box, and the box is F H reduced; F = (1 - L dt)^-n."""
+    """The box is F H reduced, F = (1 - L dt)^-n; where L^2 = 0 a gas of grains that move with the flow stays where it
+    carries them: x = F X for every grain, up to edges of the box."""
 
     def case(ranks):
-        packing = dense_packing(atom_style="sphere", overlap=-0.3, speed=0.0, minimum=100)
-        steps, deck = 1200, Deck(packing)
+        packing = dense_packing(atom_style="sphere", speed=0.0, minimum=100)
+        steps, deck = 1200, Deck(packing, timestep=0.005)
         strain = {"xy": 0.9, "xz": -0.7, "yz": 0.8, "x": 0.12, "y": -0.1}
         gradient = np.zeros((3, 3))
         places = {"xy": (0, 1), "xz": (0, 2), "yz": (1, 2), "x": (0, 0), "y": (1, 1)}
@@ -135,7 +141,10 @@ def sheared_in_two_planes(planes, moved):
             gradient[places[name]] = rate
             words.append(f"{'shear ' if len(name) > 1 else ''}{name} rate {number(rate)}")
         centre = 0.5 * np.array(packing.edges)
-        grains = [replace(g, velocity=tuple(gradient @ (np.array(g.position) - centre))) for g in packing.grains]
+        grains = [  # too small to meet
+            replace(g, velocity=tuple(gradient @ (np.array(g.position) - centre)), semi_axes=(1e-3, 1e-3, 1e-3))
+            for g in packing.grains
+        ]
         deck = replace(deck, packing=replace(packing, grains=grains))
         deck.body = [
             f"fix press all press/strain {' '.join(words)} every/step 5 momentum no",
@@ -155,6 +164,8 @@ def sheared_in_two_planes(planes, moved):
         for name, value in strain.items():
             driven = name in (*planes, *moved)
             require_close(table[F[f"strain_{name}"]][-1], value if driven else 0.0, 1e-9, f"strain {name}", 1.0)
+        if np.any(gradient @ gradient):
+            return  # the flow is not steady for who moves with it: straight lines are not its paths
         found = grains_of(last)
         # grains drift by their own velocities v (0 in the flow): x_n+1 = x_n + v_n dt with v that of the start, so that
         # they follow the straight line x_0 + L (x_0 - centre) t, whatever faces they cross
@@ -271,18 +282,18 @@ def volume_stays(ranks):
 def targets_follow_variables(ranks):
     """Mean pressure held by a variable of the fix's own pressures: both lateral edges at (3 p - P_z)/2."""
     packing = dense_packing(atom_style="sphere", speed=0.0)
-    deck = Deck(packing, material=QUIET)
+    deck = Deck(packing)
     deck.body = [
-        "variable side equal (3*3e5-f_press[21])/2",
-        "fix press all press/strain x target v_side y target v_side z rate -0.002 every/step 5",
+        "variable side equal (3*2e4-f_press[21])/2",
+        "fix press all press/strain x target v_side y target v_side z rate 0.0001 every/step 5 maxrate 1",
         *thermo(1, F["target_x"], F["target_y"], F["P_z"], F["pressure"], F["P_x"]),
         "run 2000",
     ]
     require(F["P_z"] == "f_press[21]", f"P_z is {F['P_z']}")
     table = run(deck, ranks).thermo()[0]
-    require_close(table[F["target_x"]][1:], (9e5 - table[F["P_z"]][1:]) / 2, 1e-12, "target of this step's P_z")
+    require_close(table[F["target_x"]][1:], (6e4 - table[F["P_z"]][1:]) / 2, 1e-12, "target of this step's P_z")
     late = table["step"] > 1000
-    require_close(table[F["pressure"]][late].mean(), 3e5, 1e-2, "mean pressure")
+    require_close(table[F["pressure"]][late].mean(), 2e4, 1e-2, "mean pressure")
 
 
 def in_two_dimensions(ranks):
@@ -295,27 +306,43 @@ def in_two_dimensions(ranks):
         "run 4000",
     ]
     table = run(deck, ranks).thermo()[0]
-    require_close(table[F["pressure"]][-1], 3e4, 1e-4, "mean pressure of a lattice at rest")
+    require_close(table[F["pressure"]][-1], 3e4, 1e-3, "mean pressure of a lattice at rest")
     require_close(table[F["pressure"]], 0.5 * (table[F["P_x"]] + table[F["P_y"]]), 1e-12, "mean of two", 3e4)
     require_close(table[F["rate_x"]], table[F["rate_y"]], 0.0, "both edges at one rate", 1.0)
     require_close(table["lz"], np.full(len(table["lz"]), table["lz"][0]), 0.0, "lz", 1.0)
 
 
 def holds_a_shear_stress(ranks):
-    """A packing that bears it comes to rest; one that does not flows at the rate where it does."""
-    packing = dense_packing(atom_style="sphere", speed=0.0)
-    deck = Deck(packing, material=QUIET)
-    stress = 4e4
+    """A packing that bears it comes to rest."""
+    deck = Deck(dense_packing(atom_style="sphere", speed=0.0), material=Material(friction=(10.0,)))
+    stress = 2e3
     deck.body = [
-        f"fix press all press/strain y target 4e5 shear xy target {number(stress)} every/step 5 maxrate 1",
+        f"fix press all press/strain y target 2e4 shear xy target {number(stress)} every/step 5 maxrate 1",
         *thermo(50, F["s_xy"], F["rate_xy"], F["P_y"], F["strain_xy"], F["clipped"]),
         "run 6000",
     ]
     table = run(deck, ranks).thermo()[0]
+    # 1e-3: what is left of a slow approach
     require_close(table[F["s_xy"]][-1], stress, 1e-3, "shear stress at rest")
-    require_close(table[F["P_y"]][-1], 4e5, 1e-3, "pressure at rest")
+    require_close(table[F["P_y"]][-1], 2e4, 1e-3, "pressure at rest")
     require(abs(table[F["rate_xy"]][-1]) < 1e-3 * np.abs(table[F["rate_xy"]]).max(), "the packing still moves")
     require(table[F["strain_xy"]][-1] > 1e-4, "it was not sheared")
+
+
+def flows_at_a_shear_stress(ranks):
+    """More than frictionless spheres bear: they flow, and their mean shear stress is the target."""
+    deck = Deck(dense_packing(sizes=(0.8, 1.0, 1.2), atom_style="sphere", speed=0.5), tangential="off")
+    deck.body = [
+        "fix press all press/strain y target 2e4 shear xy target 3.6e3 every/step 10 maxrate 2 limit 0.1",
+        *thermo(20, F["s_xy"], F["rate_xy"], F["P_y"], F["strain_xy"], F["clipped_xy"]),
+        "run 160000",
+    ]
+    table = run(deck, ranks).thermo()[0]
+    late = table["step"] > 100000
+    require_close(table[F["s_xy"]][late].mean(), 3.6e3, 0.03, "mean shear stress of the flow")
+    require_close(table[F["P_y"]][late].mean(), 2e4, 0.03, "mean pressure of the flow")
+    require(table[F["rate_xy"]][late].mean() > 0.0 and np.ptp(table[F["strain_xy"]][late]) > 5.0, "it does not flow")
+    require(np.ptp(table[F["clipped_xy"]][late]) == 0.0, "inputs were clipped in steady state")
 
 
 CASES = {
@@ -338,6 +365,7 @@ CASES = {
     "targets-follow-variables": targets_follow_variables,
     "in-two-dimensions": in_two_dimensions,
     "holds-a-shear-stress": holds_a_shear_stress,
+    "flows-at-a-shear-stress": flows_at_a_shear_stress,
 }
 
 if __name__ == "__main__":

@@ -120,7 +120,7 @@ PRESS = Style(
         Keyword("x rate", number("a rate or a variable v_name", ("0", "-5", "v_strain"), ())),
         Keyword(
             "shear",
-            Kind("xy, xz or yz", ("xy rate 1", "xz rate 1", "yz fixed", "xy rate 2"), ("yx", "XY", "", "nan", "x")),
+            Kind("xy, xz or yz", ("xy rate 1", "xz rate 1", "xy rate 2"), ("yx", "XY", "", "nan", "x")),
         ),
         Keyword("shear xy rate", quantity("a shear rate other than 0", ("1e-300", "-5"), ("0", "-0.0")), "rate"),
         Keyword("every", number("a strain > 0", ("1e-9", "1e9"), ("0", "-1"))),

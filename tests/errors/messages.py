@@ -278,7 +278,9 @@ def of_a_fix(ranks):
     define = "fix press all press/strain axis y target 1e5 every/step 5"
     for place in (PLACES["thermo"], PLACES["print"], PLACES["ave-time"]):
         deck = lines_with((define, *place), "f_press[99]")
-        require_refused(deck, ranks, "out-of-range", "f_press[99]: fix press (deform) gives a scalar and a vector of 8")
+        require_refused(
+            deck, ranks, "out-of-range", "f_press[99]: fix press (deform) gives a scalar and a vector of 44"
+        )
 
 
 def only_the_wrong_one(ranks):
