@@ -267,8 +267,11 @@ add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger
   sheared-frictionless no-history polydisperse drift-kept)
 add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} LONG_RANKS 1 CASES sheared-slippery)
 add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} RANKS 1 2 CASES sheared)
+add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} RANKS 1 2 LONG_RANKS 4 CASES
+  three-rates)
 add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} RANKS 1 LONG_RANKS 2 CASES
-  sheared-with-tangential-damping contacts-open-and-close through-a-flip under-pressure-control)
+  sheared-with-tangential-damping contacts-open-and-close through-a-flip under-pressure-control
+  three-rates-and-shear)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} CASES
   two-spheres two-flat two-long-3 two-triaxial two-spheres-default two-long-1.5-superquadric order-spheres order-flat
   order-long-1.5 order-long-3 known-collision hooke no-history tangential-damping tangential-off limit-force curvature
@@ -279,6 +282,8 @@ add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} CASES
   restart-before-the-first-step asked-within-a-step overlap-of-nothing lists reopening-spheres reopening-stale-springs
   reopening-spheroids step-mode-is-the-trapezium superquadric)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS 1 2 CASES flip restart-continues)
+add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS 1 2 LONG_RANKS 4 CASES
+  restart-continues-in-a-box-of-three-rates)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS 1 LONG_RANKS 2 CASES
   two-long-1.5 polydisperse-two-types wraps runs groups falling undisturbed rates-add-up)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS 1 LONG_RANKS 2 4 CASES pressed-1.5)

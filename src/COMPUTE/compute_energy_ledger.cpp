@@ -21,7 +21,7 @@ void add_rates(grainscope::OutputList &vector, const grainscope::OutputList &tot
 
 /** Indices stay what they are: what was added later is behind the rates of the first. */
 grainscope::Outputs declared() {
-  grainscope::OutputList first, later;
+  grainscope::OutputList first, later, axes;
   first.add_each("shear box frame other", {"W_*", "energy", extensive, "work W_* since the compute was defined"})
       .add_each("n t damp rolling", {"D_*", "energy", extensive, "loss D_* since the compute was defined"})
       .add_each("k p n open dt", {"G_*", "energy", extensive,
@@ -34,13 +34,16 @@ grainscope::Outputs declared() {
       .add_each("D_n D_t D_damp D_rolling", {"*_w", "energy", extensive, "share of walls in *"})
       .add({"G_w", "energy", extensive, "share of walls in the sum of all G"})
       .add_each("U_n U_t", {"*_w", "energy", extensive, "share of walls in *"});
+  axes.add_each("x y z", {"W_box_*", "energy", extensive, "share of the edges along * in W_box"});
   grainscope::Outputs outputs;
   outputs.vector = first;
   outputs.vector.add({"residual_relative", "-", intensive,
                       "residual over |D_n| + |D_t| + |D_damp| + |D_rolling|, 0 while nothing was lost"});
   add_rates(outputs.vector, first);
-  outputs.vector.insert(outputs.vector.end(), later.begin(), later.end());
-  add_rates(outputs.vector, later);
+  for (const grainscope::OutputList &added : {later, axes}) {
+    outputs.vector.insert(outputs.vector.end(), added.begin(), added.end());
+    add_rates(outputs.vector, added);
+  }
   outputs.scalar = {{"imbalance", "-", intensive, "magnitude of residual_relative"}};
   return outputs;
 }
@@ -82,8 +85,10 @@ void ComputeEnergyLedger::compute_vector() {
   *out++ = relative_;
   out = put_part(out, account.last, E::W_shear, E::W_wall, account.change, E::U_n, E::U_n_w, dt);
   *out++ = account.last_residual / dt;
-  out = put_part(out, account.totals, E::W_wall, E::entries, account.stored, E::U_n_w, E::stores, 1.0);
-  out = put_part(out, account.last, E::W_wall, E::entries, account.change, E::U_n_w, E::stores, dt);
+  out = put_part(out, account.totals, E::W_wall, E::W_box_x, account.stored, E::U_n_w, E::stores, 1.0);
+  out = put_part(out, account.last, E::W_wall, E::W_box_x, account.change, E::U_n_w, E::stores, dt);
+  out = put_part(out, account.totals, E::W_box_x, E::entries, account.stored, E::stores, E::stores, 1.0);
+  out = put_part(out, account.last, E::W_box_x, E::entries, account.change, E::stores, E::stores, dt);
   require_all_elements(out);
 }
 

@@ -236,8 +236,16 @@ void EnergyLedger::start_of_step(const Grain &g, const double omega_after[3], co
     return 0.5 * g.mass * (peculiar.squaredNorm() - kick.squaredNorm());
   };
   starts_.k_new += kinetic(now);
-  if (driven_) starts_.k_carried += kinetic(v - carried_.flow(x));
-  if (moved_) starts_.k_old += kinetic(v - frame_.flow(x));
+  Vector3d carried = now;
+  if (driven_) {
+    carried = v - carried_.flow(x);
+    starts_.k_carried += kinetic(carried);
+  }
+  if (moved_) {
+    const Vector3d old = v - frame_.flow(x);
+    starts_.k_old += kinetic(old);
+    add_to(starts_.stretch, four_times(0.5 * g.mass) * four_of(carried - old) * four_of(carried + old));
+  }
   starts_.k_rot += 0.5 * spin.dot(Map<const Vector3d>(momentum) - 0.5 * dt * torque);
 
   const Four velocity = four_of(p), turning = four_of(spin);
@@ -254,7 +262,9 @@ void EnergyLedger::start_of_step(const Grain &g, const double omega_after[3], co
   // The coming drift in the frame: noted before it, because a grain that is wrapped afterwards takes on another
   // velocity.
   const Vector3d after = p + flow, drift = dt * next_.gradient_times(after), middle = g.mass * (p - 0.5 * drift);
-  const double all = drift.dot(middle), box = dt * next_.velocity_gradient.diagonal().cwiseProduct(after).dot(middle);
+  const Vector3d lengths = next_.velocity_gradient.diagonal().cwiseProduct(after).cwiseProduct(middle);
+  const double all = drift.dot(middle), box = dt * (lengths[0] + (lengths[1] + lengths[2]));
+  add_to(starts_.drift, four_of(lengths));
   starts_.box -= box;
   starts_.shear -= all - box;
 }

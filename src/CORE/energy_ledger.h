@@ -43,7 +43,9 @@ struct LedgerFrame : AffineFlow {
  *  Source of the identities: velocity Verlet (kick, drift, kick); see doc/compute_energy_ledger.md. */
 class EnergyLedger {
  public:
-  /** Rows of the account, each an energy. Those with _w are the share of contacts with walls, G_w that of all G. */
+  /** Rows of the account, each an energy. Those with _w are the share of contacts with walls, G_w that of all G; those
+   *  with _x, _y, _z the share of the edges along one axis in W_box: what the diagonal element of L there does. They are
+   *  made of the components along that axis alone, F_a r_a and m p_a v_a, and of the change of sum m p_a^2/2. */
   enum Entry {
     W_shear,
     W_box,
@@ -67,6 +69,9 @@ class EnergyLedger {
     D_damp_w,
     D_rolling_w,
     G_w,
+    W_box_x,
+    W_box_y,
+    W_box_z,
     entries
   };
   enum Store { U_n, U_t, K_tr, K_rot, U_n_w, U_t_w, stores };
@@ -195,6 +200,7 @@ class EnergyLedger {
   };  // arrays: three terms of a sum, dt/2 times
   struct Starts {
     double rate[partners * parts][4] = {}, work[partners][parts] = {}, other[4] = {}, shear = 0.0, box = 0.0;
+    double drift[4] = {}, stretch[4] = {};  // of W_box along three axes: in the step, -1/dt times; before it
     // in the frame of the last step, in that carried on, in the next
     double k_old = 0.0, k_carried = 0.0, k_new = 0.0, k_rot = 0.0;
     double weight = 0.0;

@@ -49,6 +49,7 @@ void EnergyLedger::book_contacts(Partner partner, double dt, Entries &step) cons
     for (const Contacts *end : {&before, &now}) {
       step[W_box] -= 0.5 * dt * on_diagonal(frame_.velocity_gradient, end->sums[k]);
       step[W_shear] -= 0.5 * dt * off_diagonal(frame_.velocity_gradient, end->sums[k]);
+      for (int a = 0; a < 3; a++) step[W_box_x + a] -= 0.5 * dt * frame_.velocity_gradient(a, a) * end->sums[k][a];
     }
   }
   const double path = now.elastic_path + now.new_elastic + half_work(before, elastic, dt) - now.kept_elastic;
@@ -93,6 +94,7 @@ void EnergyLedger::book_walls(double dt, Entries &step) {
   Entries of_walls{};
   book_contacts(walls, dt, of_walls);
   for (int k = W_shear; k <= G_dt; k++) step[k] += of_walls[k];
+  for (int k = W_box_x; k <= W_box_z; k++) step[k] += of_walls[k];
   for (int k = D_n; k <= D_rolling; k++) step[D_n_w + k - D_n] = of_walls[k];
   for (int k = G_k; k <= G_dt; k++) step[G_w] += of_walls[k];
   for (int k = 0; k < parts; k++)
@@ -112,6 +114,7 @@ void EnergyLedger::store(double k_tr, double k_rot) {
 void EnergyLedger::book_step(double dt) {
   Entries step{};
   step[W_box] = starts_.box;
+  for (int a = 0; a < 3; a++) step[W_box_x + a] = -dt * starts_.drift[a];
   step[W_shear] = starts_.shear;
   book_contacts(grains, dt, step);
   if (kinds_ > 1) book_walls(dt, step);
@@ -144,6 +147,7 @@ void EnergyLedger::book_start(double dt) {
     const double carried = driven_ ? starts_.k_carried : starts_.k_new, old = moved_ ? starts_.k_old : carried;
     between_[W_other] += old - stored_[K_tr] + starts_.k_rot - stored_[K_rot];
     between_[W_box] += carried - old;
+    for (int a = 0; a < 3; a++) between_[W_box_x + a] += starts_.stretch[a];
     between_[W_frame] += starts_.k_new - carried;
     stored_[K_tr] = starts_.k_new;
     stored_[K_rot] = starts_.k_rot;

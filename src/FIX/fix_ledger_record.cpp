@@ -34,7 +34,7 @@ const grainscope::ComputeFix record{"ledger/record", "_ledger", "ledger", "keeps
 
 /** In restart files; sums over ranks, so that any number of them may continue. */
 struct SavedLedger {
-  static constexpr std::uint32_t version = 2;
+  static constexpr std::uint32_t version = 3;
   double started;  // whether there was a step yet
   double state[std::tuple_size<EnergyLedger::State>::value];
   double gradient[9], centre[3], edge_lengths[3], edge_rates[3];  // of the frame

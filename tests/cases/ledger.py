@@ -10,7 +10,7 @@ from case import main, require, require_close, require_equal, require_same_snaps
 from columns import outputs
 from collisions import kinetic_energy
 from deck import Deck, Material, dump_grains, number, rayleigh_time, shear, thermo
-from oracle.ledger import ENTRIES, STORES
+from oracle.ledger import AXES, ENTRIES, STORES
 from packing import Grain, Packing, dense_packing, tilted
 from run import run
 
@@ -21,7 +21,7 @@ C_S = outputs("stress/contact").of("s")
 LATER = ("W_wall", "W_gravity", "W_in", "W_out")
 SHARES = ("D_n_w", "D_t_w", "D_damp_w", "D_rolling_w", "G_w", "U_n_w", "U_t_w")
 WORKS, LOSSES, STORED = (*ENTRIES[:4], *LATER), ENTRIES[4:], STORES
-RATED = (*ENTRIES, *STORED, "residual", *LATER, *SHARES)
+RATED = (*ENTRIES, *STORED, "residual", *LATER, *SHARES, *AXES)
 NAMES = (*RATED, "residual_relative")
 TOTALS = [C_E[name] for name in NAMES]
 RATES = [C_E[f"{name}_rate"] for name in RATED]
@@ -46,6 +46,7 @@ def require_balance(a, tolerance=ROUNDING, what="the ledger"):
         abs(a["residual"]) <= tolerance * turnover(a),
         f"{what}: residual {a['residual']:.3e} of a turnover of {turnover(a):.3e}",
     )
+    require_close(sum(a[name] for name in AXES), a["W_box"], ROUNDING, f"{what}: W_box by axis", turnover(a))
 
 
 def require_closed(a, tolerance=ROUNDING, what="the ledger"):
@@ -210,6 +211,9 @@ def press(target, rate=0.05, every=1e-3, rest=""):
     return [f"fix press all press/strain axis y target {number(target)} shear xy rate {rate} every {every} {rest}"]
 
 
+STRETCH = ["fix stretch all deform 1 x erate 0.05 y erate -0.08 z erate 0.02 remap v"]
+
+
 def packing_closes(packing, tolerance=ROUNDING, **choices):
     def case(ranks):
         table = run(sheared(packing, **choices), ranks).thermo()[0]
@@ -355,19 +359,26 @@ def same_on_ranks(packing):
     return case
 
 
-def restart_continues(ranks):
+def restart_continues(motion):
     """Totals and all go on to the last bit (the run that goes on has written the same file)."""
-    deck = with_ledger(Deck(dense_packing(atom_style="sphere", speed=0.4), extra=UNDAMPED))
-    start = [*press(2e5), LEDGER]
-    rest = [*thermo(1, *TOTALS), *dump_grains(deck.packing, 200), "run 200"]
-    through = run(replace(deck, body=[*start, "run 200", "write_restart half.restart", *rest]), ranks)
-    again = run(deck.restarted(through.folder / "half.restart", [*start, *rest]), ranks)
-    require_same_snapshots(
-        again.dump("grains.dump")[-1:], through.dump("grains.dump")[-1:], "restarted against write-and-continue"
-    )
-    a, b = account(through.thermo()[-1]), account(again.thermo()[-1])
-    require_closed(b)
-    require_equal([b[n] for n in NAMES], [a[n] for n in NAMES], "the ledger, restarted")
+
+    def case(ranks):
+        deck = with_ledger(Deck(dense_packing(atom_style="sphere", speed=0.4), extra=UNDAMPED))
+        start = [*motion, LEDGER]
+        rest = [*thermo(1, *TOTALS), *dump_grains(deck.packing, 200), "run 200"]
+        through = run(replace(deck, body=[*start, "run 200", "write_restart half.restart", *rest]), ranks)
+        again = run(deck.restarted(through.folder / "half.restart", [*start, *rest]), ranks)
+        require_same_snapshots(
+            again.dump("grains.dump")[-1:], through.dump("grains.dump")[-1:], "restarted against write-and-continue"
+        )
+        a, b = account(through.thermo()[-1]), account(again.thermo()[-1])
+        require_closed(b)
+        require_equal([b[n] for n in NAMES], [a[n] for n in NAMES], "the ledger, restarted")
+        first = account(again.thermo()[-1], 0)
+        for name in AXES:
+            require(motion != STRETCH or 0.0 != first[name] != b[name], f"{name} is {first[name]}, then {b[name]}")
+
+    return case
 
 
 def restart_before_the_first_step(ranks):
@@ -662,7 +673,8 @@ CASES = {
     "restart-before-the-first-step": restart_before_the_first_step,
     "asked-within-a-step": asked_within_a_step,
     "overlap-of-nothing": overlap_of_nothing,
-    "restart-continues": restart_continues,
+    "restart-continues": restart_continues(press(2e5)),
+    "restart-continues-in-a-box-of-three-rates": restart_continues(STRETCH),
     "runs": runs,
     "groups": groups,
     "falling": falling,

@@ -54,6 +54,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     pair.step();
     largest = std::max(largest, turnover(pair));
     fuzz::require_below(std::fabs(pair.residual()), 1e-12 * largest, "the books close");
+    const EnergyLedger::Entries totals = pair.ledger.totals();
+    const double axes = totals[EnergyLedger::W_box_x] + totals[EnergyLedger::W_box_y] + totals[EnergyLedger::W_box_z];
+    fuzz::require_below(std::fabs(axes - totals[EnergyLedger::W_box]), 1e-12 * largest, "axes add up to W_box");
     EnergyLedger again;
     again.restore(pair.ledger.state(), pair.ledger.frame());
     fuzz::require(again.totals() == pair.ledger.totals(), "a restart keeps the books");

@@ -8,6 +8,7 @@ from oracle.sphere_law import contacts
 
 LOSSES = ("D_n", "D_t", "D_damp", "D_rolling", "G_k", "G_p", "G_n", "G_open", "G_dt")
 ENTRIES = ("W_shear", "W_box", "W_frame", "W_other", *LOSSES)
+AXES = ("W_box_x", "W_box_y", "W_box_z")
 NONE = np.zeros(3)
 STORES = ("U_n", "U_t", "K_tr", "K_rot")
 
@@ -33,10 +34,11 @@ class Snapshot:
             self.contacts[(i, j)] = row
 
     def translation(self, v, x, dt, frame):
-        """Peculiar kinetic energy in the frame (gradient, centre): sum m p^2/2 - dt^2 F^2/8m."""
+        """Peculiar kinetic energy along x, y, z in the frame (gradient, centre): sum m p_a^2/2 - dt^2 F_a^2/8m."""
         g, (gradient, centre) = self.grains, frame
+        mass = g.mass[:, None]
         p = v - (x - centre) @ gradient.T
-        return 0.5 * (g.mass * (p**2).sum(axis=1) - 0.25 * dt**2 * (g.force**2).sum(axis=1) / g.mass).sum()
+        return 0.5 * (mass * p**2 - 0.25 * dt**2 * g.force**2 / mass).sum(axis=0)
 
     def stored(self, dt):
         """What does not depend on the frame: U_n, U_t, K_rot."""
@@ -71,9 +73,17 @@ class Snapshot:
         )
 
 
+def carried(before, after):
+    """The frame of the box `after` had its edges kept the velocities of the box `before`: a longer box, a smaller
+    gradient, the same shear rate."""
+    gradient = before.gradient.copy()
+    np.fill_diagonal(gradient, np.diag(before.rate) / np.diag(after.edges))
+    return gradient, after.centre
+
+
 def book(last, now, dt, frame, springs=True):
     """What the step between two snapshots moved, in the frame (gradient, centre) of that step, and the kinetic energy
-    at its end. `springs`: the law has tangential springs."""
+    along x, y, z at its end. `springs`: the law has tangential springs."""
     gradient, centre = frame
     g, (v, omega) = last.grains, last.half_way(dt)
     moved = dict.fromkeys(ENTRIES, 0.0)
@@ -95,6 +105,7 @@ def book(last, now, dt, frame, springs=True):
     middle = g.mass[:, None] * (v - (g.x - centre) @ gradient.T - 0.5 * dt * drift)
     work = -0.5 * dt * gradient * virial
     moved["W_box"] = np.trace(work) - dt * (stretched * middle).sum()
+    moved.update(zip(AXES, np.diag(work) - dt * (stretched * middle).sum(axis=0)))
     moved["W_shear"] = work.sum() - np.trace(work) - dt * ((drift - stretched) * middle).sum()
     end = v + 0.5 * dt * now.grains.force / now.grains.mass[:, None]
     return moved, now.translation(end, g.x + dt * v, dt, frame)

@@ -13,6 +13,12 @@ using E = EnergyLedger;
 /** Rounding of a thousand sums of numbers below 3. */
 const double rounding = 1e-13;
 
+/** Work of the edges along x, y, z. */
+Vector3d box_work(const EnergyLedger &ledger) {
+  const auto totals = ledger.totals();
+  return {totals[E::W_box_x], totals[E::W_box_y], totals[E::W_box_z]};
+}
+
 TEST(energy_ledger, a_collision_loses_what_the_ledger_says) {
   Pair pair;
   pair.evaluate(false);
@@ -75,6 +81,101 @@ TEST(energy_ledger, energies_of_another_frame_close_too) {
   EXPECT_GT(std::fabs(totals[E::W_shear]) + std::fabs(totals[E::W_box]), 0.01);
   EXPECT_NEAR(pair.residual(), 0.0, rounding);
   EXPECT_EQ(totals[E::W_frame], 0.0);
+  EXPECT_NEAR(box_work(pair.ledger).sum(), totals[E::W_box], rounding);
+}
+
+/** Two grains fly freely in a box whose edges have speeds of their own. Along each axis p = v - x speed/length, which
+ *  changes as both x and the length do, and all of m p^2/2 along it is the work of these edges. */
+TEST(energy_ledger, each_edge_works_on_the_motion_along_it) {
+  Pair pair;
+  const Vector3d first(8.0, 9.0, 10.0), speeds(0.8, -1.8, 3.0), places[2] = {{-3.0, 1.0, 2.0}, {2.0, -1.5, 0.5}};
+  for (int g = 0; g < 2; g++) pair.spheres[g].x = places[g];
+  pair.frame.edge_rates = speeds;
+  pair.frame.edge_lengths = first;
+  const auto set_gradient = [&pair, &speeds] {
+    pair.frame.velocity_gradient.diagonal() = speeds.cwiseQuotient(pair.frame.edge_lengths);
+  };
+  set_gradient();
+  pair.evaluate(false);
+  const int steps = 300;
+  for (int n = 0; n < steps; n++) {
+    pair.frame.edge_lengths = first + n * pair.dt * speeds;
+    set_gradient();
+    pair.step();
+  }
+  ASSERT_FALSE(pair.touched);
+  // The frame is that of the last step: the lengths where it began.
+  const double end = steps * pair.dt;
+  const Vector3d last = first + (end - pair.dt) * speeds;
+  Vector3d expected = Vector3d::Zero();
+  for (int g = 0; g < 2; g++) {
+    const Sphere &s = pair.spheres[g];
+    const Vector3d before = s.v - speeds.cwiseQuotient(first).cwiseProduct(places[g]),
+                   after = s.v - speeds.cwiseQuotient(last).cwiseProduct(places[g] + end * s.v);
+    expected += 0.5 * s.mass * (after.cwiseAbs2() - before.cwiseAbs2());
+  }
+  for (int a = 0; a < 3; a++) {
+    EXPECT_GT(std::fabs(expected[a]), 0.01);
+    EXPECT_NEAR(box_work(pair.ledger)[a], expected[a], rounding);
+  }
+  EXPECT_EQ(pair.ledger.totals()[E::W_frame], 0.0);
+  EnergyLedger again;
+  again.restore(pair.ledger.state(), pair.ledger.frame());
+  EXPECT_EQ(box_work(again), box_work(pair.ledger));
+}
+
+/** Grains that touch, F = 9 (1, 2, 2)/3, held by forces from outside; L of the edges 0.1, -0.2, 0.4, of the shear 0.5.
+ *  Contact, r = (2, 4, 4)/3: -dt L_aa F_a r_a = -(0.02, -0.16, 0.32), shear -dt 0.5 F_x r_y = -0.2.
+ *  Motion: v = (1, 2, -1), L v = (1.1, -0.4, -0.4), p = (0.5, 2.2, -1), p - dt L v/2 = (0.445, 2.22, -0.98), m = 1:
+ *  -dt L_aa v_a times that = (-0.00445, 0.0888, -0.0392), shear -dt 0.5 v_y 0.445 = -0.0445. So the mixed term
+ *  m p_x L_xx L_xy y is in W_box_x, m p_x L_xy L_yy y in W_shear. */
+TEST(energy_ledger, one_step_of_three_edges_by_hand) {
+  EnergyLedger ledger;
+  ledger.set_laws(make_law(1.0, grainscope::TangentialLaw::none));
+  LedgerFrame frame;
+  frame.velocity_gradient << 0.1, 0.5, 0.0, 0.0, -0.2, 0.0, 0.0, 0.0, 0.4;
+  frame.edge_lengths << 10.0, 10.0, 10.0;
+  frame.edge_rates << 1.0, -2.0, 4.0;
+  const double rest[3] = {0.0, 0.0, 0.0}, v[3] = {1.0, 2.0, -1.0};
+  double x[3] = {0.0, 1.0, 0.0};
+  const double dt = 0.1;
+  Contact c = make_contact();
+  c.normal = Vector3d(1.0, 2.0, 2.0) / 3.0;
+  c.branch = 2.0 * c.normal;
+  c.motion->normal_damping = 3.0;
+  c.force = 9.0 * c.normal;
+  const auto start = [&] {
+    ledger.begin_start_of_step(frame);
+    ledger.start_of_step({0, 1.0, x, v, rest, rest}, rest, rest, dt);
+    ledger.start_of_step({1, 2.0, rest, rest, rest, rest}, rest, rest, dt);
+    ledger.book_start(dt);
+  };
+  ledger.begin_evaluation(2);
+  ledger.add({&c, 1}, everyone(), dt, false);
+  start();
+  for (int a = 0; a < 3; a++) x[a] += dt * v[a];
+  ledger.begin_evaluation(2);
+  ledger.add({&c, 1}, everyone(), dt, true);
+  ledger.begin_end_of_step();
+  ledger.end_of_step({0, 1.0, x, v, rest, rest}, rest, rest, dt);
+  ledger.end_of_step({1, 2.0, rest, rest, rest, rest}, rest, rest, dt);
+  ledger.book_step(dt);
+  const Vector3d work = box_work(ledger), expected(-0.02445, 0.2488, -0.3592);
+  for (int a = 0; a < 3; a++) EXPECT_NEAR(work[a], expected[a], 1e-15);
+  EXPECT_NEAR(ledger.totals()[E::W_box], expected.sum(), 1e-15);
+  EXPECT_NEAR(ledger.totals()[E::W_shear], -0.2445, 1e-15);
+
+  // The lengths move on, at x = (0.1, 1.2, -0.1); what also changes the shear is W_frame.
+  frame.edge_lengths << 10.1, 9.8, 10.4;
+  frame.velocity_gradient.diagonal() = frame.edge_rates.cwiseQuotient(frame.edge_lengths);
+  const Vector3d at(0.1, 1.2, -0.1), before = Vector3d(1.0 - 0.01 - 0.6, 2.0 + 0.24, -1.0 + 0.04),
+                                     after = Vector3d(1.0 - 0.1 / 10.1 - 0.6, 2.0 + 2.4 / 9.8, -1.0 + 0.4 / 10.4);
+  frame.velocity_gradient(0, 1) = 0.6;
+  start();
+  for (int a = 0; a < 3; a++)
+    EXPECT_NEAR(box_work(ledger)[a] - work[a], 0.5 * (after[a] * after[a] - before[a] * before[a]), 1e-14);
+  const double other = after[0] - 0.1 * at[1];
+  EXPECT_NEAR(ledger.totals()[E::W_frame], 0.5 * (other * other - after[0] * after[0]), 1e-14);
 }
 
 TEST(energy_ledger, a_changed_frame_is_told_apart_from_a_box_that_moves_on) {

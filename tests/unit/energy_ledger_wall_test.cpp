@@ -184,7 +184,35 @@ TEST(energy_ledger_wall, closes_in_a_flow_where_the_wall_moves_against_it) {
   ball.evaluate(false);
   for (int n = 0; n < 600; n++) ball.step(swinging(n));
   EXPECT_NEAR(ball.residual(), 0.0, rounding);
-  EXPECT_NEAR(ball.ledger.totals()[E::W_other], 0.0, rounding);
+  const auto totals = ball.ledger.totals();
+  EXPECT_NEAR(totals[E::W_other], 0.0, rounding);
+  EXPECT_NEAR(totals[E::W_box_x] + totals[E::W_box_y] + totals[E::W_box_z], totals[E::W_box], rounding);
+}
+
+/** The floor's branch stands along z: edges along z work on it, F_z from the contact point to the centre; those along x
+ *  and y on the flight alone. */
+TEST(energy_ledger_wall, edges_work_on_contacts_with_walls_along_their_axis) {
+  Ball ball;
+  const Vector3d rates(0.1, -0.3, 0.2);
+  ball.frame.velocity_gradient.diagonal() = ball.frame.edge_rates = rates;  // of edges of length 1, kept
+  ball.sphere.x[2] = 0.99;
+  ball.sphere.v[2] = -0.1;
+  ball.evaluate(false);
+  Vector3d work = Vector3d::Zero();
+  const auto add_contact = [&] {
+    work[2] -= 0.5 * ball.dt * rates[2] * ball.pushed[2] * 0.5 * (1.0 + ball.sphere.x[2] - ball.plane[2]);
+  };
+  for (int n = 0; n < 20; n++) {
+    add_contact();
+    const Vector3d at = ball.sphere.x, v = ball.sphere.v + 0.5 * ball.dt / ball.sphere.mass * ball.sphere.force,
+                   drift = ball.dt * rates.cwiseProduct(v);
+    work -= ball.sphere.mass * drift.cwiseProduct(v - rates.cwiseProduct(at) - 0.5 * drift);
+    ball.step(Vector3d::Zero());
+    ASSERT_TRUE(ball.touching);
+    add_contact();
+  }
+  for (int a = 0; a < 3; a++) EXPECT_NEAR(ball.ledger.totals()[E::W_box_x + a], work[a], rounding);
+  EXPECT_NEAR(ball.ledger.totals()[E::W_box], work.sum(), rounding);
 }
 
 /** A wall that moves with the flow does no work against it, at the point where it is touched. */
