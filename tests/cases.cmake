@@ -296,7 +296,7 @@ add_cases(energy/ledger-walls cases/ledger_walls.py LABEL case STYLES ${ledger} 
   seen-from-outside bounce-mesh plate conveyor drum hopper-spheres drops-out between-runs in-a-box-that-shears
   other-laws drained)
 add_cases(energy/ledger-walls cases/ledger_walls.py LABEL case STYLES ${ledger} wall/gran RANKS 1 2 LONG_RANKS 4 CASES
-  hopper-spheroids torn-apart rained restarted)
+  hopper-spheroids torn-apart rained restarted in-a-box-that-stretches)
 set(ledger_flows ${ledger} wall/gran wall/contact)
 add_cases(energy/ledger-flows cases/ledger_flows.py LABEL case STYLES ${ledger_flows} RANKS 1 LONG_RANKS 2 4 CASES
   small-silo small-drum)

@@ -13,9 +13,10 @@ import numpy as np
 from case import main, require, require_close, require_equal, require_same_snapshots
 from collisions import kinetic_energy
 from columns import outputs
-from deck import POISSON, Deck, Material, dump_grains, rayleigh_time, thermo
-from ledger import LEDGER, LOSSES, NAMES, TOTALS, UNDAMPED, account, require_balance, turnover, with_ledger
-from oracle.ledger import STORES
+from deck import POISSON, Deck, Material, dump_grains, dump_local, rayleigh_time, thermo
+from ledger import C_E, LEDGER, LOSSES, NAMES, TOTALS, UNDAMPED, account, require_balance, turnover, with_ledger
+from oracle.ledger import AXES, STORES
+from oracle.state import ROW_WIDTH, grains_of, rows_of
 from packing import Grain, Packing
 from run import run
 
@@ -531,6 +532,50 @@ def in_a_box_that_shears(ranks):
     for name in ("W_wall", "W_shear", "W_box", "D_n_w", "D_t_w"):
         require(a[name] != 0.0, f"{name} is nothing")
     require_close(a["W_other"], 0.0, 1e-10, "W_other", turnover(a))
+    require_equal([a["W_box_x"], a["W_box_z"]], [0.0, 0.0], "work of edges that stand still")
+
+
+def in_a_box_that_stretches(ranks):
+    """Between two plates, each edge at a speed of its own: W_box by axis, step by step, of forces and branches of all
+    contacts, those of the plates among them, and of the grains' velocities."""
+    rates = np.array([0.05, -0.08, 0.03])
+    deck = scene(spheroids(24, 3.5, 0.8, shape=(0.5, 0.5, 0.75)), half=4.0, boundary="p p f")
+    deck.packing = replace(deck.packing, edges=(8.0, 8.0, 8.0), origin=(-4.0, -4.0, -1.0))
+    deck.timestep = 0.1 * rayleigh_time(0.5)
+    scenery = [
+        "fix stretch all deform 1 " + " ".join(f"{a} erate {r}" for a, r in zip("xyz", rates)) + " remap v",
+        FALL,
+        wall(deck, f"{PLANE} allow_special_domain_periodic yes"),
+        wall(deck, "primitive type 1 zplane 4.0 allow_special_domain_periodic yes", "lid"),
+        "compute rows all contact/local",
+        *dump_local("rows", ROW_WIDTH, 1, "rows"),
+    ]
+    sides = ["lx", "ly", "lz", "xlo", "ylo", "zlo"]
+    asked = [C_E[f"{name}_rate"] for name in AXES]
+    result = run_with(body(deck, scenery, 1500, 1, [*sides, *asked]), ranks)
+    table, dt = result.thermo()[0], deck.dt()
+    require_closes(account(table), "stretched")
+    lengths, lower = (np.stack([table[name] for name in names], axis=1) for names in (sides[:3], sides[3:]))
+    gradients, centres = rates * lengths[0] / lengths, lower + 0.5 * lengths
+    grains = [grains_of(columns) for _, columns in result.dump("grains.dump")]
+    rows = [rows_of(columns, "rows") for _, columns in result.dump("rows.dump")]
+    powers = np.array([(r["force"] * r["branch"]).sum(axis=0) for r in rows])
+    found = dt * np.stack([table[name] for name in asked], axis=1)
+    expected = np.zeros_like(found)
+    for n, g in enumerate(grains[:-1]):
+        gradient, mass = gradients[n], g.mass[:, None]
+        p = g.v - gradient * (g.x - centres[n])
+        v = g.v + 0.5 * dt * g.force / mass
+        motion = mass * v * (p + 0.5 * dt * (g.force / mass - gradient * v))
+        expected[n + 1] = -dt * gradient * (0.5 * (powers[n] + powers[n + 1]) + motion.sum(axis=0))
+        if n:
+            before = g.v - gradients[n - 1] * (g.x - centres[n - 1])
+            expected[n + 1] += 0.5 * (mass * (p - before) * (p + before)).sum(axis=0)
+    scale = np.abs(expected).max(axis=0)
+    for a, name in enumerate(AXES):
+        require_close(found[:, a], expected[:, a], 1e-9, name, scale[a])
+    with_walls = [np.abs((r["force"] * r["branch"])[r["id"][:, 1] == 0]).sum(axis=0) for r in rows]
+    require(np.max(with_walls) > 0.1 * np.abs(powers).max(), "the plates push nobody")
 
 
 def other_laws(ranks):
@@ -637,6 +682,7 @@ CASES = {
     "frozen": frozen,
     "pulls": pulls,
     "in-a-box-that-shears": in_a_box_that_shears,
+    "in-a-box-that-stretches": in_a_box_that_stretches,
     "other-laws": other_laws,
     "restarted": restarted(1.4),
     "restarted-neutral": restarted(0.3, "setup neutral"),
