@@ -283,7 +283,7 @@ add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} CASES
   reopening-spheroids step-mode-is-the-trapezium superquadric)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS 1 2 CASES flip restart-continues)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS 1 2 LONG_RANKS 4 CASES
-  restart-continues-in-a-box-of-three-rates)
+  restart-in-a-box-of-three-rates)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS 1 LONG_RANKS 2 CASES
   two-long-1.5 polydisperse-two-types wraps runs groups falling undisturbed rates-add-up)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS 1 LONG_RANKS 2 4 CASES pressed-1.5)
