@@ -21,11 +21,8 @@ FIXES = {
     "ledger/record": "ledger_ledger",
     "press/strain": "press",
 }
-    "grain/record": 2,
-    "ledger/record": 2,
-    "press/strain": 2,
-}  # of the states that have changed since they have versions
-VERSIONS = {"grain/record": 2, "ledger/record": 3, "press/strain": 2}  # of the states that have changed since they have versions
+# of the states that have changed since they have versions
+VERSIONS = {"grain/record": 2, "ledger/record": 3, "press/strain": 2}
 MARK = b"grs stat"
 SEAL = struct.Struct("<16sQII")  # mark, length, checksum, format
 
