@@ -93,13 +93,14 @@ struct PressureControl {
     return clip(error == 0.0 ? 0.0 : kp(resistance, length) * error, length, interval);
   }
 
-  /** Of a shear stress, whose rate need not end at zero: `base` is added to the rate and takes a tenth of the elastic
-   *  share K T/D of what the error asks for at each input, slowly against the loop; it stays while the rate is clipped.
+  /** Of a mode whose rate need not end at zero: `base`, a rate, is added to what the error asks for and takes a tenth of
+   *  the elastic share K T/D of that at each input, slowly against the loop; it stays while the rate is clipped.
    *  `elastic`: K T. */
-  Input input_with_base(double error, double resistance, double elastic, double interval, double &base) const {
-    const double wanted = error == 0.0 ? 0.0 : kp(resistance, 1.0) * error;
-    const Input input = clip(base + wanted, 1.0, interval);
-    if (!input.clipped && elastic > 0.0) base += 0.1 * elastic / resistance * wanted;
+  Input input_with_base(double error, double resistance, double elastic, double length, double interval,
+                        double &base) const {
+    const double wanted = error == 0.0 ? 0.0 : kp(resistance, length) * error;
+    const Input input = clip(base * length + wanted, length, interval);
+    if (!input.clipped && elastic > 0.0) base += 0.1 * elastic / resistance * wanted / length;
     return input;
   }
 

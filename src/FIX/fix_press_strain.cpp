@@ -42,9 +42,9 @@ constexpr int planes[3] = {5, 4, 3};
 
 /** What inputs have set. */
 struct Driven {
-  // edges: dL/dt with a target of their own; tilts: the shear rate, and what it is made of besides the error
-  double rates[number_of_box_modes], bases[number_of_box_modes];
-  double mean_rate;  // common (dL/dt)/L of the edges that move with the mean, before their ratios
+  double rates[number_of_box_modes];  // of edges with a target of their own dL/dt, of tilts the shear rate
+  double mean_rate;                   // common (dL/dt)/L of the edges that move with the mean, before their ratios
+  double bases[loops];                // rates without what errors add to them
 };
 
 /** In restart files. The window is summed over ranks, so that any number of them may continue. */
@@ -401,41 +401,54 @@ bool FixPressStrain::set_driven_rates(const NetworkResponse &mean) {
     clipped = clipped || input.clipped;
     return input.velocity;
   };
+  // Beside an edge that is driven the others have to go on moving.
+  const bool edges_go_on = my.settings.drives_an_edge();
+  const auto input = [&](int loop, double error, double resistance, double stiffness, double length, bool goes_on) {
+    return book(loop, goes_on ? control.input_with_base(error, resistance, stiffness * interval, length, interval,
+                                                        my.driven.bases[loop])
+                              : control.input(error, resistance, length, interval));
+  };
   for (int k = 0; k < number_of_box_modes; k++) {
     if (my.settings.motions[k].how != How::target) continue;
-    double resistance = resistance_of(mean, k, interval);
-    if (k < 3) {
-      const double error = mean.pressure[k] - my.target_of(k);
-      my.driven.rates[k] = book(k, control.input(error, resistance, my.box.length(k), interval));
-    } else {
-      resistance += inertial_resistance(mean, k);
-      const double error = mean.pressure[k] + my.target_of(k);
-      const double elastic = mean.stiffness[NetworkResponse::place(k, k)] * interval;
-      my.driven.rates[k] = book(k, control.input_with_base(error, resistance, elastic, interval, my.driven.bases[k]));
-    }
+    const double resistance = resistance_of(mean, k, interval);
+    const double stiffness = mean.stiffness[NetworkResponse::place(k, k)];
+    my.driven.rates[k] =
+        k < 3 ? input(k, mean.pressure[k] - my.target_of(k), resistance, stiffness, my.box.length(k), edges_go_on)
+              : input(k, mean.pressure[k] + my.target_of(k), resistance + inertial_resistance(mean, k), stiffness, 1.0,
+                      true);
   }
   if (my.settings.has_mean)
-    my.driven.mean_rate = book(mean_loop, control.input(my.mean_of(mean.pressure) - my.settings.mean.value,
-                                                        resistance_of(mean, mean_loop, interval), 1.0, interval));
+    my.driven.mean_rate = input(mean_loop, my.mean_of(mean.pressure) - my.settings.mean.value,
+                                resistance_of(mean, mean_loop, interval), mean_stiffness(mean), 1.0, edges_go_on);
   return clipped;
 }
 
 /** What a loop's stress answers at most to the rates of all loops together, per unit rate of each. */
 double FixPressStrain::resistance_of(const NetworkResponse &mean, int loop, double interval) const {
-  const auto &settings = impl_->settings;
-  const int dimension = impl_->dimension;
   // |answer of mode a| to the rates of all loops
   const auto answer = [&](int a) {
     double sum = 0.0;
-    for (int b = 0; b < number_of_box_modes; b++)
-      if (settings.motions[b].controlled())
-        sum += (b == a ? mean.resistance(a, b, interval) : std::fabs(mean.resistance(a, b, interval))) *
-               settings.motions[b].ratio;
+    for (int b = 0; b < number_of_box_modes; b++) {
+      const BoxMotion &motion = impl_->settings.motions[b];
+      if (motion.controlled()) sum += std::fabs(mean.resistance(a, b, interval)) * motion.ratio;
+    }
     return sum;
   };
   if (loop != mean_loop) return answer(loop);
   double sum = 0.0;
-  for (int a = 0; a < dimension; a++) sum += answer(a) / dimension;
+  for (int a = 0; a < impl_->dimension; a++) sum += answer(a) / impl_->dimension;
+  return sum;
+}
+
+/** Of the mean pressure against the common rate. */
+double FixPressStrain::mean_stiffness(const NetworkResponse &mean) const {
+  double sum = 0.0;
+  for (int a = 0; a < impl_->dimension; a++)
+    for (int b = 0; b < impl_->dimension; b++) {
+      const BoxMotion &motion = impl_->settings.motions[b];
+      if (motion.how == How::mean)
+        sum += mean.stiffness[NetworkResponse::place(a, b)] * motion.ratio / impl_->dimension;
+    }
   return sum;
 }
 

@@ -65,6 +65,7 @@ class FixPressStrain : public FixDeform, public grainscope::DeclaresOutputs, pub
   void take_input();
   bool set_driven_rates(const grainscope::NetworkResponse &mean);
   double resistance_of(const grainscope::NetworkResponse &mean, int loop, double interval) const;
+  double mean_stiffness(const grainscope::NetworkResponse &mean) const;
   double inertial_resistance(const grainscope::NetworkResponse &mean, int mode) const;
   void add_kinetic_part(std::array<double, 6> &pressures, double factor) const;
   const std::array<double, 6> &pressures_now();

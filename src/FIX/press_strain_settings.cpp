@@ -231,6 +231,10 @@ bool PressStrainSettings::sheared() const {
   return std::any_of(motions + 3, motions + 6, [](const BoxMotion &m) { return m.given; });
 }
 
+bool PressStrainSettings::drives_an_edge() const {
+  return std::any_of(motions, motions + 3, [](const BoxMotion &m) { return m.how == How::rate; });
+}
+
 bool PressStrainSettings::follows_variables() const {
   return !mean.variable.empty() || std::any_of(std::begin(motions), std::end(motions),
                                                [](const BoxMotion &m) { return !m.value.variable.empty(); });

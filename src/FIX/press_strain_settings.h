@@ -53,6 +53,7 @@ struct PressStrainSettings {
   /** Modes whose stiffness the controller asks for: those with a target, and all edges with a mean. */
   std::vector<int> controlled_modes(int dimension) const;
   bool sheared() const;
+  bool drives_an_edge() const;
   bool follows_variables() const;
   /** Rate at which the strain grows that `every` counts, of the rates of the six modes: the shear rate (of several planes
    *  the root of the sum of squares); where no plane has a rate but an edge has, the largest |rate| of an edge. */

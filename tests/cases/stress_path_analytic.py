@@ -65,7 +65,7 @@ class ByHand:
         self.targets, self.mean, self.rates = targets, mean, rates
         self.h = np.diag(EDGES)
         self.held = {name: 0.0 for name in targets}  # dL/dt of an edge, rate of a tilt
-        self.bases = {name: 0.0 for name in targets}
+        self.bases = {name: 0.0 for name in (*targets, "mean")}
         self.common = 0.0
 
     def gradient(self):
@@ -91,22 +91,29 @@ class ByHand:
         def answer(a):
             return sum(abs(damping + stiffness * interval)[a, names.index(b)] * w for b, w in weight.items())
 
+        on = any(len(name) == 1 for name in self.rates)  # an edge is driven: the others have to go on moving
+
+        def rate(name, error, resistance, elastic, goes_on):
+            wanted = BETA / resistance * error
+            found = self.bases[name] + wanted
+            self.bases[name] += 0.1 * elastic * interval / resistance * wanted if goes_on else 0.0
+            return found
+
         for name in self.held:
             k = names.index(name)
             if len(name) == 1:
-                length = self.h[k, k]
-                self.held[name] = BETA * length / answer(k) * (pressure[k] - self.targets[name])
+                length, error = self.h[k, k], pressure[k] - self.targets[name]
+                self.held[name] = length * rate(name, error, answer(k), stiffness[k, k], on)
             else:
                 density = 2 * len(self.pairs) * self.mass / np.linalg.det(self.h)
                 gradient = MODES[name][1]
                 sound = self.h[gradient, gradient] * math.sqrt(density * stiffness[k, k])
-                resistance = answer(k) + sound
-                wanted = BETA / resistance * (pressure[k] + self.targets[name])
-                self.held[name] = self.bases[name] + wanted
-                self.bases[name] += 0.1 * stiffness[k, k] * interval / resistance * wanted
+                error = pressure[k] + self.targets[name]
+                self.held[name] = rate(name, error, answer(k) + sound, stiffness[k, k], True)
         if self.mean:
-            resistance = sum(answer(a) for a in range(3)) / 3.0
-            self.common = BETA / resistance * (pressure[:3].mean() - self.mean[0])
+            error = pressure[:3].mean() - self.mean[0]
+            elastic = sum(stiffness[a, names.index(b)] * w for a in range(3) for b, w in self.mean[1].items()) / 3.0
+            self.common = rate("mean", error, sum(answer(a) for a in range(3)) / 3.0, elastic, on)
 
     def run(self):
         window, table, gradient = [], [], self.gradient()

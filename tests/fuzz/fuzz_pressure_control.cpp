@@ -86,9 +86,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     check_input(control, window.pressure[k] - target, resistance, length, interval);
     check_input(control, 0.0, resistance, length, interval);
     double base = 0.0;
-    control.input_with_base(window.pressure[k], resistance, window.stiffness[NetworkResponse::place(k, k)], interval,
-                            base);
-    require(std::isfinite(base), "the base of a shear rate is finite", base);
+    control.input_with_base(window.pressure[k], resistance, window.stiffness[NetworkResponse::place(k, k)], length,
+                            interval, base);
+    require(std::isfinite(base), "the base of a rate is finite", base);
   }
   check_intervals(input);
 

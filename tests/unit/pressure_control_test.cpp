@@ -194,18 +194,19 @@ TEST(pressure_control, automatic_gains_of_coupled_modes_are_stable_in_any_networ
       loop.block(0, n, n, n) = -interval * k;
       for (int a = 0; a < n; a++) {
         const double resistance = (eta + interval * k).row(a).cwiseAbs().sum(), elastic = k(a, a) * interval;
-        const bool tilt = modes[a] >= 3;
+        const bool based = modes[a] >= 3 || trial % 2;
         double base = 0.0;
-        const double per_error = factor * (tilt ? control.input_with_base(1.0, resistance, elastic, interval, base)
-                                                : control.input(1.0, resistance, 1.0, interval))
-                                              .velocity;
+        const double per_error =
+            factor * (based ? control.input_with_base(1.0, resistance, elastic, 1.0, interval, base)
+                            : control.input(1.0, resistance, 1.0, interval))
+                         .velocity;
         Eigen::RowVectorXd error = Eigen::RowVectorXd::Zero(3 * n);
         error[a] = 1.0;
         error.segment(n, n) -= lag.row(a);
         loop.row(n + a) = per_error * error;
-        loop(n + a, 2 * n + a) = tilt ? 1.0 : 0.0;
+        loop(n + a, 2 * n + a) = based ? 1.0 : 0.0;
         loop.row(2 * n + a) = factor * base * error;
-        loop(2 * n + a, 2 * n + a) = tilt ? 1.0 : 0.0;
+        loop(2 * n + a, 2 * n + a) = based ? 1.0 : 0.0;
       }
       const double radius = loop.eigenvalues().cwiseAbs().maxCoeff();
       double &found = factor == 1.0 ? largest : largest_of_five;
@@ -216,16 +217,21 @@ TEST(pressure_control, automatic_gains_of_coupled_modes_are_stable_in_any_networ
   EXPECT_GT(largest_of_five, 1.5);
 }
 
-TEST(pressure_control, base_of_a_shear_rate_stays_while_it_is_clipped_and_grows_slowly) {
+TEST(pressure_control, base_of_a_rate_stays_while_it_is_clipped_and_grows_slowly) {
   PressureControl control;
   control.max_rate = 0.1;
   double base = 0.02;
-  auto input = control.input_with_base(1e9, 2.0, 1.0, 1e-3, base);
+  auto input = control.input_with_base(1e9, 2.0, 1.0, 1.0, 1e-3, base);
   EXPECT_TRUE(input.clipped);
   EXPECT_DOUBLE_EQ(input.velocity, 0.1);
   EXPECT_EQ(base, 0.02);
-  input = control.input_with_base(0.01, 2.0, 1.0, 1e-3, base);
+  input = control.input_with_base(0.01, 2.0, 1.0, 1.0, 1e-3, base);
   EXPECT_DOUBLE_EQ(input.velocity, 0.02 + 0.5 * 0.01 / 2.0);
+  EXPECT_DOUBLE_EQ(base, 0.02 + 0.1 * 0.5 * (0.5 * 0.01 / 2.0));
+  // of an edge: a velocity, whose base is a rate
+  base = 0.02;
+  input = control.input_with_base(0.01, 2.0, 1.0, 7.0, 1e-3, base);
+  EXPECT_DOUBLE_EQ(input.velocity, 7.0 * (0.02 + 0.5 * 0.01 / 2.0));
   EXPECT_DOUBLE_EQ(base, 0.02 + 0.1 * 0.5 * (0.5 * 0.01 / 2.0));
 }
 
