@@ -282,8 +282,13 @@ void EnergyLedger::start_with_weight(const Grain &g, const Vector3d &weight, dou
 void EnergyLedger::start_with_jump(const Grain &g, const Vector3d &given) {
   const Map<const Vector3d> x(g.x), v(g.v);
   const auto before_it = [&](const Vector3d &peculiar) { return g.mass * given.dot(0.5 * given - peculiar); };
-  if (driven_) starts_.k_carried += before_it(v - carried_.flow(x));
-  if (moved_) starts_.k_old += before_it(v - frame_.flow(x));
+  if (!driven_) return;  // a frame that goes on gives nothing
+  const Vector3d carried = v - carried_.flow(x);
+  starts_.k_carried += before_it(carried);
+  if (!moved_) return;
+  const Vector3d old = v - frame_.flow(x);
+  starts_.k_old += before_it(old);
+  for (int a = 0; a < 3; a++) starts_.stretch[a] -= g.mass * given[a] * (carried - old)[a];
 }
 
 double EnergyLedger::kinetic_in_step(const Grain &g, const double omega[3], const double momentum[3]) const {
