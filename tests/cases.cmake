@@ -195,6 +195,16 @@ add_cases(press/strain-path cases/stress_paths.py LABEL case STYLES press/strain
   same-on-ranks same-on-ranks-with-a-mean-and-a-shear-stress)
 add_cases(press/strain-path cases/stress_paths.py LABEL long STYLES press/strain CASES flows-at-a-shear-stress)
 add_cases(press/strain-range cases/ranges.py LABEL case STYLES press/strain RANKS 1 LONG_RANKS 2 CASES clipping)
+add_cases(press/strain-runs cases/stress_path_runs.py LABEL case STYLES press/strain stress/contact
+  RANKS 1 LONG_RANKS 2 CASES isotropic-spheres)
+add_cases(press/strain-runs cases/stress_path_runs.py LABEL case
+  STYLES press/strain stress/contact surface/ellipsoid nve/spheroid RANKS 1 LONG_RANKS 2 CASES isotropic-spheroids)
+add_cases(press/strain-runs cases/stress_path_runs.py LABEL case STYLES press/strain energy/ledger stress/contact
+  RANKS 1 LONG_RANKS 2 CASES
+  ledger-triaxial ledger-isotropic ledger-mean ledger-constant-volume ledger-two-planes ledger-two-planes-one-held
+  ledger-triaxial-spheres)
+add_cases(press/strain-runs cases/stress_path_runs.py LABEL case STYLES press/strain packing stress/contact
+  LONG_RANKS 1 CASES critical-dense-and-loose critical-pressure-and-volume)
 
 # nve/spheroid
 add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid CASES
