@@ -107,7 +107,7 @@ double primitive_area(const std::vector<std::string> &wall, const BoxState &box,
   if (!fixed[axis]) return unknown("the box follows the grains along its axis, boundary s or m");
   if (!along_axis(box.edges, axis)) return unknown("its axis is along no edge of the box");
   const double radius = std::stod(wall[1]);
-  Eigen::Vector3d middle = box.centre;
+  Eigen::Vector3d middle = box.cell_centre;
   middle[u] = std::stod(wall[2]);
   middle[v] = std::stod(wall[3]);
   for (int k : {u, v}) {

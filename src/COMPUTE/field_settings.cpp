@@ -21,7 +21,7 @@ const double infinite = 1e19;  // less than what INF is to the host
 bool any_number(double) { return true; }
 bool is_positive(double x) { return x > 0.0; }
 
-Vector3d corner_of(const BoxState &box) { return box.centre - 0.5 * box.edges.rowwise().sum(); }
+Vector3d corner_of(const BoxState &box) { return box.cell_centre - 0.5 * box.edges.rowwise().sum(); }
 
 }
 

@@ -36,9 +36,13 @@ struct NetworkResponse {
   void add(const Contact &c, const std::vector<int> &modes) {
     const ContactLaw &law = *c.law;
     const ContactMotion &m = *c.motion;
-    const Eigen::Vector3d force = c.weight * c.force;
-    for (int a = 0; a < number_of_box_modes; a++)
-      pressure[a] += force[box_modes[a].flow] * c.branch[box_modes[a].gradient];
+    const double x = c.weight * c.force[0], y = c.weight * c.force[1], z = c.weight * c.force[2];
+    pressure[0] += x * c.branch[0];
+    pressure[1] += y * c.branch[1];
+    pressure[2] += z * c.branch[2];
+    pressure[3] += y * c.branch[2];
+    pressure[4] += x * c.branch[2];
+    pressure[5] += x * c.branch[1];
     if (modes.empty()) return;
     const double k_n = law.tangent_stiffness(m), k_t = law.sticks() ? m.tangential_stiffness : 0.0;
     const double gamma_n = m.damping_coefficient, gamma_t = m.damped ? m.tangential_damping : 0.0;

@@ -54,8 +54,9 @@ struct SavedControl {
   Driven driven;
   double strains[number_of_box_modes], clipped_of[loops];
   NetworkResponse window;
-  double window_steps;
+  double window_steps, planned_steps;
   double every, interval, passed, next;  // how inputs are counted, and how far
+  double controlled;                     // modes whose stiffness is in the window, as bits
 };
 
 std::array<bool, number_of_box_modes> turned_back(const grainscope::PressStrainSettings &settings) {
@@ -83,9 +84,9 @@ struct FixPressStrain::Impl {
 
   bool flip_pending = false;
 
-  NetworkResponse now;     // this rank's sums of the last evaluation, over volume
-  NetworkResponse window;  // the same since the last input
-  double window_steps = 0.0;
+  NetworkResponse now;                             // this rank's sums of the last evaluation, over volume
+  NetworkResponse window;                          // the same since the last input
+  double window_steps = 0.0, planned_steps = 0.0;  // since the last input; and until the next, as it was planned
   double strain = 0.0, averaged_pressure = 0.0, inputs = 0.0, clipped = 0.0;
   Driven driven{};
   double strains[number_of_box_modes] = {}, clipped_of[loops] = {};
@@ -94,6 +95,10 @@ struct FixPressStrain::Impl {
   bigint pressure_step = -1;
   std::array<double, number_of_box_modes> pressures{};  // of that step
 
+  bool holds(int loop) const {
+    return loop == mean_loop ? settings.has_mean : settings.motions[loop].how == How::target;
+  }
+  double controlled_bits() const;
   double mean_of(const std::array<double, number_of_box_modes> &of) const;
   double main_of(const std::array<double, number_of_box_modes> &of) const;
   double main_target() const;
@@ -159,7 +164,7 @@ void FixPressStrain::Impl::add_edges(std::vector<Element> &all) {
                    [k](F &f) { return f.impl_->box.length(k); }});
     all.push_back({{"rate_" + axis, "1/time", intensive, "(dL/dt)/L along " + axis},
                    [k](F &f) { return f.impl_->true_rate(k); }});
-    all.push_back({{"strain_" + axis, "-", intensive, "strain along " + axis + ", sum of (dL/dt)/L dt"},
+    all.push_back({{"strain_" + axis, "-", intensive, "logarithmic strain along " + axis + ", ln(L/L at the start)"},
                    [k](F &f) { return f.impl_->strains[k]; }});
     all.push_back({{"clipped_" + axis, "-", intensive, "inputs of " + axis + " clipped so far"},
                    [k](F &f) { return f.impl_->clipped_of[k]; }});
@@ -190,6 +195,12 @@ grainscope::Outputs FixPressStrain::Impl::declared() {
       {"P_mean", "pressure", grainscope::Extent::intensive, "pressure averaged over the last completed interval"}};
   for (const Element &one : elements()) outputs.vector.add(one.output);
   return outputs;
+}
+
+double FixPressStrain::Impl::controlled_bits() const {
+  double bits = 0.0;
+  for (int mode : controlled) bits += 1 << mode;
+  return bits;
 }
 
 double FixPressStrain::Impl::mean_of(const std::array<double, number_of_box_modes> &of) const {
@@ -252,7 +263,12 @@ FixPressStrain::FixPressStrain(LAMMPS *lmp, int narg, char **arg, const PressStr
   grainscope::PressStrainRequirements(lmp, this, impl_->settings).require_controllable_box(impl_->box);
 }
 
-FixPressStrain::~FixPressStrain() {}
+/** The box stands still from now on, also for grains beyond a face. */
+FixPressStrain::~FixPressStrain() {
+  const BoxState before(lmp);
+  impl_->box.set_rates(BoxRates{});
+  give_new_velocity_outside(before);
+}
 
 void FixPressStrain::init() {
   Impl &my = *impl_;
@@ -262,7 +278,9 @@ void FixPressStrain::init() {
   my.observer = &PairGranInsitu::required_by(lmp, "fix press/strain")->observer();
   my.observer->add(this);
   my.settings.evaluate_rates(lmp);
+  const BoxState before(lmp);
   my.box.set_rates(my.rates());
+  give_new_velocity_outside(before);  // grains that the run before left beyond a face
   my.jump.reset();
   plan_flip();
 }
@@ -341,13 +359,18 @@ void FixPressStrain::end_of_step() {
   my.window_steps += 1.0;
 
   evaluate_variables();
-  for (int k = 0; k < number_of_box_modes; k++) my.strains[k] += my.true_rate(k) * update->dt;
   my.strain += strain_rate() * update->dt;
   const BoxState before(lmp);
-  if (my.intervals.advance(progress_of_a_step())) take_input();
+  // The velocities that an input sets are meant for the time until the next as the rates are: a strain that grows more
+  // slowly since then does not prolong it.
+  const bool due = my.intervals.advance(progress_of_a_step());
+  if (due || (my.planned_steps > 0.0 && my.window_steps > my.planned_steps)) take_input();
   // The box moves by the rates that its images take in the coming step: the springs of contacts across faces follow
   // velocities, overlaps the box.
+  for (int k = 3; k < number_of_box_modes; k++) my.strains[k] += my.true_rate(k) * update->dt;
   my.box.advance(my.rates(update->dt));
+  for (int k = 0; k < 3; k++)
+    if (my.settings.motions[k].moves()) my.strains[k] += std::log(my.box.length(k) / before.edges(k, k));
   give_new_velocity_outside(before);
   plan_flip();
 }
@@ -386,6 +409,7 @@ void FixPressStrain::take_input() {
         for (int k = 0; k < 3; k++) atom->v[i][k] -= drift[k];
   }
   my.inputs += 1.0;
+  my.planned_steps = std::round(time_between_inputs() / update->dt);
   if (set_driven_rates(mean)) my.clipped += 1.0;
 }
 
@@ -503,10 +527,12 @@ void FixPressStrain::write_restart(FILE *file) {
                      {},
                      sums,
                      my.window_steps,
+                     my.planned_steps,
                      static_cast<double>(my.settings.every),
                      my.settings.interval,
                      my.intervals.passed(),
-                     my.intervals.next()};
+                     my.intervals.next(),
+                     my.controlled_bits()};
   std::copy(std::begin(my.strains), std::end(my.strains), saved.strains);
   std::copy(std::begin(my.clipped_of), std::end(my.clipped_of), saved.clipped_of);
   grainscope::write_state(file, saved);
@@ -516,15 +542,24 @@ void FixPressStrain::restart(char *buffer) {
   Impl &my = *impl_;
   const auto saved = grainscope::read_state<SavedControl>(lmp, *this, "press/strain", buffer);
   my.strain = saved.strain;
-  my.averaged_pressure = saved.averaged_pressure;
   my.inputs = saved.inputs;
   my.clipped = saved.clipped;
-  my.driven = saved.driven;
+  // The next stage of a path holds other stresses: the rest begins anew.
+  for (int k = 0; k < loops; k++) {
+    my.clipped_of[k] = saved.clipped_of[k];
+    if (!my.holds(k)) continue;
+    my.driven.bases[k] = saved.driven.bases[k];
+    if (k == mean_loop) my.driven.mean_rate = saved.driven.mean_rate;
+    else my.driven.rates[k] = saved.driven.rates[k];
+  }
   std::copy(std::begin(saved.strains), std::end(saved.strains), my.strains);
-  std::copy(std::begin(saved.clipped_of), std::end(saved.clipped_of), my.clipped_of);
+  // Counted otherwise than before, or of other modes, inputs begin again, with one at the first step.
+  if (static_cast<double>(my.settings.every) != saved.every || my.settings.interval != saved.interval ||
+      my.controlled_bits() != saved.controlled)
+    return;
+  my.averaged_pressure = saved.averaged_pressure;
   my.window_steps = saved.window_steps;
+  my.planned_steps = saved.planned_steps;
   if (comm->me == 0) my.window = saved.window;
-  // Counted otherwise than before, inputs begin again, with one at the first step.
-  if (static_cast<double>(my.settings.every) == saved.every && my.settings.interval == saved.interval)
-    my.intervals.restore(saved.passed, saved.next);
+  my.intervals.restore(saved.passed, saved.next);
 }

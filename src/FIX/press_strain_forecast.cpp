@@ -53,6 +53,8 @@ bool PressStrainForecast::grains_may_change() const {
 bool PressStrainForecast::flows_slowly(const Grains &grains, int edge) const {
   using How = BoxMotion::How;
   const BoxMotion *plane = nullptr;
+  for (int k = 0; k < 3; k++)
+    if (k != edge && settings_.motions[k].moves()) return false;
   for (int k = 3; k < number_of_box_modes; k++) {
     const BoxMotion &motion = settings_.motions[k];
     if (!motion.moves()) continue;

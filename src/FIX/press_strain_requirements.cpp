@@ -34,8 +34,11 @@ void PressStrainRequirements::require_controllable_box(const ShearedBox &box) co
   const int periodic[3] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
   for (int k = 0; k < 3; k++)
     if (settings_.motions[k].moves() && !periodic[k])
-      press_strain_error(lmp,
-                         std::string("cannot move box edges along '") + "xyz"[k] + "': the box must be periodic there");
+      press_strain_error(lmp, std::string("cannot move box edges along '") + "xyz"[k] +
+                                  "': the box must be periodic there" +
+                                  (settings_.motions[k].how == BoxMotion::How::mean
+                                       ? std::string(" (or keep it, by '") + "xyz"[k] + " fixed')"
+                                       : std::string()));
   for (const Tilt &tilt : tilts) {
     if (!settings_.motions[tilt.index].given) continue;
     const std::string shear = std::string("'shear ") + tilt.name + "'";

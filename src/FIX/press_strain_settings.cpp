@@ -69,10 +69,11 @@ void PressStrainSettings::read_edge(Arguments &arguments, int edge) {
   require_axes_of_plane(arguments.host(), arguments, "axis", "x or y", name);
   BoxMotion &motion = motions[edge];
   const std::string how = arguments.choice(name, {"target", "rate", "fixed"});
-  if (how == "target") motion = {How::target, read_pressure(arguments, name + " target"), 1.0, true};
+  const std::string word = name + " " + how;
+  if (how == "target") motion = {How::target, read_pressure(arguments, word), 1.0, true, word};
   else if (how == "rate")
-    motion = {How::rate, read_quantity(arguments, name + " rate", "a rate or a variable v_name", any), 1.0, true};
-  else motion = {How::still, Quantity(), 1.0, true};
+    motion = {How::rate, read_quantity(arguments, word, "a rate or a variable v_name", any), 1.0, true, word};
+  else motion = {How::still, Quantity(), 1.0, true, word};
 }
 
 void PressStrainSettings::read_shear(Arguments &arguments) {
@@ -83,14 +84,13 @@ void PressStrainSettings::read_shear(Arguments &arguments) {
   if (motion.given) arguments.fail("'shear' is given twice");
   const std::string wanted = "'rate' and a shear rate, 'target' and a shear stress, or 'fixed'";
   const std::string how = arguments.word(wanted);
+  const std::string word = "shear " + name + " target";
   if (how == "rate")
     motion = {How::rate, read_quantity(arguments, "rate", "a shear rate other than 0 or a variable v_name", not_zero),
-              1.0, true};
+              1.0, true, "rate"};
   else if (how == "target")
-    motion = {How::target,
-              read_quantity(arguments, "shear " + name + " target", "a shear stress or a variable v_name", any), 1.0,
-              true};
-  else if (how == "fixed") motion = {How::still, Quantity(), 1.0, true};
+    motion = {How::target, read_quantity(arguments, word, "a shear stress or a variable v_name", any), 1.0, true, word};
+  else if (how == "fixed") motion = {How::still, Quantity(), 1.0, true, word};
   else arguments.fail("'shear " + name + "' must be followed by " + wanted + ", got '" + how + "'");
 }
 
@@ -166,7 +166,7 @@ void PressStrainSettings::take_axis(const Arguments &errors, const Words &words,
   if (motions[words.axis].given)
     errors.fail(std::string("'axis ") + name_of_box_mode(words.axis) + "' and '" + name_of_box_mode(words.axis) +
                 "' exclude each other");
-  motions[words.axis] = {How::target, words.target, 1.0, true};
+  motions[words.axis] = {How::target, words.target, 1.0, true, "target"};
 }
 
 /** Edges without words of their own move with the mean. */
@@ -187,10 +187,12 @@ void PressStrainSettings::take_mean(LAMMPS_NS::LAMMPS *lmp, const Arguments &err
         errors.fail("'ratio' of " + name + " must be 0 beside '" + name + "', got " + Arguments::text(words.ratios[k]));
       continue;
     }
-    if (words.ratios[k] > 0.0) motion = {How::mean, Quantity(), words.ratios[k], false};
+    if (words.ratios[k] > 0.0) motion = {How::mean, Quantity(), words.ratios[k], false, "mean target"};
     largest = std::max(largest, words.ratios[k]);
   }
   if (largest == 0.0) errors.fail("'mean' moves no edge: all are fixed, driven or have a ratio of 0");
+  for (int k = 0; k < 3; k++)
+    if (motions[k].how == How::mean) motions[k].ratio /= largest;
 }
 
 void PressStrainSettings::require_consistent(LAMMPS_NS::LAMMPS *lmp, const Arguments &errors, bool every_given) {
@@ -199,11 +201,10 @@ void PressStrainSettings::require_consistent(LAMMPS_NS::LAMMPS *lmp, const Argum
   };
   const bool driven = any_is(How::rate, 0, number_of_box_modes), held_shear = any_is(How::target, 3, 6);
   if (every_given && every == Every::strain && !driven)
-    errors.fail("'every' counts strain, and without 'shear' or an edge with 'rate' the box has none: use 'every/time' "
-                "or 'every/step'");
+    errors.fail("'every' counts strain, and without a 'rate' the box has none: use 'every/time' or 'every/step'");
   if (!every_given)
     errors.fail(driven ? "'every', 'every/time' or 'every/step' is required"
-                       : "without 'shear' or an edge with 'rate', 'every/time' or 'every/step' is required");
+                       : "without a 'rate', 'every/time' or 'every/step' is required");
   if (held_shear && !max_rate_given)
     errors.fail("'shear' with 'target' needs 'maxrate': grains that yield would be sheared ever faster");
   if (!control.automatic && (held_shear || has_mean))
@@ -241,41 +242,49 @@ bool PressStrainSettings::follows_variables() const {
 }
 
 double PressStrainSettings::strain_rate(const double rates[number_of_box_modes]) const {
-  const auto driven = [](const BoxMotion &m) { return m.how == How::rate; };
-  double of_edges = 0.0, of_shears = 0.0;
+  const auto driven = [this](int k) { return motions[k].how == How::rate; };
+  double of_edges = 0.0, of_driven_shears = 0.0, of_shears = 0.0;
   for (int k = 0; k < 3; k++)
-    if (driven(motions[k])) of_edges = std::max(of_edges, std::fabs(rates[k]));
-  for (int k = 3; k < 6; k++) of_shears = std::hypot(of_shears, rates[k]);
-  return of_edges > 0.0 && std::none_of(motions + 3, motions + 6, driven) ? of_edges : of_shears;
+    if (driven(k)) of_edges = std::max(of_edges, std::fabs(rates[k]));
+  for (int k = 3; k < 6; k++) {
+    of_shears = std::hypot(of_shears, rates[k]);
+    if (driven(k)) of_driven_shears = std::hypot(of_driven_shears, rates[k]);
+  }
+  return of_driven_shears > 0.0 ? of_driven_shears : of_edges > 0.0 ? of_edges : of_shears;
 }
 
 void PressStrainSettings::evaluate_rates(LAMMPS_NS::LAMMPS *lmp) {
-  double largest = 0.0;
+  double rates[number_of_box_modes] = {}, of_shears = 0.0, of_edges = 0.0;
   for (int k = 0; k < number_of_box_modes; k++) {
     if (motions[k].how != How::rate) continue;
     Quantity &rate = motions[k].value;
-    const std::string name = k < 3 ? std::string(name_of_box_mode(k)) + " rate" : "rate";
-    if (!rate.variable.empty()) rate.value = value_of(lmp, name.c_str(), rate);
-    if (!std::isfinite(rate.value) || (rate.value == 0.0 && (k >= 3 || every == Every::strain)))
-      press_strain_error(lmp, "'" + name + "' must be a " + (k < 3 ? "rate" : "shear rate") +
-                                  (k < 3 && every != Every::strain ? "" : " other than 0") + got(rate));
-    largest = std::max(largest, std::fabs(rate.value));
-    if (std::fabs(rate.value) * lmp->update->dt > largest_step)
-      press_strain_error(lmp, "'" + name + "' must be below " + Arguments::text(largest_step) + " per time step" +
+    if (!rate.variable.empty()) rate.value = value_of(lmp, motions[k].word.c_str(), rate);
+    if (!std::isfinite(rate.value) || (rate.value == 0.0 && k >= 3))
+      press_strain_error(lmp, "'" + motions[k].word + "' must be a " + (k < 3 ? "rate" : "shear rate other than 0") +
                                   got(rate));
+    if (std::fabs(rate.value) * lmp->update->dt > largest_step)
+      press_strain_error(lmp, "'" + motions[k].word + "' must be below " + Arguments::text(largest_step) +
+                                  " per time step" + got(rate));
+    rates[k] = rate.value;
+    if (k < 3) of_edges += std::fabs(rate.value);
+    else of_shears = std::max(of_shears, std::fabs(rate.value));
   }
-  if (!max_rate_given) control.max_rate = largest > 0.0 ? largest : HUGE_VAL;
+  if (every == Every::strain && strain_rate(rates) == 0.0)
+    press_strain_error(lmp, "'every' counts strain, and all rates are 0");
+  // Beside a driven edge another must be free to move as fast as both others at constant volume, and to dilate.
+  const double fastest = std::max(of_shears, 3.0 * of_edges);
+  if (!max_rate_given) control.max_rate = fastest > 0.0 ? fastest : HUGE_VAL;
 }
 
 void PressStrainSettings::evaluate_targets(LAMMPS_NS::LAMMPS *lmp) {
-  const auto evaluate = [lmp](Quantity &target, const std::string &name, bool pressure) {
-    if (!target.variable.empty()) target.value = value_of(lmp, "target", target);
+  const auto evaluate = [lmp](Quantity &target, const std::string &word, bool pressure) {
+    if (!target.variable.empty()) target.value = value_of(lmp, word.c_str(), target);
     if (!std::isfinite(target.value) || (pressure && !(target.value >= 0.0)))
       press_strain_error(lmp,
-                         "'" + name + "' must be " + (pressure ? "a pressure >= 0" : "a shear stress") + got(target));
+                         "'" + word + "' must be " + (pressure ? "a pressure >= 0" : "a shear stress") + got(target));
   };
   for (int k = 0; k < number_of_box_modes; k++)
-    if (motions[k].how == How::target) evaluate(motions[k].value, "target", k < 3);
+    if (motions[k].how == How::target) evaluate(motions[k].value, motions[k].word, k < 3);
   if (has_mean) evaluate(mean, "mean target", true);
 }
 

@@ -24,8 +24,9 @@ struct BoxMotion {
   enum class How { still, rate, target, mean };
   How how = How::still;
   Quantity value;      // rate or target
-  double ratio = 1.0;  // of the common rate, with How::mean
+  double ratio = 1.0;  // of the common rate, with How::mean: 1 for the fastest edge
   bool given = false;  // by a word of its own
+  std::string word;    // by which messages name its value
 
   bool moves() const { return how != How::still; }
   bool controlled() const { return how == How::target || how == How::mean; }
@@ -55,8 +56,9 @@ struct PressStrainSettings {
   bool sheared() const;
   bool drives_an_edge() const;
   bool follows_variables() const;
-  /** Rate at which the strain grows that `every` counts, of the rates of the six modes: the shear rate (of several planes
-   *  the root of the sum of squares); where no plane has a rate but an edge has, the largest |rate| of an edge. */
+  /** Rate at which the strain grows that `every` counts, of the rates of the six modes: that of the planes with a rate
+   *  (of several the root of the sum of squares), or else the largest |rate| of a driven edge. Where nothing is driven
+   *  that of the shear that a stress makes, for the output. */
   double strain_rate(const double rates[number_of_box_modes]) const;
 
   /** Values of variables now; errors where they are of no use. */

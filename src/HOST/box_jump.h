@@ -17,18 +17,20 @@ class BoxJump {
   /** `before`: the box of the step that ends, and the velocities of its edges in it. */
   BoxJump(const BoxState &before, const Eigen::Matrix3d &edge_velocities_after)
       : change_(edge_velocities_after - before.edge_velocities), inverse_(before.edges.inverse()),
-        centre_(before.centre), periodic_(before.periodic) {}
+        centre_(before.cell_centre), periodic_(before.periodic) {}
 
   bool none() const { return change_.isZero(0.0); }
 
   /** Of a grain at x; false inside the box. */
   bool gives(const Eigen::Vector3d &x, Eigen::Vector3d &velocity) const {
-    const Eigen::Vector3d away = inverse_.triangularView<Eigen::Upper>() * (x - centre_);
-    if (away.cwiseAbs().maxCoeff() <= 0.5) return false;
+    const double dx = x[0] - centre_[0], dy = x[1] - centre_[1], dz = x[2] - centre_[2];
+    const double away[3] = {inverse_(0, 0) * dx + inverse_(0, 1) * dy + inverse_(0, 2) * dz,
+                            inverse_(1, 1) * dy + inverse_(1, 2) * dz, inverse_(2, 2) * dz};
+    if (std::fabs(away[0]) <= 0.5 && std::fabs(away[1]) <= 0.5 && std::fabs(away[2]) <= 0.5) return false;
     Eigen::Vector3d edges = Eigen::Vector3d::Zero();
     for (int k = 0; k < 3; k++)
       if (periodic_[k]) edges[k] = std::floor(away[k] + 0.5);
-    velocity = change_.triangularView<Eigen::Upper>() * edges;
+    velocity = change_ * edges;
     return true;
   }
 

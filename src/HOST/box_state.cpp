@@ -25,7 +25,9 @@ BoxState::BoxState(LAMMPS_NS::LAMMPS *lmp) {
                        domain->triclinic ? domain->xy : 0.0};
   dimension = domain->dimension;
   edges = upper_triangular(h);
-  centre = Eigen::Map<const Eigen::Vector3d>(domain->boxlo) + 0.5 * edges.rowwise().sum();
+  const Eigen::Map<const Eigen::Vector3d> corner(domain->boxlo);
+  cell_centre = corner + 0.5 * edges.rowwise().sum();
+  centre = corner + 0.5 * edges.diagonal();
   if (dimension == 2) edges(2, 2) = 1.0;
   // With `remap x` the host moves grains along with the box behind their velocities' back: these are then peculiar
   // already.
@@ -36,7 +38,7 @@ BoxState::BoxState(LAMMPS_NS::LAMMPS *lmp) {
 }
 
 Eigen::Vector3d BoxState::fraction(const Eigen::Vector3d &x) const {
-  return edges.triangularView<Eigen::Upper>().solve(x - centre) + Eigen::Vector3d::Constant(0.5);
+  return edges.triangularView<Eigen::Upper>().solve(x - cell_centre) + Eigen::Vector3d::Constant(0.5);
 }
 
 int BoxState::layer(const Eigen::Vector3d &x, int k, int layers) const {

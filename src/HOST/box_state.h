@@ -14,7 +14,8 @@ namespace grainscope {
 /** Box edges in columns from the host's h or h_rate: xx yy zz yz xz xy. */
 Eigen::Matrix3d upper_triangular(const double *h);
 
-/** The simulation box at one moment, and the affine flow of its grains about its centre. H holds the edge vectors in
+/** The simulation box at one moment, and the affine flow of its grains about the middle of its edges, which neither
+ *  tilts nor turning them back move. H holds the edge vectors in
  *  its columns, dH/dt their velocities; the velocity gradient is dH/dt H^-1 and includes the motion of a box edge that
  *  is being moved. Zero for a box that does not deform, or deforms without `remap v`. With `dimension 2` the third edge
  *  is one unit of length across the plane of the grains, however deep the host's box is, and does not repeat. */
@@ -22,7 +23,8 @@ struct BoxState : AffineFlow {
   Eigen::Matrix3d edges = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d edge_velocities = Eigen::Matrix3d::Zero();
   int dimension = 3;
-  double volume = 1.0;  // Omega; with `dimension 2` the area L_x L_y
+  double volume = 1.0;                                    // Omega; with `dimension 2` the area L_x L_y
+  Eigen::Vector3d cell_centre = Eigen::Vector3d::Zero();  // of the tilted box
   std::array<bool, 3> periodic{{true, true, true}};
 
   BoxState() = default;

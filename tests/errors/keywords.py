@@ -189,20 +189,18 @@ PRESS = Style(
         (BARE + " mean target 5 gain 1 every/step 5", "'gain' must be auto with 'mean', got 1"),
         (
             BARE + " x fixed y target 4 every 1e-3",
-            "'every' counts strain, and without 'shear' or an edge with 'rate' the box has none: use 'every/time' or "
-            "'every/step'",
+            "'every' counts strain, and without a 'rate' the box has none: use 'every/time' or 'every/step'",
         ),
         (press(axis=None), "'axis x', 'axis y' or 'axis z' is required"),
         (press(target=None), "'target' and a pressure are required"),
         (press(every=None), "'every', 'every/time' or 'every/step' is required"),
         (
             press(every=None, shear=None),
-            "without 'shear' or an edge with 'rate', 'every/time' or 'every/step' is required",
+            "without a 'rate', 'every/time' or 'every/step' is required",
         ),
         (
             press(shear=None),
-            "'every' counts strain, and without 'shear' or an edge with 'rate' the box has none: use 'every/time' or "
-            "'every/step'",
+            "'every' counts strain, and without a 'rate' the box has none: use 'every/time' or 'every/step'",
         ),
         (
             press() + " every/step 3",
