@@ -90,6 +90,15 @@ compute m all layering
         )
     )
 )
+# fix press/strain along stress paths, over the host's fix deform. Not named as in in.dense: its state is not taken up.
+PATHS = {
+    "fix deform (the host's)": OBSERVERS["fix deform (the host's)"],
+    "one edge by target, one shear": "fix path all press/strain axis y target 50 shear xy rate 0.00977 every 4.6e-4\n",
+    "three edges by targets": "fix path all press/strain x target 50 y target 50 z target 50 every/step 5\n",
+    "three edges by targets, two shears": "fix path all press/strain x target 50 y target 50 z target 50 "
+    "shear xy rate 0.00977 shear xz rate 0.005 every 4.6e-4\n",
+}
+PATHS_SET_UP = {"surface": "ellipsoid", "move": "nve/spheroid"}
 SETTINGS = "tangential_damping off gaussianCurvature yes curvatureLimitFactor 100"
 LEDGER = {  # with `ledger on`, which wants a restart file of its own
     "ledger on, idle": "",
@@ -102,8 +111,9 @@ CONTACTS = (
 
 
 class Bench:
-    def __init__(self, binary, state, folder, settings=SETTINGS):
+    def __init__(self, binary, state, folder, settings=SETTINGS, **variables):
         self.binary, self.state, self.folder, self.settings = binary, state, folder, settings
+        self.variables = variables
 
     def with_ledger(self):
         """The same packing, prepared with `ledger on`."""
@@ -135,6 +145,7 @@ class Bench:
             "-var",
             "settings",
             self.settings,
+            *variable_words(self.variables),
         ]
         result = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, errors="replace")
         if result.returncode:
@@ -165,7 +176,11 @@ class Bench:
         )
 
 
-def prepare(binary, folder, settings=SETTINGS):
+def variable_words(variables):
+    return [word for name, value in variables.items() for word in ("-var", name, str(value))]
+
+
+def prepare(binary, folder, settings=SETTINGS, **variables):
     """The dense packing's restart file."""
     state = folder / f"dense-{len(settings)}.restart"
     subprocess.run(
@@ -181,6 +196,7 @@ def prepare(binary, folder, settings=SETTINGS):
             settings,
             "-log",
             "none",
+            *variable_words(variables),
         ],
         cwd=folder,
         check=True,
@@ -198,6 +214,18 @@ def count_instructions(bench, steps):
     for label, observers in {**OBSERVERS, **LEDGER}.items():
         count = (ledger if label in LEDGER else bench).instructions("gran/insitu", observers, steps)
         print(f"| {label} | {count:.4g} | {100 * (count / base - 1):+.2f} % |", flush=True)
+
+
+def count_paths(binary, state, folder, steps):
+    """On 600 grains, surface ellipsoid. A binary that knows one edge only ends at the third path."""
+    state = state or prepare(binary, folder, N=600, **PATHS_SET_UP)
+    bench = Bench(binary, state, folder, **PATHS_SET_UP)
+    print("| case | instructions per step | over fix deform |\n|---|---|---|")
+    base = None
+    for label, motions in PATHS.items():
+        count = bench.instructions("gran/insitu", motions, steps)
+        base = base or count
+        print(f"| {label} | {count:.5g} | {100 * (count / base - 1):+.2f} % |", flush=True)
 
 
 def count_whole_set(bench):
@@ -242,6 +270,7 @@ def main():
         action="store_true",
         help="instructions of all measurements together at the paper's sampling rate (10 minutes)",
     )
+    parser.add_argument("--paths", action="store_true", help="instructions of fix press/strain along stress paths")
     parser.add_argument("--repeats", type=int, default=9, help="runs per case with --time (default %(default)s)")
     parser.add_argument(
         "--state", type=pathlib.Path, help="restart file of bench/in.dense (made when not given: a minute)"
@@ -250,6 +279,9 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         binary, state = arguments.binary.resolve(), arguments.state and arguments.state.resolve()
+        if arguments.paths:
+            count_paths(binary, state, folder, 40)
+            return
         bench = Bench(binary, state or prepare(binary, folder), folder)
         if arguments.paper:
             count_whole_set(bench)
