@@ -43,7 +43,8 @@ class Box:
 
     @property
     def centre(self):
-        return self.origin + 0.5 * self.edges.sum(axis=1)
+        """Where the affine flow is zero: the middle of the edges, which tilts do not move."""
+        return self.origin + 0.5 * np.diag(self.edges)
 
 
 def box_of(table, row, shear_rate=0.0, length_rate=0.0):
