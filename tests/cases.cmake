@@ -187,7 +187,7 @@ add_cases(press/strain-path cases/stress_paths.py LABEL case STYLES press/strain
   oedometer-frictionless oedometer-with-springs lattice-under-a-mean sheared-in-xy-and-xz sheared-in-xy-and-yz
   volume-stays targets-follow-variables in-two-dimensions part-of-the-grains)
 add_cases(press/strain-path cases/stress_paths.py LABEL case STYLES press/strain RANKS 1 LONG_RANKS 2 4 CASES
-  lattice-under-three-targets holds-a-shear-stress next-stage between-runs)
+  lattice-under-three-targets holds-a-shear-stress next-stage between-runs between-walls)
 add_cases(press/strain-path cases/stress_paths.py LABEL case STYLES press/strain RANKS 1 2 LONG_RANKS 4 CASES
   sheared-in-three-planes-and-stretched whatever-lists-are-built whatever-lists-are-built-on-every-edge
   restart-continues restart-continues-with-a-mean-and-a-shear-stress)

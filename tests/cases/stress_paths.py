@@ -281,6 +281,30 @@ def volume_stays(ranks):
     require_close(table[F["P"]], table[F["pressure"]], 0.0, "without a target P is the mean pressure", 1.0)
 
 
+def between_walls(ranks):
+    """Two edges held between plates across the third: pressures with the contacts of walls, as stress/contact has
+    them."""
+    packing = replace(dense_packing(atom_style="sphere", speed=0.0), triclinic=False)
+    stress = outputs("stress/contact").of("s")
+    top = packing.edges[2]
+    wall = "wall/gran model hertz tangential history primitive type 1 zplane"
+    deck = Deck(packing, boundary="p p f")
+    deck.body = [
+        f"fix floor all {wall} -0.5",
+        f"fix lid all {wall} {number(top - 0.2)}",
+        "fix press all press/strain x target 2e4 y target 2.5e4 every/step 10",
+        "compute s all stress/contact",
+        *thermo(10, F["P_x"], F["P_y"], stress["sxx"], stress["syy"], stress["N_w"], "lz"),
+        "run 4000",
+    ]
+    table = run(deck, ranks).thermo()[0]
+    for axis, target in (("x", 2e4), ("y", 2.5e4)):
+        require_close(table[F[f"P_{axis}"]], -table[stress[f"s{axis}{axis}"]], 1e-10, f"P_{axis}", 1e4)
+        # 1e-3: what is left of the settling
+        require_close(table[F[f"P_{axis}"]][-1], target, 1e-3, f"target along {axis}")
+    require(table[stress["N_w"]][-1] > 0.0 and np.ptp(table["lz"]) == 0.0, "no contact with the walls, or they moved")
+
+
 def targets_follow_variables(ranks):
     """Mean pressure held by a variable of the fix's own pressures: both lateral edges at (3 p - P_z)/2."""
     packing = dense_packing(atom_style="sphere", speed=0.0)
@@ -437,6 +461,7 @@ CASES = {
     "between-runs": between_runs,
     "part-of-the-grains": part_of_the_grains,
     "volume-stays": volume_stays,
+    "between-walls": between_walls,
     "targets-follow-variables": targets_follow_variables,
     "in-two-dimensions": in_two_dimensions,
     "holds-a-shear-stress": holds_a_shear_stress,
