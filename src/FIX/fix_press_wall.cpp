@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fix_press_wall.h"
+#include "arguments.h"
+#include "clipping_watch.h"
+#include "contact_observer.h"
+#include "grain_shape.h"
+#include "pair_gran_insitu.h"
+#include "plate_response.h"
+#include "press_wall_settings.h"
+#include "pressed_mesh.h"
+#include "restart_state.h"
+#include "fix_wall_gran_insitu.h"
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "force.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "update.h"
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+using namespace LAMMPS_NS;
+using grainscope::Arguments;
+using grainscope::ContactLaw;
+using grainscope::PlateResponse;
+using Every = grainscope::PressWallSettings::Every;
+
+namespace {
+
+const char *const name = "fix press/wall";
+const int last_that_stands = 1;       // of the host's numbers for the boundaries p f s m
+const double part_of_a_grain = 0.01;  // what a plate may move between two inputs, of the smallest grain's diameter
+
+/** In restart files. The window is summed over ranks, so that any number of them may continue. */
+struct SavedPlate {
+  static constexpr std::uint32_t version = 1;
+  double toward, travel, velocity, averaged_pressure, inputs, clipped;
+  double window_steps, window_force, window_stiffness, window_damping;
+  double every, interval, passed, next;  // how inputs are counted, and how far
+};
+
+/** The command that the host's fix move/mesh is given: a motion at rest. */
+class HostWords {
+ public:
+  HostWords(char **arg, const std::string &mesh)
+      : words_{arg[0], arg[1], "move/mesh", "mesh", mesh, "linear", "0", "0", "0"} {
+    for (std::string &word : words_) pointers_.push_back(&word[0]);
+  }
+  HostWords(const HostWords &) = delete;
+  int size() const { return static_cast<int>(pointers_.size()); }
+  char **words() { return pointers_.data(); }
+
+ private:
+  std::vector<std::string> words_;
+  std::vector<char *> pointers_;  // into words_
+};
+
+}
+
+struct FixPressWall::Impl {
+  Impl(LAMMPS *lmp, int narg, char **arg)
+      : lmp(lmp), settings(lmp, narg, arg), mesh(lmp, settings.mesh, settings.axis), host(arg, settings.mesh),
+        intervals(settings.interval), toward(settings.toward) {
+    mesh.find(nullptr);
+  }
+
+  LAMMPS *lmp;
+  grainscope::PressWallSettings settings;
+  grainscope::PressedMesh mesh;
+  HostWords host;
+  grainscope::Intervals intervals;
+  grainscope::ContactObserver *observer = nullptr;
+
+  double toward;         // where the grains are, along the axis: 1 or -1; 0: not known yet
+  bool ready = false;    // it was set up
+  PlateResponse now;     // this rank's sums of the last evaluation
+  PlateResponse window;  // the same since the last input, over the area
+  double window_steps = 0.0;
+  double target = 0.0, travel = 0.0, velocity = 0.0, averaged_pressure = 0.0, inputs = 0.0, clipped = 0.0;
+  grainscope::ClippingWatch clipping{name};
+  bigint pressure_step = -1;
+  double pressure = 0.0;
+
+  double position() const { return toward < 0.0 ? mesh.low() : mesh.high(); }
+  double relative_error() const { return inputs > 0.0 ? averaged_pressure / target - 1.0 : 0.0; }
+
+  /** What an element of the vector is, and its value. */
+  struct Element {
+    grainscope::NamedOutput output;
+    double (*value)(FixPressWall &);
+  };
+  static const std::vector<Element> &elements();
+  static grainscope::Outputs declared();
+};
+
+const std::vector<FixPressWall::Impl::Element> &FixPressWall::Impl::elements() {
+  using F = FixPressWall;
+  constexpr auto intensive = grainscope::Extent::intensive;
+  static const std::vector<Element> all = {
+      {{"travel", "distance", intensive, "way of the plate along the axis"}, [](F &f) { return f.impl_->travel; }},
+      {{"target", "pressure", intensive, "pressure to hold, P_t"}, [](F &f) { return f.impl_->target; }},
+      {{"P", "pressure", intensive, "pressure of this step's contacts"}, [](F &f) { return f.pressure_now(); }},
+      {{"position", "distance", intensive, "coordinate of the plate's foremost node along the axis"},
+       [](F &f) { return f.impl_->position(); }},
+      {{"V", "velocity", intensive, "velocity of the plate along the axis"}, [](F &f) { return f.impl_->velocity; }},
+      {{"inputs", "-", intensive, "inputs so far"}, [](F &f) { return f.impl_->inputs; }},
+      {{"clipped", "-", intensive, "inputs clipped so far"}, [](F &f) { return f.impl_->clipped; }},
+      {{"error", "-", intensive, "P_mean/P_t - 1"}, [](F &f) { return f.impl_->relative_error(); }}};
+  return all;
+}
+
+grainscope::Outputs FixPressWall::Impl::declared() {
+  grainscope::Outputs outputs;
+  outputs.scalar = {
+      {"P_mean", "pressure", grainscope::Extent::intensive, "pressure averaged over the last completed interval"}};
+  for (const Element &one : elements()) outputs.vector.add(one.output);
+  return outputs;
+}
+
+FixPressWall::FixPressWall(LAMMPS *lmp, int narg, char **arg)
+    : FixPressWall(lmp, std::unique_ptr<Impl>(new Impl(lmp, narg, arg))) {}
+
+FixPressWall::FixPressWall(LAMMPS *lmp, std::unique_ptr<Impl> impl)
+    : FixMoveMesh(lmp, impl->host.size(), impl->host.words()), impl_(std::move(impl)) {
+  restart_global = 1;
+  declare(this, "press/wall", Impl::declared());
+  global_freq = 1;
+}
+
+FixPressWall::~FixPressWall() {}
+
+int FixPressWall::setmask() { return FixConst::INITIAL_INTEGRATE | FixConst::PRE_FORCE | FixConst::END_OF_STEP; }
+
+void FixPressWall::post_create() {
+  FixMoveMesh::post_create();
+  impl_->mesh.keep_velocities();
+}
+
+void FixPressWall::init() {
+  Impl &my = *impl_;
+  my.ready = false;
+  my.mesh.find(this);
+  FixMoveMesh::init();
+  my.settings.target.init();
+  require_area();
+  my.observer = &PairGranInsitu::required_by(lmp, name)->observer();
+  my.observer->add(this);
+}
+
+/** Before the first forces of a run, in which the host's own movers let the mesh stand. */
+void FixPressWall::setup_pre_force(int) {
+  impl_->mesh.keep_velocities();
+  impl_->mesh.set_velocity(impl_->velocity);
+}
+
+void FixPressWall::setup(int) {
+  require_known_stiffness();
+  impl_->mesh.locate();
+  find_grains();
+  set_limit();
+  evaluate_target();
+  impl_->ready = true;
+}
+
+/** That of the box has no meaning where its faces follow the grains or lean. */
+void FixPressWall::require_area() const {
+  if (impl_->settings.area > 0.0) return;
+  const int axis = impl_->settings.axis;
+  const grainscope::BoxState box(lmp);
+  for (int k = 0; k < 3; k++) {
+    if (k == axis || (k == 2 && domain->dimension == 2)) continue;
+    const bool follows = std::max(domain->boundary[k][0], domain->boundary[k][1]) > last_that_stands;
+    const std::string why = follows                     ? "follows the grains along"
+                            : box.edges(axis, k) != 0.0 ? "is not at right angles to the axis along"
+                                                        : "";
+    if (!why.empty())
+      Arguments(lmp, name).fail("'area box' is not known, as the box " + why + " " + "xyz"[k] +
+                                ": give the area of the plate");
+  }
+}
+
+void FixPressWall::require_known_stiffness() const {
+  if (!impl_->settings.control.automatic) return;
+  const std::vector<grainscope::Wall> walls = grainscope::walls_of(lmp);
+  for (std::size_t k = 0; k < walls.size(); k++)
+    if (impl_->mesh.has(k) && walls[k].law && !walls[k].law->knows_stiffness())
+      Arguments(lmp, name).fail(std::string("'gain auto' knows the stiffness of the normal models ") +
+                                ContactLaw::elastic_models() + " only: give a number, or change the models of wall '" +
+                                walls[k].name + "', got '" + walls[k].law->models + "'");
+}
+
+/** Which side of the plate they are on: it is pushed toward them. Collective. */
+void FixPressWall::find_grains() {
+  Impl &my = *impl_;
+  double sides[3] = {0.0, 0.0, 0.0};  // grains below, above, and where the plate is
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const double at = atom->x[i][my.settings.axis];
+    sides[at < my.mesh.low() ? 0 : at > my.mesh.high() ? 1 : 2] += 1.0;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sides, 3, MPI_DOUBLE, MPI_SUM, world);
+  const auto count = [&sides](int k) { return Arguments::text(sides[k]); };
+  const bool below = sides[0] > 0.0, above = sides[1] > 0.0, beside = sides[2] > 0.0;
+  const Arguments errors(lmp, name);
+  if (my.toward != 0.0) {
+    const bool wrong = !beside && (my.toward > 0.0 ? below && !above : above && !below);
+    if (wrong)
+      errors.fail(std::string("mesh '") + my.settings.mesh + "' is pushed toward " + (my.toward > 0.0 ? "+" : "-") +
+                  ", but all " + count(below ? 0 : 1) + " grains are on its other side");
+    return;
+  }
+  if (beside || below == above)
+    errors.fail("'toward +' or 'toward -' is required where the grains of its group are not all on one side of the "
+                "mesh, got " +
+                count(0) + " below it along the axis, " + count(1) + " above it, and " + count(2) +
+                " between its ends");
+  my.toward = above ? 1.0 : -1.0;
+}
+
+/** How far the plate may move between two inputs, where nobody said; and that neighbour lists keep up with it.
+ *  Collective. */
+void FixPressWall::set_limit() {
+  auto &control = impl_->settings.control;
+  const Arguments errors(lmp, name);
+  if (!impl_->settings.limit_given) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < atom->nlocal; i++) smallest = std::min(smallest, grainscope::equivalent_diameter(*atom, i));
+    MPI_Allreduce(MPI_IN_PLACE, &smallest, 1, MPI_DOUBLE, MPI_MIN, world);
+    if (!std::isfinite(smallest))
+      errors.fail("'limit' and a distance are required where there are no grains yet, whose size is its default");
+    control.limit = part_of_a_grain * smallest;
+  }
+  const double step = update->dt * std::min(control.limit / time_between_inputs(), control.max_rate);
+  if (step > 0.5 * neighbor->skin)
+    errors.fail("'limit' and 'maxrate' must let the plate move no further in a step than half of the neighbour skin, " +
+                Arguments::text(0.5 * neighbor->skin) + ", got " + Arguments::text(step));
+}
+
+/** Every step, so that the computes that a variable uses can be announced for the next one. */
+void FixPressWall::evaluate_target() {
+  if (impl_->settings.target_varies) modify->clearstep_compute();
+  impl_->target = impl_->settings.target.now();
+  if (impl_->settings.target_varies) modify->addstep_compute(update->ntimestep + 1);
+}
+
+void FixPressWall::begin_contacts() {
+  impl_->now = PlateResponse();
+  impl_->pressure_step = -1;
+}
+
+void FixPressWall::add_contacts(grainscope::ContactSpan contacts) {
+  for (const grainscope::Contact &contact : contacts)
+    if (contact.with_wall() && impl_->mesh.has(contact.wall().wall) && (atom->mask[contact.i] & groupbit))
+      impl_->now.add(contact, impl_->settings.axis);
+}
+
+void FixPressWall::initial_integrate(int) {
+  Impl &my = *impl_;
+  if (!my.ready) Arguments(lmp, name).fail("was not set up: do not use 'pre no' in the first run with it");
+  const double step = my.velocity * update->dt;
+  my.mesh.move(step, this);
+  my.mesh.set_velocity(my.velocity);
+  my.travel += step;
+}
+
+/** The longest that an interval lasts: inputs fall on whole steps. */
+double FixPressWall::time_between_inputs() const {
+  if (impl_->settings.every == Every::step) return impl_->settings.interval * update->dt;
+  return std::ceil(impl_->settings.interval / update->dt - 1e-9) * update->dt;
+}
+
+/** Of the plate, or of the box across the axis as it was in the last evaluation. */
+double FixPressWall::area() const {
+  if (impl_->settings.area > 0.0) return impl_->settings.area;
+  const grainscope::BoxState &box = impl_->observer->box();
+  const int u = (impl_->settings.axis + 1) % 3, v = (impl_->settings.axis + 2) % 3;
+  return box.edges.col(u).cross(box.edges.col(v)).norm();
+}
+
+void FixPressWall::end_of_step() {
+  Impl &my = *impl_;
+  my.window.add(my.now, 1.0 / area());
+  my.window_steps += 1.0;
+  evaluate_target();
+  if (my.intervals.advance(my.settings.every == Every::step ? 1.0 : update->dt)) take_input();
+}
+
+void FixPressWall::take_input() {
+  Impl &my = *impl_;
+  double sums[3] = {my.window.force, my.window.stiffness, my.window.damping};
+  MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, world);
+  PlateResponse mean;
+  mean.add({sums[0], sums[1], sums[2]}, 1.0 / my.window_steps);
+  my.averaged_pressure = -my.toward * mean.force * force->nktv2p;
+  my.window = PlateResponse();
+  my.window_steps = 0.0;
+
+  const double interval = time_between_inputs(),
+               resistance = (mean.damping + mean.stiffness * interval) * force->nktv2p;
+  const auto input = my.settings.control.input(my.averaged_pressure - my.target, resistance, 1.0, interval);
+  my.velocity = -my.toward * input.velocity;
+  my.inputs += 1.0;
+  if (input.clipped) my.clipped += 1.0;
+  my.clipping.watch(lmp, my.inputs, input, "pressure");
+}
+
+/** Collective, once per evaluation; the last value when the pair style has been replaced since. */
+double FixPressWall::pressure_now() {
+  Impl &my = *impl_;
+  if (my.pressure_step == update->ntimestep || !attached()) return my.pressure;
+  my.observer->require_complete(name);
+  my.pressure_step = update->ntimestep;
+  my.pressure = -my.toward * my.now.force * force->nktv2p / area();
+  MPI_Allreduce(MPI_IN_PLACE, &my.pressure, 1, MPI_DOUBLE, MPI_SUM, world);
+  return my.pressure;
+}
+
+double FixPressWall::compute_scalar() { return impl_->averaged_pressure; }
+
+double FixPressWall::compute_vector(int n) { return Impl::elements()[n].value(*this); }
+
+void FixPressWall::write_restart(FILE *file) {
+  Impl &my = *impl_;
+  double sums[3] = {my.window.force, my.window.stiffness, my.window.damping};
+  MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, world);
+  my.window = PlateResponse();
+  if (comm->me != 0) return;
+  // as a continued run will have it: the run that goes on stays equal to it, bit by bit
+  my.window = {sums[0], sums[1], sums[2]};
+  grainscope::write_state(file,
+                          SavedPlate{my.toward, my.travel, my.velocity, my.averaged_pressure, my.inputs, my.clipped,
+                                     my.window_steps, sums[0], sums[1], sums[2], static_cast<double>(my.settings.every),
+                                     my.settings.interval, my.intervals.passed(), my.intervals.next()});
+}
+
+void FixPressWall::restart(char *buffer) {
+  Impl &my = *impl_;
+  const auto saved = grainscope::read_state<SavedPlate>(lmp, *this, "press/wall", buffer);
+  if (my.settings.toward == 0.0) my.toward = saved.toward;
+  my.travel = saved.travel;
+  my.velocity = saved.velocity;
+  my.averaged_pressure = saved.averaged_pressure;
+  my.inputs = saved.inputs;
+  my.clipped = saved.clipped;
+  my.window_steps = saved.window_steps;
+  if (comm->me == 0) my.window = {saved.window_force, saved.window_stiffness, saved.window_damping};
+  // Counted otherwise than before, inputs begin again, with one at the first step.
+  if (static_cast<double>(my.settings.every) == saved.every && my.settings.interval == saved.interval)
+    my.intervals.restore(saved.passed, saved.next);
+}
