@@ -206,6 +206,20 @@ add_cases(press/strain-runs cases/stress_path_runs.py LABEL case STYLES press/st
 add_cases(press/strain-runs cases/stress_path_runs.py LABEL case STYLES press/strain packing stress/contact
   LONG_RANKS 1 CASES critical-dense-and-loose critical-pressure-and-volume)
 
+# press/wall
+add_cases(press/wall-analytic cases/press_wall_analytic.py LABEL case STYLES press/wall RANKS 1 LONG_RANKS 2 CASES
+  automatic-gain-gives-way automatic-gain-of-hooke from-below-along-x along-y clipped)
+add_cases(press/wall-analytic cases/press_wall_analytic.py LABEL case STYLES press/wall RANKS 1 2 CASES
+  automatic-gain-presses given-gain)
+add_cases(press/wall-bed cases/press_wall.py LABEL case STYLES press/wall RANKS 1 2 LONG_RANKS 4 CASES
+  holds-spheres restarted restarted-neutral)
+add_cases(press/wall-bed cases/press_wall.py LABEL case STYLES press/wall RANKS 1 LONG_RANKS 2 CASES
+  holds-spheroids holds-hooke stable-every-step stable-rarely stable-bouncing stable-damped
+  target-follows-a-variable counts-time group)
+add_cases(press/wall-bed cases/press_wall.py LABEL case STYLES press/wall RANKS 2 LONG_RANKS 4 CASES same-on-ranks)
+add_cases(press/wall-bed cases/press_wall.py LABEL case STYLES press/wall energy/ledger RANKS 1 LONG_RANKS 2 CASES
+  energy)
+
 # nve/spheroid
 add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid CASES
   flows-as-host-0.5 boxy-grains)
@@ -578,7 +592,7 @@ set(with_outputs stress/contact fabric contact/direction contact/surface contact
   wall/contact wall/triangle
   contact/force packing
   displacement/shear dissipation energy/ledger fluctuation layering nematic velocity/correlation velocity/memory
-  property/atom press/strain)
+  property/atom press/strain press/wall)
 add_cases(every-style-outputs cases/outputs_declared.py LABEL case STYLES outputs ${with_outputs} RANKS 1 2 CASES every-number)
 add_cases(every-style-outputs cases/outputs_declared.py LABEL case STYLES outputs ${with_outputs} CASES
   norm json-is-made pages declared-in-words)

@@ -3,7 +3,7 @@ set(styles_with_keywords stress/contact nematic contact/grain contact/solver ene
   contact/surface contact/direction contact/local fluctuation layering velocity/correlation velocity/memory
   wall/contact wall/triangle
   contact/force packing
-  displacement/shear press/strain nve/spheroid gran/insitu)
+  displacement/shear press/strain press/wall nve/spheroid gran/insitu)
 set(keywords ${CMAKE_CURRENT_SOURCE_DIR}/errors/keywords.py)
 foreach(style IN LISTS styles_with_keywords)
   string(REPLACE / - case ${style})
@@ -51,6 +51,9 @@ add_cases(press/strain-refused errors/press_strain.py LABEL error STYLES press/s
 add_cases(press/strain-refused errors/press_strain.py LABEL error STYLES press/strain RANKS 1 LONG_RANKS 2 CASES
   target-variable-negative orthogonal-box)
 add_cases(press/strain-refused errors/press_strain.py LABEL error STYLES press/strain RANKS 1 2 CASES wall-on-the-axis)
+add_cases(press/wall-refused errors/press_wall.py LABEL error STYLES press/wall RANKS 1 2 CASES second-mover grains)
+add_cases(press/wall-refused errors/press_wall.py LABEL error STYLES press/wall RANKS 1 LONG_RANKS 2 CASES
+  mesh speed box leaves-the-box pair unknown-model variables)
 set(recorded displacement/shear grain/record)
 add_cases(field-refused errors/field.py LABEL error STYLES field RANKS 1 LONG_RANKS 2 CASES
   numbers too-many-cells quantities bounds kernels rings choices two-dimensions)
@@ -158,7 +161,7 @@ add_cases(layering+velocity/correlation-not-finite errors/not_finite.py LABEL er
   contact-surface-ellipsoid contact-force packing)
 
 # Restart files of other versions
-set(states run/guard setup/memory grain/record ledger/record press/strain)
+set(states run/guard setup/memory grain/record ledger/record press/strain press/wall)
 foreach(style IN LISTS states)
   add_cases(read_restart errors/restart_versions.py LABEL error STYLES read_restart ${style} CASES
     ${style}-version ${style}-size ${style}-without-a-version)

@@ -75,7 +75,6 @@ struct FixPressWall::Impl {
   grainscope::ContactObserver *observer = nullptr;
 
   double toward;         // where the grains are, along the axis: 1 or -1; 0: not known yet
-  bool ready = false;    // it was set up
   PlateResponse now;     // this rank's sums of the last evaluation
   PlateResponse window;  // the same since the last input, over the area
   double window_steps = 0.0;
@@ -141,7 +140,6 @@ void FixPressWall::post_create() {
 
 void FixPressWall::init() {
   Impl &my = *impl_;
-  my.ready = false;
   my.mesh.find(this);
   FixMoveMesh::init();
   my.settings.target.init();
@@ -162,7 +160,6 @@ void FixPressWall::setup(int) {
   find_grains();
   set_limit();
   evaluate_target();
-  impl_->ready = true;
 }
 
 /** That of the box has no meaning where its faces follow the grains or lean. */
@@ -259,7 +256,6 @@ void FixPressWall::add_contacts(grainscope::ContactSpan contacts) {
 
 void FixPressWall::initial_integrate(int) {
   Impl &my = *impl_;
-  if (!my.ready) Arguments(lmp, name).fail("was not set up: do not use 'pre no' in the first run with it");
   const double step = my.velocity * update->dt;
   my.mesh.move(step, this);
   my.mesh.set_velocity(my.velocity);

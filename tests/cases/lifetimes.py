@@ -11,6 +11,7 @@ from catalogue import everything
 from deck import Deck, dump_grains, shear
 from memory import NOTED, SANITIZED, require_flat, watched_run
 from packing import dense_packing
+from plates import bed, plated
 from run import run
 
 # Pages come and go with the host's and the C library's own buffers. What is less, the leak checker of the asan preset
@@ -44,6 +45,7 @@ FIXES = [
     "wall/gran model hertz tangential history surface ellipsoid primitive type 1 zplane -2.0 "
     "allow_special_domain_periodic yes",
 ]
+PLATES = ["press/wall mesh plate axis z target 2e4 area box every/step 5"]
 MADE_BY_OTHERS = {"grain/record", "ledger/record", "run/guard", "setup/memory"}
 PAIRS = [
     "surface ellipsoid",
@@ -57,6 +59,7 @@ HOST_COMPUTES, HOST_FIXES = ["ke", "stress/atom", "coord/atom 2.0", "reduce sum 
     "nve/superquadric",
     "deform 1 xy erate 0.02 remap v",
 ]
+HOST_PLATES = ["move/mesh mesh plate linear 0 0 0"]
 
 
 def packed():
@@ -66,6 +69,10 @@ def packed():
         extra="ledger on tangential_damping off",
         body=["variable strain equal 0.02*step*dt", "variable held equal 2e4", "compute cells all field grid 1 4 1"],
     )
+
+
+def under_a_plate():
+    return plated(bed(across=3, layers=2))
 
 
 def made(kind, style):
@@ -104,35 +111,36 @@ def rounds(kind, style, times, ran):
     return ([*make, *use, *leave, *remove] * (times // 10) + [NOTED]) * 10
 
 
-def grown(kind, styles, times, ran, ranks):
+def last_run(deck):
+    """What follows: the grains of a flow, or of a bed."""
+    return [*([] if deck.boundary == "p p f" else [shear(0.02)]), *dump_grains(deck.packing, 50), "run 50"]
+
+
+def grown(kind, styles, times, ran, ranks, start):
     """{style: kilobytes per rank: ten rows}, all in one process, and the grains after a run that follows."""
-    deck = packed()
+    deck = start()
     deck.body += [line for style in styles for line in rounds(kind, style, times, ran)]
     deck.body += [
         *(made("pair", "gran/insitu " + deck.model())[0] if kind == "pair" else []),
-        shear(0.02),
-        *dump_grains(deck.packing, 50),
-        "run 50",
+        *last_run(deck),
     ]
     result, kilobytes = watched_run(deck, ranks)
     return {style: kilobytes[10 * k : 10 * k + 10] for k, style in enumerate(styles)}, result.dump("grains.dump")
 
 
-def flat(kind, styles, host_styles, times, ran=False):
+def flat(kind, styles, host_styles, times, ran=False, start=packed):
     """Ours stay flat, the host's are printed for comparison; what follows is as if there had been nothing."""
 
     def case(ranks):
-        theirs, _ = grown(kind, host_styles, times, ran, ranks)
+        theirs, _ = grown(kind, host_styles, times, ran, ranks, start)
         for style, kilobytes in theirs.items():
             print(f"the host's {style}: {(kilobytes.max(axis=0) - kilobytes[0]).astype(int)} kB more at most")
         host = max(float((k.max(axis=0) - k[0]).max()) for k in theirs.values())
-        ours, after = grown(kind, styles, times, ran, ranks)
+        ours, after = grown(kind, styles, times, ran, ranks, start)
         for style, kilobytes in ours.items():
             require_flat(kilobytes, host + ALLOWED, style)
-        deck = packed()
-        alone = run(
-            replace(deck, body=[*deck.body, shear(0.02), *dump_grains(deck.packing, 50), "run 50"]), ranks
-        ).dump("grains.dump")
+        deck = start()
+        alone = run(replace(deck, body=[*deck.body, *last_run(deck)]), ranks).dump("grains.dump")
         if not ran:
             return require_same_snapshots(after, alone, f"after {times} rounds against none")
         for name in (
@@ -150,7 +158,10 @@ def flat(kind, styles, host_styles, times, ran=False):
 
 def every_style_is_here(ranks):
     """A style that is added must be added to these lists."""
-    here = {kind: {style.split()[0] for style in styles} for kind, styles in (("Compute", COMPUTES), ("Fix", FIXES))}
+    here = {
+        kind: {style.split()[0] for style in styles}
+        for kind, styles in (("Compute", COMPUTES), ("Fix", FIXES + PLATES))
+    }
     here["Fix"] |= MADE_BY_OTHERS
     for header in (Path(os.environ["GRAINSCOPE_SOURCE"]) / "src").rglob("*.h"):
         for kind, style in re.findall(r"^(Compute|Fix)Style\(([^,]+),", header.read_text(), re.M):
@@ -169,6 +180,7 @@ CASES = {
     "every-style-is-here": every_style_is_here,
     "computes-1000-times": flat("compute", COMPUTES, HOST_COMPUTES, 1000),
     "fixes-1000-times": flat("fix", FIXES, HOST_FIXES, 1000),
+    "plates-1000-times": flat("fix", PLATES, HOST_PLATES, 1000, start=under_a_plate),
     "pair-styles-1000-times": flat("pair", pairs("gran/insitu"), pairs("gran"), 1000),
     # The host's own class for these loses its parts, 1 kB each time: no more than that.
     "pair-styles-not-compiled-1000-times": flat(
@@ -176,6 +188,7 @@ CASES = {
     ),
     "computes-asked-100-times": flat("compute", COMPUTES, HOST_COMPUTES, 100, True),
     "fixes-run-100-times": flat("fix", FIXES, HOST_FIXES, 100, True),
+    "plates-run-100-times": flat("fix", PLATES, HOST_PLATES, 100, True, under_a_plate),
     "pair-styles-run-200-times": flat("pair", pairs("gran/insitu"), pairs("gran"), 200, True),
 }
 

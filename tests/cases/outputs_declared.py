@@ -10,58 +10,52 @@ import numpy as np
 
 from case import main, require, require_equal
 from columns import outputs
-from deck import Deck, thermo
-from make_columns import COMMANDS, FILE, kind_of, made
-from packing import dense_packing
+from deck import thermo
+from make_columns import ALL, FILE, decks, kind_of, made
 from run import run
 
 SOURCE = Path(os.environ.get("GRAINSCOPE_SOURCE", Path(__file__).resolve().parents[2]))
-PACKING = dense_packing(1.5)
 
 
 def everything(norm="no"):
-    """A deck with all styles, their outputs named, and thermo of every number both ways."""
-    lines, both = ["variable strain equal 0.02*step*dt"], []
-    for k, (style, keywords) in enumerate(COMMANDS.items()):
-        lines += [f"{kind_of(style)} it{k} all {style} {keywords}", f"outputs it{k}"]
-        own = outputs(style)
-        names = own.names("vector") + [
-            one["name"] for one in own.outputs("scalar") if one["name"] not in own.names("vector")
-        ]
-        both += [(f"v_it{k}_{name}", own.word(f"it{k}", name), style, name) for name in names]
-    words = [word for named, counted, *_ in both for word in (named, counted)]
-    made = Deck(
-        PACKING,
-        surface="ellipsoid",
-        extra="ledger on tangential_damping off",
-        body=[*lines, *thermo(2, *words), f"thermo_modify norm {norm}", "run 4"],
-    )
-    return made, both
+    """Decks with all styles, their outputs named, and thermo of every number both ways."""
+    for deck, commands in decks():
+        both = []
+        for k, (style, keywords) in enumerate(commands.items()):
+            deck.body += [f"{kind_of(style)} it{k} all {style} {keywords}", f"outputs it{k}"]
+            own = outputs(style)
+            names = own.names("vector") + [
+                one["name"] for one in own.outputs("scalar") if one["name"] not in own.names("vector")
+            ]
+            both += [(f"v_it{k}_{name}", own.word(f"it{k}", name), style, name) for name in names]
+        words = [word for named, counted, *_ in both for word in (named, counted)]
+        deck.body += [*thermo(2, *words), f"thermo_modify norm {norm}", "run 4"]
+        yield deck, both
 
 
 def every_number(ranks):
     """Of every style, by name and by index."""
-    text, both = everything()
-    table = run(text, ranks).thermo()[-1]
-    require(len(both) > 150, f"only {len(both)} numbers")
-    for named, counted, *_ in both:
-        require_equal(table[named], table[counted], named)
-    moved = [named for named, *_ in both if np.any(table[named] != 0.0)]
-    require(len(moved) > 100, f"only {len(moved)} of them are not 0")
+    numbers = moved = 0
+    for deck, both in everything():
+        table = run(deck, ranks).thermo()[-1]
+        for named, counted, *_ in both:
+            require_equal(table[named], table[counted], named)
+            numbers += 1
+            moved += bool(np.any(table[named] != 0.0))
+    require(numbers > 150, f"only {numbers} numbers")
+    require(moved > 100, f"only {moved} of them are not 0")
 
 
 def norm(ranks):
     """What LIGGGHTS divides by the number of grains is what is declared extensive; what is whole stays."""
-    text, both = everything()
-    plain = run(text, ranks).thermo()[-1]
-    text, _ = everything("yes")
-    divided = run(text, ranks).thermo()[-1]
-    grains = len(PACKING.grains)
-    for _, counted, style, name in both:
-        own = outputs(style)
-        one = next(o for o in own.outputs("vector") + own.outputs("scalar") if o["name"] == name)
-        by = grains if one["extensive"] and not one["whole"] and kind_of(style) == "compute" else 1
-        require_equal(divided[counted] * 1.0, plain[counted] / by, f"{style} {name}")
+    for (deck, both), (by_number, _) in zip(everything(), everything("yes")):
+        plain, divided = run(deck, ranks).thermo()[-1], run(by_number, ranks).thermo()[-1]
+        grains = len(deck.packing.grains)
+        for _, counted, style, name in both:
+            own = outputs(style)
+            one = next(o for o in own.outputs("vector") + own.outputs("scalar") if o["name"] == name)
+            by = grains if one["extensive"] and not one["whole"] and kind_of(style) == "compute" else 1
+            require_equal(divided[counted] * 1.0, plain[counted] / by, f"{style} {name}")
 
 
 def json_is_made(ranks):
@@ -111,7 +105,7 @@ def extent(one):
 def pages(ranks):
     """The tables of the pages name what the program names, with its units, all of it."""
     bad = []
-    for style in COMMANDS:
+    for style in ALL:
         own = outputs(style)
         known = {
             (kind, one["index"], one["name"], one["unit"], extent(one))
@@ -126,7 +120,7 @@ def pages(ranks):
 
 def declared_in_words(ranks):
     """Every output has a name that a variable may have, a unit and a meaning."""
-    for style in COMMANDS:
+    for style in ALL:
         own = outputs(style)
         for kind in ("scalar", "vector", "array", "per grain", "local"):
             for one in own.outputs(kind):

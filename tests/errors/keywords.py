@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Every keyword of every style: missing, of another type, out of range on either side, nan, infinite, empty, twice,
 unknown. What is refused is made from this table; so is what is taken, at the limits."""
+from dataclasses import replace
+
 from bad_input import Keyword, Kind, NOT_NUMBERS, Style, choice, even, number, require_all_refused, whole
 from case import main
 from deck import Deck
 from packing import Grain, Packing
+from plates import plated
 from run import run
 
 PLANE = Keyword("plane", choice("xy", "xz", "yz"))
@@ -209,6 +212,52 @@ PRESS = Style(
     ],
 )
 NO_WALLS = "there are none, define it after fix wall/gran"
+NEEDED_BY_A_PLATE = {"mesh": "plate", "axis": "z", "target": "1e5", "area": "4", "every/step": "5"}
+
+
+def plate(**changes):
+    words = {**NEEDED_BY_A_PLATE, **{k.replace("_", "/"): v for k, v in changes.items()}}
+    return "fix press all press/wall " + " ".join(f"{k} {v}" for k, v in words.items() if v)
+
+
+PLATE = Style(
+    "fix press/wall",
+    "fix press all press/wall",
+    [
+        Keyword("axis", choice("x", "y", "z")),
+        Keyword("target", number("a pressure > 0 or a variable v_name", ("1e-300", "1e300", "v_strain"), ("0", "-3"))),
+        Keyword("area", number("box or an area > 0", ("box", "1e-9", "1e9"), ("0", "-1", "BOX"))),
+        Keyword("every/time", number("a time > 0", ("1e-9", "1e9"), ("0", "-1"))),
+        Keyword("every/step", number("a whole number of steps >= 1", ("1", "1e9"), ("0", "0.5", "2.5", "-1"))),
+        Keyword("toward", Kind("+ or -", ("+", "-"), ("q", "", "nan", "1", "++"))),
+        Keyword("gain", number("auto or a velocity per pressure >= 0", ("auto", "0"), ("-1e-9", "AUTO"))),
+        Keyword("limit", number("a distance > 0", ("1e-9", "1e9"), ("0", "-0.1"))),
+        Keyword("maxrate", number("a velocity > 0", ("1e-9", "1e9"), ("0", "-1"))),
+    ],
+    needed=NEEDED_BY_A_PLATE,
+    before=BOX,
+    order=("mesh", "axis", "target", "area", "every/time", "every/step", "toward", "gain", "limit", "maxrate"),
+    more=[
+        (plate(mesh=None), "'mesh' and the ID of a fix mesh/surface are required"),
+        (plate(axis=None), "'axis x', 'axis y' or 'axis z' is required"),
+        (plate(target=None), "'target' and a pressure are required"),
+        (plate(area=None), "'area' and an area, or 'area box', is required"),
+        (plate(every_step=None), "'every/time' or 'every/step' is required"),
+        (
+            plate() + " every/time 3",
+            "'every/time' and 'every/step' exclude each other, got a second one: 'every/time'",
+        ),
+        (
+            plate(),
+            f"'mesh' must name a mesh of a fix wall/gran, got 'plate': {NO_WALLS}",
+        ),
+        (
+            "fix press all press/wall mesh",
+            "expected the ID of a fix mesh/surface after 'mesh', got the end of the command",
+        ),
+        (plate() + " mesh lid", "'mesh' is given twice"),
+    ],
+)
 NAMES_OF_WALLS = [
     ("compute c all wall/contact walls", "expected names of walls after 'walls', got the end of the command"),
     ("compute c all wall/contact walls about 0 0 0", "expected names of walls after 'walls', got 'about'"),
@@ -356,6 +405,7 @@ STYLES = [
         order=("start", "strain", "flow", "plane", "region"),
     ),
     PRESS,
+    PLATE,
     Style("fix nve/spheroid", "fix spheroid all nve/spheroid", before=BOX),
     Style(
         "pair_style gran/insitu",
@@ -400,7 +450,11 @@ def taken(style):
     def case(ranks):
         grain = Grain((5.0, 5.0, 5.0), (1.0, 1.0, 1.5))
         commands = [line for command in style.taken() for line in (command, *undone(command))]
-        run(Deck(Packing((20.0, 20.0, 20.0), [grain]), body=["variable strain equal step", *commands]), ranks)
+        deck = Deck(Packing((20.0, 20.0, 20.0), [grain]))
+        if style is PLATE:
+            deck = plated(replace(deck.packing, triclinic=False), boundary="f f f")
+        deck.body += ["variable strain equal step", *commands]
+        run(deck, ranks)
         print(f"{len(commands) // 2} commands taken")
 
     return case

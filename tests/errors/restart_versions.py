@@ -10,6 +10,7 @@ from catalogue import DISPLACEMENT, strain_lines
 from columns import outputs
 from deck import Deck, thermo
 from packing import dense_packing
+from plates import bed, plated, press
 from refusal import require_refused
 from run import run
 
@@ -20,6 +21,7 @@ FIXES = {
     "grain/record": "moved_record",
     "ledger/record": "ledger_ledger",
     "press/strain": "press",
+    "press/wall": "press",
 }
 # of the states that have changed since they have versions
 VERSIONS = {"grain/record": 2, "ledger/record": 3, "press/strain": 2}
@@ -27,7 +29,9 @@ MARK = b"grs stat"
 SEAL = struct.Struct("<16sQII")  # mark, length, checksum, format
 
 
-def measured():
+def measured(style=""):
+    if style == "press/wall":
+        return plated(bed(across=3, layers=2)), [press(1e4)]
     deck = Deck(dense_packing(1.5), surface="ellipsoid", extra="setup neutral ledger on")
     lines = [*strain_lines(0.05), PRESS, DISPLACEMENT.define("all"), "compute ledger all energy/ledger"]
     balance = outputs("energy/ledger").word("ledger", "residual_relative")
@@ -50,15 +54,16 @@ def with_number(whole, style, offset, value):
     return resealed(bytes(body), whole)
 
 
-def written(ranks):
-    deck, lines = measured()
+def written(ranks, style=""):
+    deck, lines = measured(style)
+    lines = [*deck.body, *lines]
     file = run(replace(deck, body=[*lines, "run 5", "write_restart now.restart"]), ranks).folder / "now.restart"
     return file, file.read_bytes(), deck.restarted(file, [*lines, "run 1"])
 
 
 def refused(style, offset, value, words):
     def case(ranks):
-        file, whole, resume = written(ranks)
+        file, whole, resume = written(ranks, style)
         file.write_bytes(with_number(whole, style, offset, value))
         require_refused(resume, ranks, f"fix {FIXES[style]} ({style}): the restart file {words}")
 
@@ -67,11 +72,12 @@ def refused(style, offset, value, words):
 
 def same_file_is_read(ranks):
     """What the other cases change is read when it is written again with the number that it had."""
-    file, whole, resume = written(ranks)
-    for style in FIXES:
-        file.write_bytes(with_number(whole, style, 8, VERSIONS.get(style, 1)))
-        require(file.read_bytes() == whole, f"the file has another version of {style}, or another seal")
-    run(resume, ranks)
+    for scene, styles in (("", [style for style in FIXES if style != "press/wall"]), ("press/wall", ["press/wall"])):
+        file, whole, resume = written(ranks, scene)
+        for style in styles:
+            file.write_bytes(with_number(whole, style, 8, VERSIONS.get(style, 1)))
+            require(file.read_bytes() == whole, f"the file has another version of {style}, or another seal")
+        run(resume, ranks)
 
 
 def former_seal_refused(ranks):

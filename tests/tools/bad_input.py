@@ -86,7 +86,7 @@ class Style:
     others: bool = False  # other keywords are the host's
 
     def command(self, *words, leave_out=""):
-        needed = [f"{k} {v}" for k, v in self.needed.items() if k != leave_out.split("/")[0]]
+        needed = [f"{k} {v}" for k, v in self.needed.items() if k.split("/")[0] != leave_out.split("/")[0]]
         return " ".join([self.line, *needed, *words])
 
     def names(self):

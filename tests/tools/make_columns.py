@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""tools/columns.json from the program: one run in which every style of ours says its outputs.
+"""tools/columns.json from the program: runs in which every style of ours says its outputs.
 
 Usage: make_columns.py            # prints it
        make_columns.py --write    # and writes tools/columns.json
@@ -11,6 +11,7 @@ import sys
 
 from deck import Deck
 from packing import dense_packing
+from plates import bed, plated
 from run import run
 
 FILE = Path(__file__).resolve().parents[2] / "tools" / "columns.json"
@@ -39,7 +40,10 @@ COMMANDS = {
     "property/atom": "shapex shapey shapez quatw quati quatj quatk blockiness1 blockiness2",
     "press/strain": "axis y target 2e4 shear xy rate 0.02 every 1e-3",
 }
-FIXES = ("press/strain",)
+# Where a plate is; fix press/strain has none in its box.
+UNDER_A_PLATE = {"press/wall": "mesh plate axis z target 2e4 area box every/step 5"}
+ALL = {**COMMANDS, **UNDER_A_PLATE}
+FIXES = ("press/strain", "press/wall")
 
 
 def kind_of(style):
@@ -71,19 +75,21 @@ def tables(text):
     return found
 
 
+def decks():
+    """(a deck of its scene, the commands that are for it) each."""
+    surface = {"surface": "ellipsoid", "extra": "ledger on tangential_damping off"}
+    yield Deck(dense_packing(1.5), body=["variable strain equal 0.02*step*dt"], **surface), COMMANDS
+    yield plated(bed(across=3, layers=2)), UNDER_A_PLATE
+
+
 def made():
-    packing = dense_packing(1.5)
-    deck = Deck(
-        packing,
-        surface="ellipsoid",
-        extra="ledger on tangential_damping off",
-        body=["variable strain equal 0.02*step*dt"],
-    )
-    IDs = {style: f"it{k}" for k, style in enumerate(COMMANDS)}
-    for style, keywords in COMMANDS.items():
-        deck.body += [f"{kind_of(style)} {IDs[style]} all {style} {keywords}", f"outputs {IDs[style]}"]
-    said = tables(run(deck).file("log.liggghts").read_text())
-    return {style: {"kind": kind_of(style), **said[IDs[style]]} for style in sorted(COMMANDS)}
+    IDs = {style: f"it{k}" for k, style in enumerate(ALL)}
+    said = {}
+    for deck, commands in decks():
+        for style, keywords in commands.items():
+            deck.body += [f"{kind_of(style)} {IDs[style]} all {style} {keywords}", f"outputs {IDs[style]}"]
+        said.update(tables(run(deck).file("log.liggghts").read_text()))
+    return {style: {"kind": kind_of(style), **said[IDs[style]]} for style in sorted(ALL)}
 
 
 def text_of(columns):

@@ -8,6 +8,7 @@ import tempfile
 
 from deck import Deck, Material
 from packing import dense_packing
+from plates import bed, plated
 from run import Failure, run
 
 
@@ -21,6 +22,13 @@ def template():
     packing = dense_packing(1.5, types=2)
     deck = Deck(packing, material=Material(friction=(0.4, 0.3, 0.3, 0.2)))
     deck.body = ["group flow type 1", "variable rate equal 0.05", "variable pressure equal 5e4"]
+    return deck
+
+
+def under_a_plate():
+    """For blocks that move the mesh `plate`: where it is, above a bed."""
+    deck = plated(bed(style="superquadric", shape=(1.0, 1.0, 1.5)))
+    deck.body += ["variable pressure equal 5e4"]
     return deck
 
 
@@ -45,7 +53,8 @@ def main(page):
         os.environ["GRAINSCOPE_SCRATCH"] = scratch
         for block in found:
             print(f"running:\n{block}\n")
-            run("\n".join(lines_of(block, template())) + "\n")
+            deck = under_a_plate() if "mesh plate" in block else template()
+            run("\n".join(lines_of(block, deck)) + "\n")
 
 
 if __name__ == "__main__":

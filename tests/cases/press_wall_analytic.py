@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""fix press/wall on a plate whose pressure is known: a sphere that nobody integrates touches it. Their overlap is
+R - s, s the distance of the plate, which parts at V: F = 4/3 E* sqrt(R d) d - gamma_n V (Hertz). The controller's
+recursion is then followed by hand."""
+import math
+
+import numpy as np
+
+from case import main, require, require_close
+from columns import outputs
+from deck import POISSON, YOUNG, Deck, thermo
+import meshes
+from packing import Grain, Packing
+from run import run
+
+F_PRESS = outputs("press/wall").of("press")
+
+EDGE, HALF, GAP, STEPS = 8.0, 3.0, 0.99, 600
+EVERY, RESTITUTION, BETA = 5, 0.5, 0.5
+MODULUS = YOUNG / (2 * (1 - POISSON**2))
+
+
+class Contact:
+    """What a sphere of radius 1 says to a plate at this distance from its centre, which parts from it at `speed`.
+    Hooke's stiffness is the host's, for a characteristic velocity of 1: k = 16/15 sqrt(R*) E* (15 m*/(16 sqrt(R*)
+    E*))^(1/5), with gamma = sqrt(4 m* k/(1 + (pi/ln e)^2)). The plate's mass and radius are infinite."""
+
+    def __init__(self, law, distance, speed, mass):
+        overlap, log_e = max(1.0 - distance, 0.0), math.log(RESTITUTION)
+        if law == "hertz":
+            root = math.sqrt(overlap)
+            elastic, self.tangent = 4.0 / 3.0 * MODULUS * root * overlap, 2.0 * MODULUS * root
+            self.damping = (
+                -2.0
+                * math.sqrt(5.0 / 6.0)
+                * log_e
+                / math.hypot(log_e, math.pi)
+                * math.sqrt(2.0 * MODULUS * root * mass)
+            )
+        else:
+            self.tangent = 16.0 / 15.0 * MODULUS * (15.0 * mass / (16.0 * MODULUS)) ** 0.2
+            elastic = self.tangent * overlap
+            self.damping = math.sqrt(4.0 * mass * self.tangent / (1.0 + (math.pi / log_e) ** 2))
+        self.force = elastic - self.damping * speed
+
+
+def by_hand(law, target, gain, mass, dt, area, limit):
+    """Distance, speed and averaged pressure after every step, and how many inputs were clipped. An input on the first
+    step, then every EVERY steps, from the mean since the last."""
+    distance, speed, pressure, clipped, window = GAP, 0.0, 0.0, 0, []
+    history = [(distance, speed, pressure)]
+    for step in range(1, STEPS + 1):
+        distance += speed * dt
+        window.append(Contact(law, distance, speed, mass))
+        if step == 1 or step % EVERY == 0:
+            force, stiffness, damping = (
+                np.mean([getattr(c, name) for c in window]) for name in ("force", "tangent", "damping")
+            )
+            pressure, window = force / area, []
+            kp = BETA * area / (damping + stiffness * EVERY * dt) if gain == "auto" else gain
+            wanted, bound = kp * (pressure - target), limit / (EVERY * dt)
+            speed = min(max(wanted, -bound), bound)
+            clipped += abs(wanted) > bound
+        history.append((distance, speed, pressure))
+    return np.array(history).T, clipped
+
+
+def plate(axis, side):
+    """Across the axis, at the distance GAP beyond a sphere in the middle."""
+    corner, one, other = np.full(3, -HALF), np.zeros(3), np.zeros(3)
+    corner[axis] = side * GAP
+    one[(axis + 1) % 3] = other[(axis + 2) % 3] = 2.0 * HALF
+    return meshes.rectangle(corner + 0.3 * one / HALF, one, other)  # the sphere is not on a diagonal
+
+
+def follows_by_hand(gain, change, law="hertz", where="z-", area="box", limit=0.5):
+    """`change`: target over the pressure at the start. `where`: axis, and the side of the sphere on which the plate
+    is not."""
+
+    def case(ranks):
+        axis, toward = "xyz".index(where[0]), 1.0 if where[1] == "+" else -1.0
+        grain = Grain((0.0, 0.0, 0.0))
+        packing = Packing((EDGE,) * 3, [grain], atom_style="sphere", triclinic=False, origin=(-0.5 * EDGE,) * 3)
+        deck = Deck(packing, normal=law, boundary="f f f")
+        squared = EDGE**2 if area == "box" else float(area)
+        target = change * Contact(law, GAP, 0.0, grain.mass()).force / squared
+        deck.body = [
+            "unfix integrate",
+            "fix plate all mesh/surface file plate.stl type 1",
+            f"fix wall all wall/gran {deck.model()} mesh n_meshes 1 meshes plate",
+            f"fix press all press/wall mesh plate axis {where[0]} target {target!r} area {area} every/step {EVERY} "
+            f"gain {gain} limit {limit!r}",
+            *thermo(1, "f_press", *F_PRESS.vector()),
+            f"run {STEPS}",
+        ]
+        table = run(deck, ranks, folder=meshes.folder_with(plate=plate(axis, -toward))).thermo()[0]
+        found = {name: table[F_PRESS[name]] for name in F_PRESS.names("vector")}
+        (distance, speed, pressure), clipped = by_hand(law, target, gain, grain.mass(), deck.dt(), squared, limit)
+        # Overlaps are differences of lengths a hundred times as large.
+        require_close(-toward * found["position"], distance, 1e-13, "distance of the plate", 1.0)
+        require_close(-toward * found["travel"], distance - GAP, 1e-12, "its way", 0.01)
+        require_close(-toward * found["V"], speed, 1e-9, "its velocity")
+        require_close(table["f_press"], pressure, 1e-9, "averaged pressure")
+        require_close(found["error"][1:], pressure[1:] / target - 1.0, 1e-9, "relative error", 1.0)
+        require(found["clipped"][-1] == clipped, f"{found['clipped'][-1]} inputs were clipped, by hand {clipped}")
+        require(found["inputs"][-1] == 1 + STEPS // EVERY, f"{found['inputs'][-1]} inputs")
+        require_close(pressure[-1], target, 1e-3, "the recursion by hand ends at the target")
+
+    return case
+
+
+CASES = {
+    "automatic-gain-presses": follows_by_hand("auto", 2.0),
+    "automatic-gain-gives-way": follows_by_hand("auto", 0.5),
+    "automatic-gain-of-hooke": follows_by_hand("auto", 1.5, "hooke"),
+    "from-below-along-x": follows_by_hand("auto", 2.0, where="x+", area="7.5"),
+    "along-y": follows_by_hand("auto", 0.7, where="y-", area="7.5"),
+    "given-gain": follows_by_hand(2e-3, 1.5, area="20.0"),
+    "clipped": follows_by_hand("auto", 3.0, limit=1e-3),
+}
+
+if __name__ == "__main__":
+    main(CASES)
