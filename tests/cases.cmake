@@ -208,7 +208,7 @@ add_cases(press/strain-runs cases/stress_path_runs.py LABEL case STYLES press/st
 
 # press/wall
 add_cases(press/wall-analytic cases/press_wall_analytic.py LABEL case STYLES press/wall RANKS 1 LONG_RANKS 2 CASES
-  automatic-gain-gives-way automatic-gain-of-hooke from-below-along-x along-y clipped)
+  automatic-gain-gives-way automatic-gain-of-hooke from-below-along-x along-y clipped two-dimensions in-cgs)
 add_cases(press/wall-analytic cases/press_wall_analytic.py LABEL case STYLES press/wall RANKS 1 2 CASES
   automatic-gain-presses given-gain)
 add_cases(press/wall-bed cases/press_wall.py LABEL case STYLES press/wall RANKS 1 2 LONG_RANKS 4 CASES
@@ -426,7 +426,7 @@ add_cases(every-style-builds numerics/builds.py LABEL long STYLES ALL RANKS 1 2 
 add_cases(every-style-lifetimes cases/lifetimes.py LABEL case STYLES ALL CASES every-style-is-here)
 add_cases(every-style-lifetimes cases/lifetimes.py LABEL case STYLES ALL LONG_RANKS 1 CASES
   computes-1000-times fixes-1000-times pair-styles-1000-times pair-styles-not-compiled-1000-times
-  computes-asked-100-times fixes-run-100-times pair-styles-run-200-times)
+  computes-asked-100-times fixes-run-100-times pair-styles-run-200-times plates-1000-times plates-run-100-times)
 add_cases(every-style-lifetimes cases/lifetimes.py LABEL long STYLES ALL RANKS 2 CASES
   computes-asked-100-times fixes-run-100-times)
 add_cases(every-style-soak cases/soak.py LABEL case STYLES ALL LONG_RANKS 1 2 CASES spheroids-over-1e4-steps)

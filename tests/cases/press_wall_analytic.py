@@ -8,16 +8,17 @@ import numpy as np
 
 from case import main, require, require_close
 from columns import outputs
-from deck import POISSON, YOUNG, Deck, thermo
+from deck import POISSON, YOUNG, Deck, Material, thermo
 import meshes
-from packing import Grain, Packing
+from packing import DENSITY, Grain, Packing
 from run import run
 
 F_PRESS = outputs("press/wall").of("press")
 
 EDGE, HALF, GAP, STEPS = 8.0, 3.0, 0.99, 600
 EVERY, RESTITUTION, BETA = 5, 0.5, 0.5
-MODULUS = YOUNG / (2 * (1 - POISSON**2))
+HARD = 10.0 * YOUNG  # LIGGGHTS refuses softer grains with units cgs
+MODULUS = HARD / (2 * (1 - POISSON**2))
 
 
 class Contact:
@@ -65,25 +66,37 @@ def by_hand(law, target, gain, mass, dt, area, limit):
     return np.array(history).T, clipped
 
 
-def plate(axis, side):
-    """Across the axis, at the distance GAP beyond a sphere in the middle."""
+def plate(axis, side, dimension):
+    """Across the axis, at the distance GAP beyond a sphere in the middle; in two dimensions upright."""
     corner, one, other = np.full(3, -HALF), np.zeros(3), np.zeros(3)
     corner[axis] = side * GAP
     one[(axis + 1) % 3] = other[(axis + 2) % 3] = 2.0 * HALF
-    return meshes.rectangle(corner + 0.3 * one / HALF, one, other)  # the sphere is not on a diagonal
+    if dimension == 2:
+        corner[2], one[2] = -0.4, 0.8
+    return meshes.rectangle(corner + 0.03 * (one + 2.0 * other), one, other)  # the sphere is not on a diagonal
 
 
-def follows_by_hand(gain, change, law="hertz", where="z-", area="box", limit=0.5):
-    """`change`: target over the pressure at the start. `where`: axis, and the side of the sphere on which the plate
-    is not."""
+def follows_by_hand(gain, change, law="hertz", where="z-", area="box", limit=0.5, dimension=3, units="si"):
+    """`change`: target over the pressure at the start. `where`: axis, and the side of the plate on which the sphere
+    is."""
 
     def case(ranks):
         axis, toward = "xyz".index(where[0]), 1.0 if where[1] == "+" else -1.0
         grain = Grain((0.0, 0.0, 0.0))
-        packing = Packing((EDGE,) * 3, [grain], atom_style="sphere", triclinic=False, origin=(-0.5 * EDGE,) * 3)
-        deck = Deck(packing, normal=law, boundary="f f f")
-        squared = EDGE**2 if area == "box" else float(area)
-        target = change * Contact(law, GAP, 0.0, grain.mass()).force / squared
+        packing = Packing(
+            (EDGE,) * 3,
+            [grain],
+            atom_style="sphere",
+            triclinic=False,
+            origin=(-0.5 * EDGE,) * 3,
+            dimension=dimension,
+        )
+        boundary = "f f f" if dimension == 3 else "f f p"
+        deck = Deck(packing, normal=law, boundary=boundary, units=units, material=Material(young=(HARD,)))
+        # of a disc one unit thick, in two dimensions
+        mass = grain.mass() if dimension == 3 else math.pi * DENSITY
+        squared = EDGE ** (dimension - 1) if area == "box" else float(area)
+        target = change * Contact(law, GAP, 0.0, mass).force / squared
         deck.body = [
             "unfix integrate",
             "fix plate all mesh/surface file plate.stl type 1",
@@ -93,9 +106,10 @@ def follows_by_hand(gain, change, law="hertz", where="z-", area="box", limit=0.5
             *thermo(1, "f_press", *F_PRESS.vector()),
             f"run {STEPS}",
         ]
-        table = run(deck, ranks, folder=meshes.folder_with(plate=plate(axis, -toward))).thermo()[0]
-        found = {name: table[F_PRESS[name]] for name in F_PRESS.names("vector")}
-        (distance, speed, pressure), clipped = by_hand(law, target, gain, grain.mass(), deck.dt(), squared, limit)
+        result = run(deck, ranks, folder=meshes.folder_with(plate=plate(axis, -toward, dimension)))
+        table = result.thermo()[0]
+        found = {name: table[F_PRESS[name]] for name in F_PRESS.own.names("vector")}
+        (distance, speed, pressure), clipped = by_hand(law, target, gain, mass, deck.dt(), squared, limit)
         # Overlaps are differences of lengths a hundred times as large.
         require_close(-toward * found["position"], distance, 1e-13, "distance of the plate", 1.0)
         require_close(-toward * found["travel"], distance - GAP, 1e-12, "its way", 0.01)
@@ -116,6 +130,8 @@ CASES = {
     "from-below-along-x": follows_by_hand("auto", 2.0, where="x+", area="7.5"),
     "along-y": follows_by_hand("auto", 0.7, where="y-", area="7.5"),
     "given-gain": follows_by_hand(2e-3, 1.5, area="20.0"),
+    "two-dimensions": follows_by_hand("auto", 2.0, where="y-", dimension=2),
+    "in-cgs": follows_by_hand("auto", 2.0, units="cgs"),
     "clipped": follows_by_hand("auto", 3.0, limit=1e-3),
 }
 

@@ -17,6 +17,7 @@ sys.path[:0] = [str(ROOT / "tests" / folder) for folder in ("tools", "cases", ".
 from deck import Deck, dump_grains, thermo  # noqa: E402
 from lifetimes import COMPUTES, PAIRS, asked  # noqa: E402
 from packing import dense_packing  # noqa: E402
+from plates import bed, plated, press  # noqa: E402
 from run import binary, count_errors, environment  # noqa: E402
 
 VALGRIND = [
@@ -98,11 +99,18 @@ def walled():
     return moved(wall, packing=replace(dense_packing(1.5), triclinic=False), boundary="p f p", pair="gran")
 
 
+def under_a_plate():
+    deck = plated(bed(across=3, layers=2))
+    deck.body += [press(1e4, "every/step 2"), *dump_grains(deck.packing, 5), "run 10"]
+    return deck
+
+
 DECKS = {
     **{f"compute {style}": measured(style) for style in COMPUTES},
     "fix nve/spheroid": moved("unfix integrate", "fix integrate all nve/spheroid"),
     "fix press/strain": moved(PRESS + " kinetic yes"),
     "fix press/strain of spheres": moved(PRESS, packing=dense_packing(atom_style="sphere")),
+    "fix press/wall": under_a_plate(),
     **{f"pair_style gran/insitu {words}": modelled(words) for words in PAIRS},
     "pair_style gran/insitu, oblate grains": moved(packing=dense_packing(0.5)),
     "pair_style gran/insitu, two sizes and types": moved(packing=dense_packing(1.5, sizes=(1.0, 1.2), types=2)),

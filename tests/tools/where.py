@@ -239,6 +239,19 @@ TABLE = {
         "tilted box": r"press/strain-control-shears-as-fix-deform",
         "other plane": r"press/strain-control-shears-in-(xz|yz)",
     },
+    "press/wall": {
+        "two dimensions": r"press/wall-analytic-two-dimensions",
+        "walls": r"press/wall-bed-holds-spheres",
+        "gravity": r"press/wall-bed-holds-spheres",
+        "several types": NOT,
+        "clumps": NOT,
+        "region, moving": NOT,
+        "region, empty": NOT,
+        "grains leave, come": NOT,
+        "tilted box": refused(r"press/wall-refused-box"),
+        "other plane": r"press/wall-analytic-(along-y|from-below-along-x)",
+        "units": r"press/wall-analytic-in-cgs",
+    },
 }
 
 
