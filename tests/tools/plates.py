@@ -14,12 +14,12 @@ def bed(across=4, layers=4, style="sphere", shape=(0.95, 1.0, 1.0), speed=0.3, s
     """Layers of grains of sizes from shape[0] to 1 on a square lattice, periodic sideways, from z = 0 up. Spheres when
     the style is: then of these sizes; superquadrics have semi-axes size, size, shape[2] size."""
     random = np.random.default_rng(seed)
-    grains = []
+    long = 1.0 if style == "sphere" else shape[2]
+    steps, grains = SPACING * np.array([1.0, 1.0, long]), []
     for cell in np.ndindex(across, across, layers):
         size = float(random.uniform(shape[0], 1.0))
-        x, y, z = SPACING * (np.array(cell) + 0.5)
+        x, y, z = steps * (np.array(cell) + 0.5)
         x += 0.3 * SPACING * (cell[2] % 2)  # so that columns do not stand on each other
-        long = 1.0 if style == "sphere" else shape[2]
         grains.append(
             Grain(
                 (float(x), float(y), float(z)),
@@ -30,7 +30,7 @@ def bed(across=4, layers=4, style="sphere", shape=(0.95, 1.0, 1.0), speed=0.3, s
         )
     edge = across * SPACING
     return Packing(
-        (edge, edge, layers * SPACING + ROOM + 1.0), grains, origin=(0.0, 0.0, -1.0), atom_style=style, triclinic=False
+        (edge, edge, layers * steps[2] + ROOM + 1.0), grains, origin=(0.0, 0.0, -1.0), atom_style=style, triclinic=False
     )
 
 
