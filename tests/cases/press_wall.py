@@ -87,7 +87,7 @@ def same_on_ranks(ranks):
     """A start, contacts and settling are those of one rank."""
     found = []
     for n in (1, ranks):
-        deck = pressed(2e4, "every/step 7", 600, 10, lines=[FALL])
+        deck = pressed(2e4, "every/step 7", 600, 10)
         deck.body[-1:] = [*dump_grains(deck.packing, 600), deck.body[-1]]
         result = run(deck, n)
         found.append((result.thermo()[0], result.dump("grains.dump")[-1][1]))
@@ -106,7 +106,7 @@ def restarted(extra):
 
     def case(ranks):
         first, second = 333, 300
-        deck = pressed(2e4, "every/step 7", first, 10, lines=[FALL], extra=extra)
+        deck = pressed(2e4, "every/step 7", first, 10, extra=extra)
         lines = [*deck.body[:-1], *dump_grains(deck.packing, 50)]
         parts = [f"run {first}", "write_restart half.restart", f"run {second}"]
         through = run(replace(deck, body=[*lines, *parts]), ranks)
@@ -137,7 +137,7 @@ def energy(ranks):
     force, speed = table[NOW] * area(deck), table[VELOCITY]
     # V is that of the coming step; the force on grains is -F along z
     work = -0.5 * dt * ((force[:-1] + force[1:]) * speed[:-1]).sum()
-    require(work > 0.05 * turnover(a), f"the plate did {work:g} of {turnover(a):g}")
+    require(work > 0.02 * turnover(a), f"the plate did {work:g} of {turnover(a):g}")
     # a contact that has opened ends with the velocity that it had: where an input lies between, the ledger's differs
     require_close(a["W_wall"], work, 1e-4, "work of the plate")
 

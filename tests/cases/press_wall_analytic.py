@@ -129,7 +129,7 @@ CASES = {
     "automatic-gain-of-hooke": follows_by_hand("auto", 1.5, "hooke"),
     "from-below-along-x": follows_by_hand("auto", 2.0, where="x+", area="7.5"),
     "along-y": follows_by_hand("auto", 0.7, where="y-", area="7.5"),
-    "given-gain": follows_by_hand(2e-3, 1.5, area="20.0"),
+    "given-gain": follows_by_hand(6e-5, 1.5, area="20.0"),
     "two-dimensions": follows_by_hand("auto", 2.0, where="y-", dimension=2),
     "in-cgs": follows_by_hand("auto", 2.0, units="cgs"),
     "clipped": follows_by_hand("auto", 3.0, limit=1e-3),
