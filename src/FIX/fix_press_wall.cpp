@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 using namespace LAMMPS_NS;
 using grainscope::Arguments;
@@ -62,21 +63,26 @@ class HostWords {
 
 struct FixPressWall::Impl {
   Impl(LAMMPS *lmp, int narg, char **arg)
-      : lmp(lmp), settings(lmp, narg, arg), mesh(lmp, settings.mesh, settings.axis), host(arg, settings.mesh),
+      : settings(lmp, narg, arg), mesh(lmp, settings.mesh, settings.axis), host(arg, settings.mesh),
         intervals(settings.interval), toward(settings.toward) {
     mesh.find(nullptr);
   }
 
-  LAMMPS *lmp;
   grainscope::PressWallSettings settings;
   grainscope::PressedMesh mesh;
   HostWords host;
   grainscope::Intervals intervals;
   grainscope::ContactObserver *observer = nullptr;
 
-  double toward;         // where the grains are, along the axis: 1 or -1; 0: not known yet
-  PlateResponse now;     // this rank's sums of the last evaluation
-  PlateResponse window;  // the same since the last input, over the area
+  double toward;  // where the grains are, along the axis: 1 or -1; 0: not known yet
+  /** One contact. */
+  struct Part {
+    int grain, triangle;
+    PlateResponse response;
+  };
+  std::vector<Part> parts;  // of the last evaluation, on this rank
+  PlateResponse now;        // their sum
+  PlateResponse window;     // the same since the last input, over the area
   double window_steps = 0.0;
   double target = 0.0, travel = 0.0, velocity = 0.0, averaged_pressure = 0.0, inputs = 0.0, clipped = 0.0;
   grainscope::ClippingWatch clipping{name};
@@ -244,14 +250,27 @@ void FixPressWall::evaluate_target() {
 }
 
 void FixPressWall::begin_contacts() {
-  impl_->now = PlateResponse();
+  impl_->parts.clear();
   impl_->pressure_step = -1;
 }
 
 void FixPressWall::add_contacts(grainscope::ContactSpan contacts) {
-  for (const grainscope::Contact &contact : contacts)
-    if (contact.with_wall() && impl_->mesh.has(contact.wall().wall) && (atom->mask[contact.i] & groupbit))
-      impl_->now.add(contact, impl_->settings.axis);
+  for (const grainscope::Contact &contact : contacts) {
+    if (!contact.with_wall() || !impl_->mesh.has(contact.wall().wall) || !(atom->mask[contact.i] & groupbit)) continue;
+    PlateResponse response;
+    response.add(contact, impl_->settings.axis);
+    impl_->parts.push_back({atom->tag[contact.i], contact.wall().triangle, response});
+  }
+}
+
+/** In an order that does not depend on that of triangles, which is another after a restart. */
+void FixPressWall::end_contacts() {
+  std::vector<Impl::Part> &parts = impl_->parts;
+  std::sort(parts.begin(), parts.end(), [](const Impl::Part &one, const Impl::Part &other) {
+    return std::tie(one.grain, one.triangle) < std::tie(other.grain, other.triangle);
+  });
+  impl_->now = PlateResponse();
+  for (const Impl::Part &part : parts) impl_->now.add(part.response, 1.0);
 }
 
 void FixPressWall::initial_integrate(int) {

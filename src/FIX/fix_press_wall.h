@@ -40,6 +40,7 @@ class FixPressWall : public FixMoveMesh, public grainscope::DeclaresOutputs, pub
   bool wants_contacts() override { return true; }
   void begin_contacts() override;
   void add_contacts(grainscope::ContactSpan contacts) override;
+  void end_contacts() override;
 
  private:
   struct Impl;

@@ -121,8 +121,11 @@ def restarted(extra):
         if "neutral" not in extra:
             return
         whole = run(replace(deck, body=[*lines, f"run {first + second}"]), ranks)
-        require_same_snapshots(expected[-3:], whole.dump("grains.dump")[-3:], "split against whole")
-        require_equal(after[POSITION][-1], whole.thermo()[0][POSITION][-1], "where the plate is")
+        # A list is built once more, so forces are summed in another order: 1e-16, which grows.
+        for (_, one), (_, other) in zip(expected[-3:], whole.dump("grains.dump")[-3:]):
+            for name in ("x", "y", "z", "vx", "vy", "vz"):
+                require_close(one[name], other[name], 1e-9, f"split against whole, {name}", 1.0)
+        require_close(after[POSITION][-1], whole.thermo()[0][POSITION][-1], 1e-9, "where the plate is", 1.0)
 
     return case
 
@@ -188,7 +191,7 @@ CASES = {
     "stable-every-step": stable("", 0.2, 1),
     "stable-rarely": stable("", 0.2, 100),
     "stable-bouncing": stable("", 0.9, 10),
-    "stable-damped": stable("", 0.05, 20),
+    "stable-damped": stable("", 0.06, 20),
     "same-on-ranks": same_on_ranks,
     "restarted": restarted(""),
     "restarted-neutral": restarted("setup neutral"),

@@ -3,7 +3,6 @@
 from dataclasses import replace
 
 from case import main
-from packing import Packing
 from plates import bed, plated, press
 from refusal import require_refused
 
@@ -51,15 +50,18 @@ def open_sideways():
 
 
 def without_grains():
-    packing = bed(across=3, layers=2)
-    return deck(press(1e4, "every/step 5 toward -"), packing=Packing(**{**vars(packing), "grains": []}), timestep=1e-3)
+    empty = replace(bed(across=3, layers=2), grains=[])
+    return deck("atom_modify sort 0 0", press(1e4, "every/step 5 toward -"), packing=empty, timestep=1e-3)
 
 
 def leaning():
-    made = deck(
-        GOOD.replace("axis z", "axis x"), boundary="f p p", packing=replace(bed(3, 2), triclinic=True, tilt=1.0)
-    )
-    made.body = [line for line in made.body if not line.startswith("fix floor")]
+    tilted = replace(bed(3, 2), triclinic=True, tilt=1.0)
+    made = deck(GOOD.replace("axis z", "axis x"), boundary="f p p", packing=tilted)
+    made.body = [
+        line.replace("meshes plate", "meshes plate allow_special_domain_periodic yes")
+        for line in made.body
+        if not line.startswith("fix floor")
+    ]
     return made
 
 
@@ -102,7 +104,7 @@ CASES = {
     ),
     "grains": refused(
         (
-            deck(GOOD, packing=moved_up(bed(3, 2), 4.5)),
+            deck(GOOD, packing=moved_up(bed(3, 2), 2.3)),
             WHO + "'toward +' or 'toward -' is required where the grains of its group are not all on one side of the "
             "mesh, got 9 below it along the axis, 9 above it, and 0 between its ends",
         ),
