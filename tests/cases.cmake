@@ -208,7 +208,8 @@ add_cases(press/strain-runs cases/stress_path_runs.py LABEL case STYLES press/st
 
 # press/wall
 add_cases(press/wall-analytic cases/press_wall_analytic.py LABEL case STYLES press/wall RANKS 1 LONG_RANKS 2 CASES
-  automatic-gain-gives-way automatic-gain-of-hooke from-below-along-x along-y clipped two-dimensions in-cgs)
+  automatic-gain-gives-way automatic-gain-of-hooke from-below-along-x along-y clipped clipped-by-maxrate starts-softly
+  two-dimensions in-cgs)
 add_cases(press/wall-analytic cases/press_wall_analytic.py LABEL case STYLES press/wall RANKS 1 2 CASES
   automatic-gain-presses given-gain)
 add_cases(press/wall-bed cases/press_wall.py LABEL case STYLES press/wall RANKS 1 2 LONG_RANKS 4 CASES

@@ -2,28 +2,26 @@
 #ifndef GRAINSCOPE_PLATE_RESPONSE_H
 #define GRAINSCOPE_PLATE_RESPONSE_H
 
-#include "contact_law.h"
+#include "contact_stiffness.h"
+#include <cmath>
 
 namespace grainscope {
 
 /** What the grains say to a plate that moves along an axis a, over its contacts in one evaluation, or over its area and
  *  summed over several. Were the grains held, a plate that moves by dx at the velocity v would change its force by
  *  (stiffness) dx + (damping) v:
- *  stiffness = sum k n_a^2 + k_t (1 - n_a^2), damping = sum gamma_n n_a^2 + gamma_t (1 - n_a^2), k the tangent normal
- *  stiffness, gamma_t that of contacts whose tangential force is not cut. */
+ *  stiffness = sum k n_a^2 + k_t (1 - n_a^2), damping = sum gamma_n n_a^2 + gamma_t (1 - n_a^2), by ContactStiffness. */
 struct PlateResponse {
   double force = 0.0;  // of the grains on the plate, along the axis
   double stiffness = 0.0;
   double damping = 0.0;
 
   void add(const Contact &c, int axis) {
-    const ContactLaw &law = *c.law;
-    const ContactMotion &m = *c.motion;
-    const double n2 = c.normal[axis] * c.normal[axis];
+    const ContactStiffness contact(c);
+    const double along = c.normal[axis] * c.normal[axis], across = 1.0 - along;
     force -= c.weight * c.force[axis];
-    stiffness +=
-        c.weight * (law.tangent_stiffness(m) * n2 + (law.sticks() ? m.tangential_stiffness * (1.0 - n2) : 0.0));
-    damping += c.weight * (m.damping_coefficient * n2 + (m.damped ? m.tangential_damping * (1.0 - n2) : 0.0));
+    stiffness += c.weight * contact.stiffness(along, across);
+    damping += c.weight * contact.damping(along, across);
   }
   void add(const PlateResponse &other, double factor) {
     force += factor * other.force;
@@ -31,6 +29,12 @@ struct PlateResponse {
     damping += factor * other.damping;
   }
 };
+
+/** A speed at which grains of a density that are hit push back, by their inertia, by a hundredth of the target; without
+ *  bound where there are none, of density 0. */
+inline double soft_rate(double target, double density) {
+  return density > 0.0 ? 0.1 * std::sqrt(target / density) : HUGE_VAL;
+}
 
 }
 

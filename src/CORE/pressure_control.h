@@ -2,7 +2,7 @@
 #ifndef GRAINSCOPE_PRESSURE_CONTROL_H
 #define GRAINSCOPE_PRESSURE_CONTROL_H
 
-#include "contact_law.h"
+#include "contact_stiffness.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,9 +22,8 @@ inline constexpr int number_of_box_modes = 6;
  *  affinely at the rates e_b of the modes b, stresses fall by
  *    dP_a = sum_b (K_ab de_b + eta_ab d(de_b/dt)),
  *    K_ab = (1/volume) sum d_a . (k n n + k_t (1 - n n)) d_b,   d_a: r_gradient along `flow`, of mode a,
- *  eta likewise with gamma_n and gamma_t; k the tangent normal stiffness, gamma_t that of contacts whose tangential
- *  force is not cut. Both are symmetric and, being sums of squares, not negative. Plain doubles, so that ranks add them
- *  up. */
+ *  eta likewise with gamma_n and gamma_t, by ContactStiffness. Both are symmetric and, being sums of squares, not
+ *  negative. Plain doubles, so that ranks add them up. */
 struct NetworkResponse {
   // sum F_flow r_gradient / volume: the pressure along an edge, minus the shear stress of a tilt
   std::array<double, 6> pressure{};
@@ -34,8 +33,6 @@ struct NetworkResponse {
 
   /** `modes`: those whose stiffness is wanted. */
   void add(const Contact &c, const std::vector<int> &modes) {
-    const ContactLaw &law = *c.law;
-    const ContactMotion &m = *c.motion;
     const double x = c.weight * c.force[0], y = c.weight * c.force[1], z = c.weight * c.force[2];
     pressure[0] += x * c.branch[0];
     pressure[1] += y * c.branch[1];
@@ -44,8 +41,7 @@ struct NetworkResponse {
     pressure[4] += x * c.branch[2];
     pressure[5] += x * c.branch[1];
     if (modes.empty()) return;
-    const double k_n = law.tangent_stiffness(m), k_t = law.sticks() ? m.tangential_stiffness : 0.0;
-    const double gamma_n = m.damping_coefficient, gamma_t = m.damped ? m.tangential_damping : 0.0;
+    const ContactStiffness contact(c);
     for (std::size_t p = 0; p < modes.size(); p++) {
       const BoxMode a = box_modes[modes[p]];
       const double n_a = c.normal[a.flow], wr_a = c.weight * c.branch[a.gradient];
@@ -54,8 +50,8 @@ struct NetworkResponse {
         const double along = n_a * c.normal[b.flow], across = (a.flow == b.flow ? 1.0 : 0.0) - along;
         const double wr2 = wr_a * c.branch[b.gradient];
         const int k = place(modes[p], modes[q]);
-        stiffness[k] += wr2 * (k_n * along + k_t * across);
-        damping[k] += wr2 * (gamma_n * along + gamma_t * across);
+        stiffness[k] += wr2 * contact.stiffness(along, across);
+        damping[k] += wr2 * contact.damping(along, across);
       }
     }
   }

@@ -6,16 +6,15 @@
 #include "grain_shape.h"
 #include "pair_gran_insitu.h"
 #include "plate_response.h"
+#include "press_wall_host_words.h"
+#include "press_wall_requirements.h"
 #include "press_wall_settings.h"
 #include "pressed_mesh.h"
 #include "restart_state.h"
-#include "fix_wall_gran_insitu.h"
 #include "atom.h"
 #include "comm.h"
-#include "domain.h"
 #include "force.h"
 #include "modify.h"
-#include "neighbor.h"
 #include "update.h"
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -25,14 +24,12 @@
 
 using namespace LAMMPS_NS;
 using grainscope::Arguments;
-using grainscope::ContactLaw;
 using grainscope::PlateResponse;
 using Every = grainscope::PressWallSettings::Every;
 
 namespace {
 
 const char *const name = "fix press/wall";
-const int last_that_stands = 1;       // of the host's numbers for the boundaries p f s m
 const double part_of_a_grain = 0.01;  // what a plate may move between two inputs, of the smallest grain's diameter
 
 /** In restart files. The window is summed over ranks, so that any number of them may continue. */
@@ -43,34 +40,19 @@ struct SavedPlate {
   double every, interval, passed, next;  // how inputs are counted, and how far
 };
 
-/** The command that the host's fix move/mesh is given: a motion at rest. */
-class HostWords {
- public:
-  HostWords(char **arg, const std::string &mesh)
-      : words_{arg[0], arg[1], "move/mesh", "mesh", mesh, "linear", "0", "0", "0"} {
-    for (std::string &word : words_) pointers_.push_back(&word[0]);
-  }
-  HostWords(const HostWords &) = delete;
-  int size() const { return static_cast<int>(pointers_.size()); }
-  char **words() { return pointers_.data(); }
-
- private:
-  std::vector<std::string> words_;
-  std::vector<char *> pointers_;  // into words_
-};
-
 }
 
 struct FixPressWall::Impl {
   Impl(LAMMPS *lmp, int narg, char **arg)
-      : settings(lmp, narg, arg), mesh(lmp, settings.mesh, settings.axis), host(arg, settings.mesh),
-        intervals(settings.interval), toward(settings.toward) {
+      : settings(lmp, narg, arg), mesh(lmp, settings.mesh, settings.axis), requirements(lmp, settings, mesh),
+        host(arg, settings.mesh), intervals(settings.interval), toward(settings.toward) {
     mesh.find(nullptr);
   }
 
   grainscope::PressWallSettings settings;
   grainscope::PressedMesh mesh;
-  HostWords host;
+  grainscope::PressWallRequirements requirements;
+  grainscope::PressWallHostWords host;
   grainscope::Intervals intervals;
   grainscope::ContactObserver *observer = nullptr;
 
@@ -84,6 +66,7 @@ struct FixPressWall::Impl {
   PlateResponse now;        // their sum
   PlateResponse window;     // the same since the last input, over the area
   double window_steps = 0.0;
+  double density = 0.0;  // the largest of the grains, 0 without any
   double target = 0.0, travel = 0.0, velocity = 0.0, averaged_pressure = 0.0, inputs = 0.0, clipped = 0.0;
   grainscope::ClippingWatch clipping{name};
   bigint pressure_step = -1;
@@ -149,7 +132,7 @@ void FixPressWall::init() {
   my.mesh.find(this);
   FixMoveMesh::init();
   my.settings.target.init();
-  require_area();
+  my.requirements.require_area();
   my.observer = &PairGranInsitu::required_by(lmp, name)->observer();
   my.observer->add(this);
 }
@@ -161,85 +144,26 @@ void FixPressWall::setup_pre_force(int) {
 }
 
 void FixPressWall::setup(int) {
-  require_known_stiffness();
-  impl_->mesh.locate();
-  find_grains();
-  set_limit();
+  Impl &my = *impl_;
+  my.requirements.require_known_stiffness();
+  my.mesh.locate();
+  my.toward = my.requirements.side_of_grains(my.toward, groupbit);
+  know_grains();
   evaluate_target();
 }
 
-/** That of the box has no meaning where its faces follow the grains or lean. */
-void FixPressWall::require_area() const {
-  if (impl_->settings.area > 0.0) return;
-  const int axis = impl_->settings.axis;
-  const grainscope::BoxState box(lmp);
-  for (int k = 0; k < 3; k++) {
-    if (k == axis || (k == 2 && domain->dimension == 2)) continue;
-    const bool follows = std::max(domain->boundary[k][0], domain->boundary[k][1]) > last_that_stands;
-    const std::string why = follows                     ? "follows the grains along"
-                            : box.edges(axis, k) != 0.0 ? "is not at right angles to the axis along"
-                                                        : "";
-    if (!why.empty())
-      Arguments(lmp, name).fail("'area box' is not known, as the box " + why + " " + "xyz"[k] +
-                                ": give the area of the plate");
-  }
-}
-
-void FixPressWall::require_known_stiffness() const {
-  if (!impl_->settings.control.automatic) return;
-  const std::vector<grainscope::Wall> walls = grainscope::walls_of(lmp);
-  for (std::size_t k = 0; k < walls.size(); k++)
-    if (impl_->mesh.has(k) && walls[k].law && !walls[k].law->knows_stiffness())
-      Arguments(lmp, name).fail(std::string("'gain auto' knows the stiffness of the normal models ") +
-                                ContactLaw::elastic_models() + " only: give a number, or change the models of wall '" +
-                                walls[k].name + "', got '" + walls[k].law->models + "'");
-}
-
-/** Which side of the plate they are on: it is pushed toward them. Collective. */
-void FixPressWall::find_grains() {
+/** What the size and the density of the grains say of the plate's motion, where nobody did. Collective. */
+void FixPressWall::know_grains() {
   Impl &my = *impl_;
-  double sides[3] = {0.0, 0.0, 0.0};  // grains below, above, and where the plate is
+  double most[2] = {-std::numeric_limits<double>::infinity(), 0.0};  // minus the smallest diameter, density
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
-    const double at = atom->x[i][my.settings.axis];
-    sides[at < my.mesh.low() ? 0 : at > my.mesh.high() ? 1 : 2] += 1.0;
+    most[0] = std::max(most[0], -grainscope::equivalent_diameter(*atom, i));
+    most[1] = std::max(most[1], atom->density[i]);
   }
-  MPI_Allreduce(MPI_IN_PLACE, sides, 3, MPI_DOUBLE, MPI_SUM, world);
-  const auto count = [&sides](int k) { return Arguments::text(sides[k]); };
-  const bool below = sides[0] > 0.0, above = sides[1] > 0.0, beside = sides[2] > 0.0;
-  const Arguments errors(lmp, name);
-  if (my.toward != 0.0) {
-    const bool wrong = !beside && (my.toward > 0.0 ? below && !above : above && !below);
-    if (wrong)
-      errors.fail(std::string("mesh '") + my.settings.mesh + "' is pushed toward " + (my.toward > 0.0 ? "+" : "-") +
-                  ", but all " + count(below ? 0 : 1) + " grains are on its other side");
-    return;
-  }
-  if (beside || below == above)
-    errors.fail("'toward +' or 'toward -' is required where the grains of its group are not all on one side of the "
-                "mesh, got " +
-                count(0) + " below it along the axis, " + count(1) + " above it, and " + count(2) +
-                " between its ends");
-  my.toward = above ? 1.0 : -1.0;
-}
-
-/** How far the plate may move between two inputs, where nobody said; and that neighbour lists keep up with it.
- *  Collective. */
-void FixPressWall::set_limit() {
-  auto &control = impl_->settings.control;
-  const Arguments errors(lmp, name);
-  if (!impl_->settings.limit_given) {
-    double smallest = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < atom->nlocal; i++) smallest = std::min(smallest, grainscope::equivalent_diameter(*atom, i));
-    MPI_Allreduce(MPI_IN_PLACE, &smallest, 1, MPI_DOUBLE, MPI_MIN, world);
-    if (!std::isfinite(smallest))
-      errors.fail("'limit' and a distance are required where there are no grains yet, whose size is its default");
-    control.limit = part_of_a_grain * smallest;
-  }
-  const double step = update->dt * std::min(control.limit / time_between_inputs(), control.max_rate);
-  if (step > 0.5 * neighbor->skin)
-    errors.fail("'limit' and 'maxrate' must let the plate move no further in a step than half of the neighbour skin, " +
-                Arguments::text(0.5 * neighbor->skin) + ", got " + Arguments::text(step));
+  MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, world);
+  if (!my.settings.limit_given) my.settings.control.limit = -part_of_a_grain * most[0];
+  my.density = most[1];
+  my.requirements.require_slow_plate(time_between_inputs());
 }
 
 /** Every step, so that the computes that a variable uses can be announced for the next one. */
@@ -315,7 +239,10 @@ void FixPressWall::take_input() {
 
   const double interval = time_between_inputs(),
                resistance = (mean.damping + mean.stiffness * interval) * force->nktv2p;
-  const auto input = my.settings.control.input(my.averaged_pressure - my.target, resistance, 1.0, interval);
+  grainscope::PressureControl control = my.settings.control;
+  if (!my.settings.max_rate_given)
+    control.max_rate = grainscope::soft_rate(my.target / force->nktv2p, my.density * force->mvv2e);
+  const auto input = control.input(my.averaged_pressure - my.target, resistance, 1.0, interval);
   my.velocity = -my.toward * input.velocity;
   my.inputs += 1.0;
   if (input.clipped) my.clipped += 1.0;

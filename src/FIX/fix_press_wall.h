@@ -48,10 +48,7 @@ class FixPressWall : public FixMoveMesh, public grainscope::DeclaresOutputs, pub
 
   FixPressWall(class LAMMPS *lmp, std::unique_ptr<Impl> impl);
 
-  void require_area() const;
-  void require_known_stiffness() const;
-  void find_grains();
-  void set_limit();
+  void know_grains();
   void evaluate_target();
   double time_between_inputs() const;
   double area() const;

@@ -29,6 +29,7 @@ PressWallSettings::PressWallSettings(LAMMPS_NS::LAMMPS *lmp, int narg, char **ar
     read(arguments, keyword);
   }
   limit_given = given.count("limit");
+  max_rate_given = given.count("maxrate");
   if (!given.count("mesh")) arguments.fail("'mesh' and the ID of a fix mesh/surface are required");
   if (!given.count("axis")) arguments.fail("'axis x', 'axis y' or 'axis z' is required");
   if (!given.count("target")) arguments.fail("'target' and a pressure are required");

@@ -23,7 +23,7 @@ struct PressWallSettings {
   Every every = Every::step;
   double interval = 0.0;  // time or steps between two inputs
   PressureControl control;
-  bool limit_given = false;
+  bool limit_given = false, max_rate_given = false;
 
   /** Reads all words from arg[3] on; every mistake is an error. */
   PressWallSettings(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);

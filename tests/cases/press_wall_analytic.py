@@ -45,7 +45,7 @@ class Contact:
         self.force = elastic - self.damping * speed
 
 
-def by_hand(law, target, gain, mass, dt, area, limit):
+def by_hand(law, target, gain, mass, dt, area, limit, max_rate):
     """Distance, speed and averaged pressure after every step, and how many inputs were clipped. An input on the first
     step, then every EVERY steps, from the mean since the last."""
     distance, speed, pressure, clipped, window = GAP, 0.0, 0.0, 0, []
@@ -59,7 +59,7 @@ def by_hand(law, target, gain, mass, dt, area, limit):
             )
             pressure, window = force / area, []
             kp = BETA * area / (damping + stiffness * EVERY * dt) if gain == "auto" else gain
-            wanted, bound = kp * (pressure - target), limit / (EVERY * dt)
+            wanted, bound = kp * (pressure - target), min(limit / (EVERY * dt), max_rate)
             speed = min(max(wanted, -bound), bound)
             clipped += abs(wanted) > bound
         history.append((distance, speed, pressure))
@@ -76,9 +76,11 @@ def plate(axis, side, dimension):
     return meshes.rectangle(corner + 0.03 * (one + 2.0 * other), one, other)  # the sphere is not on a diagonal
 
 
-def follows_by_hand(gain, change, law="hertz", where="z-", area="box", limit=0.5, dimension=3, units="si"):
+def follows_by_hand(
+    gain, change, law="hertz", where="z-", area="box", limit=0.5, dimension=3, units="si", max_rate=None
+):
     """`change`: target over the pressure at the start. `where`: axis, and the side of the plate on which the sphere
-    is."""
+    is. `max_rate`: None where it is left to the fix, a tenth of sqrt(target/density)."""
 
     def case(ranks):
         axis, toward = "xyz".index(where[0]), 1.0 if where[1] == "+" else -1.0
@@ -97,19 +99,20 @@ def follows_by_hand(gain, change, law="hertz", where="z-", area="box", limit=0.5
         mass = grain.mass() if dimension == 3 else math.pi * DENSITY
         squared = EDGE ** (dimension - 1) if area == "box" else float(area)
         target = change * Contact(law, GAP, 0.0, mass).force / squared
+        slow = max_rate or 0.1 * math.sqrt(target / DENSITY)
         deck.body = [
             "unfix integrate",
             "fix plate all mesh/surface file plate.stl type 1",
             f"fix wall all wall/gran {deck.model()} mesh n_meshes 1 meshes plate",
             f"fix press all press/wall mesh plate axis {where[0]} target {target!r} area {area} every/step {EVERY} "
-            f"gain {gain} limit {limit!r}",
+            f"gain {gain} limit {limit!r}" + (f" maxrate {max_rate!r}" if max_rate else ""),
             *thermo(1, "f_press", *F_PRESS.vector()),
             f"run {STEPS}",
         ]
         result = run(deck, ranks, folder=meshes.folder_with(plate=plate(axis, -toward, dimension)))
         table = result.thermo()[0]
         found = {name: table[F_PRESS[name]] for name in F_PRESS.own.names("vector")}
-        (distance, speed, pressure), clipped = by_hand(law, target, gain, mass, deck.dt(), squared, limit)
+        (distance, speed, pressure), clipped = by_hand(law, target, gain, mass, deck.dt(), squared, limit, slow)
         # Overlaps are differences of lengths a hundred times as large.
         require_close(-toward * found["position"], distance, 1e-13, "distance of the plate", 1.0)
         require_close(-toward * found["travel"], distance - GAP, 1e-12, "its way", 0.01)
@@ -133,6 +136,8 @@ CASES = {
     "two-dimensions": follows_by_hand("auto", 2.0, where="y-", dimension=2),
     "in-cgs": follows_by_hand("auto", 2.0, units="cgs"),
     "clipped": follows_by_hand("auto", 3.0, limit=1e-3),
+    "clipped-by-maxrate": follows_by_hand("auto", 3.0, max_rate=0.02),
+    "starts-softly": follows_by_hand("auto", 3.0),
 }
 
 if __name__ == "__main__":

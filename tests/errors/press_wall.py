@@ -137,7 +137,7 @@ CASES = {
         (
             deck(
                 "group none id 1000",
-                press(1e4, "every/step 1 limit 0.05 toward +").replace("press all", "press none"),
+                press(1e4, "every/step 1 limit 0.05 maxrate 1e3 toward +").replace("press all", "press none"),
                 "unfix integrate",
                 "run 400",
             ),

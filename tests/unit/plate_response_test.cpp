@@ -2,6 +2,7 @@
 #include "make_contact.h"
 #include "plate_response.h"
 #include "pressure_control.h"
+#include <cmath>
 #include <gtest/gtest.h>
 
 using grainscope::Contact;
@@ -49,6 +50,12 @@ TEST(plate_response, adds_up) {
   EXPECT_EQ(sum.force, 8.5);
   EXPECT_EQ(sum.stiffness, 13.0);
   EXPECT_EQ(sum.damping, 17.5);
+}
+
+TEST(plate_response, soft_rate) {
+  const double rate = grainscope::soft_rate(2e4, 800.0);
+  EXPECT_DOUBLE_EQ(800.0 * rate * rate, 2e2);  // a hundredth of the target
+  EXPECT_EQ(grainscope::soft_rate(2e4, 0.0), HUGE_VAL);
 }
 
 /** A plate on grains that are held answers F = F_0 - K x - eta v, averaged over the steps of an interval: with the
