@@ -115,7 +115,7 @@ def follows_by_hand(
         (distance, speed, pressure), clipped = by_hand(law, target, gain, mass, deck.dt(), squared, limit, slow)
         # Overlaps are differences of lengths a hundred times as large.
         require_close(-toward * found["position"], distance, 1e-13, "distance of the plate", 1.0)
-        require_close(-toward * found["travel"], distance - GAP, 1e-12, "its way", 0.01)
+        require_close(-toward * found["travel"], distance - GAP, 1e-13, "its way", 1.0)
         require_close(-toward * found["V"], speed, 1e-9, "its velocity")
         require_close(table["f_press"], pressure, 1e-9, "averaged pressure")
         require_close(found["error"][1:], pressure[1:] / target - 1.0, 1e-9, "relative error", 1.0)
