@@ -31,8 +31,28 @@ struct NetworkResponse {
 
   static constexpr int place(int a, int b) { return a < b ? b * (b + 1) / 2 + a : a * (a + 1) / 2 + b; }
 
-  /** `modes`: those whose stiffness is wanted. */
-  void add(const Contact &c, const std::vector<int> &modes) {
+  /** Pairs of the modes whose stiffness is wanted. */
+  class Pairs {
+   public:
+    Pairs(const std::vector<int> &modes) {
+      for (int a : modes)
+        for (int b : modes)
+          if (b <= a)
+            pairs_.push_back(
+                {box_modes[a], box_modes[b], box_modes[a].flow == box_modes[b].flow ? 1.0 : 0.0, place(a, b)});
+    }
+
+   private:
+    friend struct NetworkResponse;
+    struct Pair {
+      BoxMode a, b;
+      double same_flow;
+      int place;
+    };
+    std::vector<Pair> pairs_;
+  };
+
+  void add(const Contact &c, const Pairs &pairs) {
     const double x = c.weight * c.force[0], y = c.weight * c.force[1], z = c.weight * c.force[2];
     pressure[0] += x * c.branch[0];
     pressure[1] += y * c.branch[1];
@@ -40,19 +60,13 @@ struct NetworkResponse {
     pressure[3] += y * c.branch[2];
     pressure[4] += x * c.branch[2];
     pressure[5] += x * c.branch[1];
-    if (modes.empty()) return;
+    if (pairs.pairs_.empty()) return;
     const ContactStiffness contact(c);
-    for (std::size_t p = 0; p < modes.size(); p++) {
-      const BoxMode a = box_modes[modes[p]];
-      const double n_a = c.normal[a.flow], wr_a = c.weight * c.branch[a.gradient];
-      for (std::size_t q = 0; q <= p; q++) {
-        const BoxMode b = box_modes[modes[q]];
-        const double along = n_a * c.normal[b.flow], across = (a.flow == b.flow ? 1.0 : 0.0) - along;
-        const double wr2 = wr_a * c.branch[b.gradient];
-        const int k = place(modes[p], modes[q]);
-        stiffness[k] += wr2 * contact.stiffness(along, across);
-        damping[k] += wr2 * contact.damping(along, across);
-      }
+    for (const Pairs::Pair &pair : pairs.pairs_) {
+      const double along = c.normal[pair.a.flow] * c.normal[pair.b.flow], across = pair.same_flow - along;
+      const double wr2 = c.weight * c.branch[pair.a.gradient] * c.branch[pair.b.gradient];
+      stiffness[pair.place] += wr2 * contact.stiffness(along, across);
+      damping[pair.place] += wr2 * contact.damping(along, across);
     }
   }
   void add(const NetworkResponse &other, double factor) {

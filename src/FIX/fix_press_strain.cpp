@@ -70,11 +70,12 @@ std::array<bool, number_of_box_modes> turned_back(const grainscope::PressStrainS
 struct FixPressStrain::Impl {
   Impl(LAMMPS *lmp, int narg, char **arg)
       : settings(lmp, narg, arg), dimension(lmp->domain->dimension), controlled(settings.controlled_modes(dimension)),
-        box(lmp, turned_back(settings)), intervals(settings.interval), forecast(lmp, settings) {}
+        pairs(controlled), box(lmp, turned_back(settings)), intervals(settings.interval), forecast(lmp, settings) {}
 
   grainscope::PressStrainSettings settings;
   int dimension;
   std::vector<int> controlled;  // modes whose stiffness is wanted
+  NetworkResponse::Pairs pairs;
   grainscope::ShearedBox box;
   grainscope::Intervals intervals;
   grainscope::PressStrainForecast forecast;
@@ -307,7 +308,7 @@ void FixPressStrain::begin_contacts() {
 }
 
 void FixPressStrain::add_contacts(grainscope::ContactSpan contacts) {
-  for (const grainscope::Contact &contact : contacts) impl_->now.add(contact, impl_->controlled);
+  for (const grainscope::Contact &contact : contacts) impl_->now.add(contact, impl_->pairs);
 }
 
 void FixPressStrain::plan_flip() {
