@@ -283,7 +283,7 @@ void FixPressStrain::restart(char *buffer) {
   my.strain = saved.strain;
   my.inputs = saved.inputs;
   my.clipped = saved.clipped;
-  // The next stage of a path holds other stresses: the rest begins anew.
+  // The next stage of a path holds other stresses: the rest starts from rest.
   for (int k = 0; k < loops; k++) {
     my.clipped_of[k] = saved.clipped_of[k];
     if (!my.holds(k)) continue;
