@@ -54,8 +54,8 @@ def holds(rest, style="sphere", **choices):
         )
         table = run(deck, ranks).thermo()[0]
         late = table["step"] > 0.75 * steps
-        # 1e-6: at rest but for the end of an exponential settling, 1e-13 as measured; a bed that rounding led elsewhere may
-        # take longer
+        # 1e-6: at rest but for the end of an exponential settling, 1e-13 as measured; a bed that rounding led elsewhere
+        # may take longer
         require_close(table["f_press"][late].mean(), target, 1e-6, "averaged pressure")
         require_close(table[NOW][late], np.full(late.sum(), target), 1e-6, "pressure now")
         require_equal(
