@@ -49,21 +49,14 @@ struct EllipsoidContact {
 };
 
 constexpr int ELLIPSOID_STEPS = 60;
+constexpr double ELLIPSOID_TOLERANCE = 3e-5;
 
 /** d = x2 - x1. `start` is the lambda of a similar configuration, or 0 for none. The relative error of lambda is about
  *  `tolerance`^3: the last step is carried over to the answer to second order. Normal, point, depth and curvature are
  *  set only for those that touch. */
 template <class Body>
 EllipsoidContact ellipsoid_contact(const Body &one, const Body &two, const double d[3], double start,
-                                   double tolerance = 3e-5);
-
-struct EllipsoidPair {
-  const Spheroid *one, *two;
-  double d[3], start;
-};
-
-/** Many pairs at once, several side by side: the same answers to the last bit, sooner. */
-void ellipsoid_contacts(int n, const EllipsoidPair *pairs, EllipsoidContact *contacts);
+                                   double tolerance = ELLIPSOID_TOLERANCE);
 
 /** Curvatures at a point y on the surface, from the centre: the Gaussian one [1/length^2] and the mean one
  *  [1/length]. */

@@ -23,6 +23,7 @@ class SeparationMemory {
     pose_.clear();
     moved_.assign(grains, 0.0);
     apart_until_.assign(pairs, 0.0f);
+    most_moved_ = 0.0;
     reach_ = reach;
   }
 
@@ -33,8 +34,12 @@ class SeparationMemory {
             const double *const *quaternion, Elongation elongation);
 
   double moved(int grain) const { return moved_[grain]; }
+  /** Of all grains. */
+  double most_moved() const { return most_moved_; }
   /** False only if the pair is surely apart. `motion` is the sum of moved() of its two grains. */
   bool may_touch(int pair, double motion) const { return motion >= apart_until_[pair]; }
+  /** False only if the pair is surely apart until its motion has become `motion`. */
+  bool may_touch_before(int pair, double motion) const { return apart_until_[pair] <= motion; }
   void set_touching(int pair) { apart_until_[pair] = 0.0f; }
   /** Of a pair now at least `gap` apart; the margin is for the rounding of all that is summed up here. */
   void set_apart(int pair, double gap, double motion) {
@@ -48,6 +53,7 @@ class SeparationMemory {
   std::vector<Pose> pose_;  // at the last move
   std::vector<double> moved_;
   std::vector<float> apart_until_;
+  double most_moved_ = 0.0;
   double reach_ = 0.0;
   Eigen::Matrix3d edges_;
   Eigen::Vector3d origin_;
@@ -73,10 +79,12 @@ void SeparationMemory::move(const Eigen::Matrix3d &edges, const Eigen::Vector3d 
       }
       moved_[i] += affine + std::sqrt(distance2);
       const double slope = elongation(i);
-      if (slope == 0.0) continue;
-      double turn2 = 0.0;  // phi = 4 asin(|dq|/2) <= 2 |dq| (1 + 0.143 |dq|^2)
-      for (int k = 0; k < 4; k++) turn2 += (quaternion[i][k] - old.q[k]) * (quaternion[i][k] - old.q[k]);
-      moved_[i] += slope * 2.0 * std::sqrt(turn2) * (1.0 + 0.143 * turn2);
+      if (slope != 0.0) {
+        double turn2 = 0.0;  // phi = 4 asin(|dq|/2) <= 2 |dq| (1 + 0.143 |dq|^2)
+        for (int k = 0; k < 4; k++) turn2 += (quaternion[i][k] - old.q[k]) * (quaternion[i][k] - old.q[k]);
+        moved_[i] += slope * 2.0 * std::sqrt(turn2) * (1.0 + 0.143 * turn2);
+      }
+      most_moved_ = std::max(most_moved_, moved_[i]);
     }
   }
   for (int i = 0; i < n; i++) {

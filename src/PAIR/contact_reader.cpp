@@ -43,9 +43,10 @@ inline void ContactReader::compare_damping(const Surfaces &s, Friction &friction
     friction.damping = TangentialBound::largest(s.gammat, spring, u, friction.limit);
 }
 
-inline ContactReader::Friction ContactReader::friction_of(const Surfaces &s, double limit) const {
+inline ContactReader::Friction ContactReader::friction_of(const Surfaces &s) const {
   Friction friction;
-  friction.limit = limit;
+  friction.coefficient = law_.friction_coefficient(s.itype, s.jtype);
+  const double limit = friction.limit = ContactLaw::friction_limit(friction.coefficient, s.Fn);
   friction.damping = law_.tangential == TangentialLaw::none ? 0.0 : s.gammat;
   if (law_.tangential == TangentialLaw::spring) {
     repeat_spring(s, friction);
@@ -142,11 +143,10 @@ inline void ContactReader::read_rolling(const Surfaces &s, const Forces &force_o
 }
 
 inline __attribute__((always_inline)) void ContactReader::read(const Surfaces &s, const Forces &force_on_i,
-                                                               Contact &c) const {
+                                                               const Friction &friction, Contact &c) const {
   const Vector3d normal(s.en[0], s.en[1], s.en[2]),
       force(force_on_i.delta_F[0], force_on_i.delta_F[1], force_on_i.delta_F[2]);
-  const double normal_force = force.dot(normal), coefficient = law_.friction_coefficient(s.itype, s.jtype);
-  const Friction friction = friction_of(s, ContactLaw::friction_limit(coefficient, s.Fn));
+  const double normal_force = force.dot(normal);
   c.i = s.i;
   c.type_i = s.itype;
   c.type_j = s.jtype;
@@ -156,7 +156,7 @@ inline __attribute__((always_inline)) void ContactReader::read(const Surfaces &s
   c.force = force;
   c.normal_force = normal_force;
   c.tangential_force = force - normal_force * normal;
-  c.friction = coefficient;
+  c.friction = friction.coefficient;
   c.friction_limit = friction.limit;
   c.friction_force = law_.liquid_bridges ? friction_force(s, friction, c) : c.tangential_force;
   c.sliding = friction.cut || friction.beyond;
@@ -178,14 +178,58 @@ void ContactReader::after(const Surfaces &s, const Forces &force_on_i) {
   c.partner.emplace<PartnerGrain>(PartnerGrain{s.j, ghost});
   c.weight = ghost ? 0.5 : 1.0;
   c.branch = Map<const Vector3d>(x[s.i]) - Map<const Vector3d>(x[s.j]);
-  read(s, force_on_i, c);
+  read(s, force_on_i, friction_of(s), c);
+}
+
+void ContactReader::after(const PairGroup &group, const GroupGeometry &g, const GroupForces &f, int k, double *history,
+                          const int types[2]) {
+  const int i = group.i[k], j = group.j[k];
+  const bool ghost = j >= observer_.local_grains();
+  Contact &c = observer_.next();
+  c.partner.emplace<PartnerGrain>(PartnerGrain{j, ghost});
+  c.weight = ghost ? 0.5 : 1.0;
+  c.branch = -Vector3d(g.d[0][k], g.d[1][k], g.d[2][k]);
+  Surfaces &s = seen_;
+  Forces force;
+  s.i = i;
+  s.j = j;
+  s.itype = types[0];
+  s.jtype = types[1];
+  s.deltan = f.overlap[k];
+  s.vn = f.normal_velocity[k];
+  s.vtr1 = f.tangential_velocity[0][k];
+  s.vtr2 = f.tangential_velocity[1][k];
+  s.vtr3 = f.tangential_velocity[2][k];
+  s.Fn = f.law_force[k];
+  s.kn = f.kn[k];
+  s.kt = f.kt[k];
+  s.gamman = f.gamma_n[k];
+  s.gammat = f.gamma_t[k];
+  s.is_non_spherical = true;
+  s.contact_history = history;
+  Friction friction;
+  friction.coefficient = f.friction[k];
+  friction.limit = f.limit[k];
+  friction.damping = law_.tangential == TangentialLaw::none ? 0.0 : s.gammat;
+  friction.cut = f.cut[k];
+  if (friction.cut)
+    friction.slip = law_.tangential == TangentialLaw::spring ? f.length[k] - f.limit[k] / s.kt
+                                                             : f.length[k] * observer_.time_step();
+  for (int l = 0; l < 3; l++) {
+    s.en[l] = f.normal[l][k];
+    s.contact_point[l] = f.point[l][k];
+    force.delta_F[l] = f.force[l][k];
+    spring_[l] = f.before[l][k];
+    friction.spring[l] = f.uncut[l][k];
+  }
+  read(s, force, friction, c);
 }
 
 void ContactReader::after_wall(const Surfaces &s, const Forces &force_on_i, const PartnerWall &wall) {
   Contact &c = observer_.next();
   c.partner.emplace<PartnerWall>(PartnerWall{wall.wall, wall.triangle, Map<const Vector3d>(s.v_j)});
   c.weight = 1.0;
-  read(s, force_on_i, c);
+  read(s, force_on_i, friction_of(s), c);
   c.branch = c.motion ? Vector3d(-c.motion->arm)
                       : Vector3d(Map<const Vector3d>(observer_.positions()[s.i]) - contact_point(s));
 }

@@ -4,6 +4,7 @@
 
 #include "contact_law.h"
 #include "contact_observer.h"
+#include "pair_group.h"
 #include "contact_interface.h"
 
 namespace grainscope {
@@ -47,6 +48,10 @@ class ContactReader {
   }
   /** Two grains touch. */
   void after(const Surfaces &s, const Forces &force_on_i);
+  /** Two grains touch, of a group whose law was worked out side by side: the pair in lane k, its columns of the contact
+   *  history, its atom types. */
+  void after(const PairGroup &group, const GroupGeometry &geometry, const GroupForces &forces, int k, double *history,
+             const int types[2]);
   /** A grain touches a wall; its velocity is read here. */
   void after_wall(const Surfaces &s, const Forces &force_on_i, const PartnerWall &wall);
 
@@ -55,9 +60,11 @@ class ContactReader {
   ContactLaw law_;
   ObservedModel *model_ = nullptr;
   double spring_[3] = {0.0, 0.0, 0.0};  // before the model moved it
+  Surfaces seen_{};                     // of a contact in a lane, what is read of it
 
   /** What friction made of one contact. */
   struct Friction {
+    double coefficient;   // mu_p
     double limit;         // of the force
     bool cut = false;     // the spring was, or the force of a law without springs
     bool beyond = false;  // not cut, but kept to the limit by damping, or beyond it: in first evaluations
@@ -65,10 +72,10 @@ class ContactReader {
     double damping = 0.0;                // the coefficient that acts where it is not cut
     double spring[3] = {0.0, 0.0, 0.0};  // before the cut
   };
-  Friction friction_of(const Surfaces &s, double limit) const;
+  Friction friction_of(const Surfaces &s) const;
   void repeat_spring(const Surfaces &s, Friction &friction) const;
   void compare_damping(const Surfaces &s, Friction &friction) const;
-  void read(const Surfaces &s, const Forces &force_on_i, Contact &c) const;
+  void read(const Surfaces &s, const Forces &force_on_i, const Friction &friction, Contact &c) const;
   Eigen::Vector3d friction_force(const Surfaces &s, const Friction &friction, const Contact &c) const;
   double normal_damping(const Surfaces &s) const;
   Eigen::Vector3d contact_point(const Surfaces &s) const;

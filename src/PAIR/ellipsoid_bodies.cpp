@@ -24,7 +24,7 @@ void EllipsoidBodies::prepare() {
 
 void EllipsoidBodies::read_shapes(int n) {
   grains_.resize(n);
-  some_triaxial_ = false;
+  some_triaxial_ = some_spheres_ = false;
   only_spheres_ = true;
   for (int i = 0; i < n; i++) {
     const double *s = atom->shape[i];
@@ -33,10 +33,10 @@ void EllipsoidBodies::read_shapes(int n) {
     grain.spheroid = make_spheroid(s, atom->quaternion[i]);
     grain.equivalent_radius = std::cbrt(0.75 * atom->volume[i] / M_PI);  // in the host's words, to the last bit
     grain.elongation = axis.shape == Shape::sphere ? 0.0 : *std::max_element(s, s + 3) - *std::min_element(s, s + 3);
-    grain.across = std::sqrt(grain.spheroid.equatorial_square);
     grain.axis = std::max(axis.index, 0);
     grain.triaxial = axis.shape == Shape::triaxial;
     some_triaxial_ = some_triaxial_ || grain.triaxial;
+    some_spheres_ = some_spheres_ || axis.shape == Shape::sphere;
     only_spheres_ = only_spheres_ && axis.shape == Shape::sphere;
   }
 }
@@ -91,31 +91,10 @@ EllipsoidContact EllipsoidBodies::solve_alone(const Query &q) const {
   return ellipsoid_contact(grains_[q.i].spheroid, grains_[q.j].spheroid, q.d, q.start);
 }
 
-inline void EllipsoidBodies::add_pair(const Query &q) {
-  pairs_.push_back({&grains_[q.i].spheroid, &grains_[q.j].spheroid, {q.d[0], q.d[1], q.d[2]}, q.start});
-}
-
-void EllipsoidBodies::solve(int n, const Query *queries, EllipsoidContact *contacts) {
-  pairs_.clear();
-  if (!some_triaxial_) {
-    for (int k = 0; k < n; k++) add_pair(queries[k]);
-    ellipsoid_contacts(n, pairs_.data(), contacts);
-  } else {
-    place_.clear();
-    for (int k = 0; k < n; k++) {
-      const Query &q = queries[k];
-      if (grains_[q.i].triaxial || grains_[q.j].triaxial) {
-        contacts[k] = solve_alone(q);
-      } else {
-        add_pair(q);
-        place_.push_back(k);
-      }
-    }
-    solved_.resize(pairs_.size());
-    ellipsoid_contacts(static_cast<int>(pairs_.size()), pairs_.data(), solved_.data());
-    for (std::size_t k = 0; k < place_.size(); k++) contacts[place_[k]] = solved_[k];
-  }
-  for (int k = 0; k < n; k++) count(queries[k], contacts[k]);
+EllipsoidContact EllipsoidBodies::solve(const Query &query) {
+  EllipsoidContact contact = solve_alone(query);
+  count(query, contact);
+  return contact;
 }
 
 void EllipsoidBodies::count(const Query &query, EllipsoidContact &contact) {

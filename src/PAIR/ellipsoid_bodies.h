@@ -2,7 +2,7 @@
 #ifndef GRAINSCOPE_ELLIPSOID_BODIES_H
 #define GRAINSCOPE_ELLIPSOID_BODIES_H
 
-#include "sphere_contact.h"
+#include "ellipsoid_contact.h"
 #include "neighbor.h"
 #include "pointers.h"
 #include "update.h"
@@ -52,27 +52,20 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
     int i, j;
     double d[3], start;
   };
-  void solve(int n, const Query *queries, EllipsoidContact *contacts);
+  EllipsoidContact solve(const Query &query);
   /** At a point y of the surface of grain i, from its centre [1/length]. */
   double mean_curvature(int i, const double y[3]) const;
   /** Of the sphere of equal volume. */
   double equivalent_radius(int i) const { return grains_[i].equivalent_radius; }
-  /** sphere_contact() of two grains of a packing of only_spheres(). */
-  EllipsoidContact solve_spheres(int i, int j, const double d[3], double d2) {
-    const double radius1 = grains_[i].across, radius2 = grains_[j].across,
-                 small = 1e-10 * (radius1 < radius2 ? radius1 : radius2);
-    if (d2 < small * small) {  // perhaps concentric
-      const Query query{i, j, {d[0], d[1], d[2]}, 0.0};
-      EllipsoidContact contact;
-      solve(1, &query, &contact);
-      return contact;
-    }
-    counts.solved++;
-    const EllipsoidContact contact = sphere_contact(radius1, radius2, d, d2);
-    counts.touching += contact.touching;
-    return contact;
-  }
   bool only_spheres() const { return only_spheres_; }
+  bool some_spheres() const { return some_spheres_; }
+  bool some_triaxial() const { return some_triaxial_; }
+  /** Two grains that are what the lanes of meet_spheroids() are for, or those of meet_round(). */
+  bool in_lanes(int i, int j) const {
+    return only_spheres_ || (!grains_[i].triaxial && !grains_[j].triaxial && !(is_sphere(i) && is_sphere(j)));
+  }
+  /** Of a spheroid, or a sphere. */
+  const Spheroid &spheroid(int i) const { return grains_[i].spheroid; }
   bool is_sphere(int i) const { return grains_[i].elongation == 0.0; }
   /** Difference of the largest and the smallest semi-axis. */
   double elongation(int i) const { return grains_[i].elongation; }
@@ -82,23 +75,19 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
  private:
   struct Grain {
     Spheroid spheroid;
-    double equivalent_radius, elongation, across;  // across: the semi-axis b across the symmetry axis
+    double equivalent_radius, elongation;
     int axis;
     bool triaxial;
   };
   std::vector<Grain> grains_;
-  bool only_spheres_ = false, some_triaxial_ = false;
+  bool only_spheres_ = false, some_spheres_ = false, some_triaxial_ = false;
   NeighbourListWatch lists_;
-  std::vector<EllipsoidPair> pairs_;
-  std::vector<int> place_;  // of each of them among the queries
-  std::vector<EllipsoidContact> solved_;
   bool warned_ = false;
   std::string sphere_model_;
 
   void read_shapes(int n);
   void refuse_other_blockiness();
   void refuse_other_than_spheres();
-  void add_pair(const Query &query);
   Triaxial frame(int i) const;
   EllipsoidContact solve_alone(const Query &query) const;
   void count(const Query &query, EllipsoidContact &contact);

@@ -26,12 +26,17 @@ struct EllipsoidSurface {
 
   double start(const double *history) const { return history[lambda] == 0.0 ? 0.0 : history[lambda] + 0.5; }
 
+  /** The pair does not touch. */
+  void forget(double *history) const {
+    if (history[lambda] != 0.0) history[lambda] = 0.0;
+  }
+
   /** Enters a contact into the history, and into `s` if it touches; else s.deltan is minus a lower bound of the
    *  distance. */
   inline __attribute__((always_inline)) bool enter(const EllipsoidContact &c, SurfaceData &s,
                                                    const EllipsoidBodies &bodies, const LAMMPS_NS::Atom *atom) const {
     if (!c.touching) {
-      if (s.contact_history[lambda] != 0.0) s.contact_history[lambda] = 0.0;
+      forget(s.contact_history);
       s.deltan = -c.gap;
       return false;
     }

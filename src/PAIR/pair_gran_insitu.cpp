@@ -6,6 +6,7 @@
 #include "ellipsoid_surface.h"
 #include "gran_insitu_models.h"
 #include "kept_history.h"
+#include "lane_law.h"
 #include "model_names.h"
 #include "pair_checks.h"
 #include "run_fixes.h"
@@ -34,9 +35,10 @@ using grainscope::TangentialBound;
 using grainscope::TangentialLaw;
 
 struct PairGranInsitu::Impl {
-  explicit Impl(LAMMPS *lmp) : observer(lmp), reader(observer), bodies(lmp), watch(lmp), checks(lmp) {}
+  explicit Impl(LAMMPS *lmp) : observer(lmp), reader(observer), lane_law(lmp), bodies(lmp), watch(lmp), checks(lmp) {}
   ContactObserver observer;
   ContactReader reader;
+  grainscope::LaneLaw lane_law;
   grainscope::EllipsoidBodies bodies;
   grainscope::EllipsoidSurface surface;
   grainscope::TimeStepWatch watch;
@@ -70,6 +72,8 @@ const std::string &PairGranInsitu::models() const { return impl_->models; }
 ContactObserver &PairGranInsitu::observer() { return impl_->observer; }
 
 ContactReader &PairGranInsitu::reader() { return impl_->reader; }
+
+grainscope::LaneLaw &PairGranInsitu::lane_law() { return impl_->lane_law; }
 
 const ContactLaw &PairGranInsitu::law() const { return impl_->reader.law(); }
 
@@ -186,6 +190,7 @@ void PairGranInsitu::init_style() {
 
 void PairGranInsitu::init_granular() {
   impl_->loop->init_granular();
+  impl_->lane_law.connect(impl_->models);
   ContactLaw law = grainscope::law_of_models(
       impl_->models, [this](const char *kind, const char *name) { return contact_match(kind, name); });
   law.exponent = stressStrainExponent();

@@ -18,6 +18,7 @@ namespace grainscope {
 class ContactObserver;
 class ContactReader;
 class EvaluationMemory;
+class LaneLaw;
 struct ContactLaw;
 }
 
@@ -50,6 +51,7 @@ class PairGranInsitu : public PairGranProxy, public grainscope::EllipsoidOwner {
 
   grainscope::ContactObserver &observer();
   grainscope::ContactReader &reader();
+  grainscope::LaneLaw &lane_law();
   /** Of the run that was set up last. */
   const grainscope::ContactLaw &law() const;
   /** `ledger on`. */

@@ -71,8 +71,7 @@ class SurfaceModel<SURFACE_ELLIPSOID> : public SurfaceModelBase {
   bool checkSurfaceIntersect(SurfacesIntersectData &s) {
     const grainscope::EllipsoidBodies::Query query{
         s.i, s.j, {-s.delta[0], -s.delta[1], -s.delta[2]}, surface_.start(s.contact_history)};
-    grainscope::EllipsoidContact contact;
-    bodies_->solve(1, &query, &contact);
+    const grainscope::EllipsoidContact contact = bodies_->solve(query);
     const bool for_output = !s.computeflag;
     if (for_output) shown_.keep(s.contact_history + surface_.first);
     const bool touching = surface_.enter(contact, s, *bodies_, atom);

@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "pair_group.h"
+#include "concentric.h"
+#include "ellipsoid_solver.h"
+#include <algorithm>
+
+namespace grainscope {
+
+namespace {
+
+using namespace contact_solver;
+using namespace pair_law;
+
+constexpr int LANE_STEPS = 6;  // pairs that need more are solved again, alone
+
+GRAINSCOPE_INLINE void distance(const Lanes *xi, const Lanes *xj, Lanes *d, Lanes &square, LaneMask &reachable,
+                                GroupGeometry &g) {
+  for (int k = 0; k < 3; k++) {
+    d[k] = xj[k] - xi[k];
+    g.d[k] = d[k];
+  }
+  square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+  const Lanes reach = xi[3] + xj[3];
+  reachable = square < reach * reach;
+  g.square = square;
+  g.reachable = reachable;
+}
+
+GRAINSCOPE_INLINE void meet_spheroids_of(const PackedGrains &grains, const PairGroup &group, GroupGeometry &g) {
+  const auto i = [&](int k) -> const PackedGrain & { return grains.grains[group.i[k]]; };
+  const auto j = [&](int k) -> const PackedGrain & { return grains.grains[group.j[k]]; };
+  Lanes xi[4], xj[4], d[3], square;
+  LaneMask reachable;
+  load_rows([&](int k) { return i(k).x; }, xi);
+  load_rows([&](int k) { return j(k).x; }, xj);
+  distance(xi, xj, d, square, reachable, g);
+
+  Lanes axis[4], shape[4];
+  load_rows([&](int k) { return i(k).axis; }, axis);
+  load_rows([&](int k) { return &grains.shapes[group.i[k]].equatorial_square; }, shape);
+  const SpheroidOf<Lanes> one{{axis[0], axis[1], axis[2]}, shape[0], shape[1], shape[2], shape[3], axis[3]};
+  load_rows([&](int k) { return j(k).axis; }, axis);
+  load_rows([&](int k) { return &grains.shapes[group.j[k]].equatorial_square; }, shape);
+  const SpheroidOf<Lanes> two{{axis[0], axis[1], axis[2]}, shape[0], shape[1], shape[2], shape[3], axis[3]};
+
+  Lanes start;
+  for (int k = 0; k < LANES; k++) start[k] = *group.history[k];
+  start = pick(start == 0.0, Lanes{}, start + 0.5);
+  Answer<Lanes> a{};
+  solve<SpheroidPair<Lanes>>(one, two, d, start, ELLIPSOID_TOLERANCE, LANE_STEPS, a);
+
+  // What is_sound() asks, and concentric().
+  Lanes sum = a.depth[0] + a.depth[1] + a.curvature[0] + a.curvature[1];
+  for (int k = 0; k < 3; k++) sum += absolute(a.point[k]);
+  const LaneMask sound = pick(a.touching,
+                              (absolute(dot(a.normal, a.normal) - 1.0) < 1e-9) & (a.depth[0] >= 0.0) &
+                                  (a.depth[1] >= 0.0) & (sum < HUGE_VAL),
+                              a.gap >= 0.0);
+  const Lanes smallest =
+      least(least(one.equatorial_square, one.polar_square), least(two.equatorial_square, two.polar_square));
+  const LaneMask alone = a.unsettled | !sound | (square < 1e-26 * smallest);
+  for (int k = 0; k < 3; k++) {
+    g.normal[k] = a.normal[k];
+    g.point[k] = a.point[k];
+  }
+  for (int k = 0; k < 2; k++) {
+    g.depth[k] = a.depth[k];
+    g.curvature[k] = a.curvature[k];
+  }
+  g.lambda = a.lambda;
+  g.gap = pick(reachable, a.gap, root(square) - xi[3] - xj[3]);
+  g.steps = a.steps;
+  g.touching = a.touching & reachable;
+  g.alone = alone & reachable;
+}
+
+/** sphere_contact(). */
+GRAINSCOPE_INLINE void meet_round_of(const PackedGrains &grains, const PairGroup &group, GroupGeometry &g) {
+  Lanes xi[4], xj[4], axis[4], d[3], square;
+  LaneMask reachable;
+  load_rows([&](int k) { return grains.grains[group.i[k]].x; }, xi);
+  load_rows([&](int k) { return grains.grains[group.j[k]].x; }, xj);
+  distance(xi, xj, d, square, reachable, g);
+  load_rows([&](int k) { return grains.grains[group.i[k]].axis; }, axis);
+  const Lanes radius1 = axis[0];
+  load_rows([&](int k) { return grains.grains[group.j[k]].axis; }, axis);
+  const Lanes radius2 = axis[0], r = root(square), sum = radius1 + radius2, inverse_sum = 1.0 / sum,
+              inverse_r = 1.0 / r, inside = (sum - r) * inverse_sum;
+  g.lambda = radius1 * inverse_sum;
+  for (int k = 0; k < 3; k++) {
+    g.normal[k] = d[k] * inverse_r;
+    g.point[k] = g.lambda * d[k];
+  }
+  g.depth[0] = radius1 * inside;
+  g.depth[1] = radius2 * inside;
+  g.curvature[0] = 1.0 / radius1;
+  g.curvature[1] = 1.0 / radius2;
+  g.gap = pick(reachable, r - sum, r - xi[3] - xj[3]);
+  g.steps = Lanes{};
+  const Lanes small = 1e-10 * least(radius1, radius2);
+  g.touching = reachable & (r < sum);
+  g.alone = reachable & (square < small * small);
+}
+
+/** Of spheres that are known by their radius alone. */
+GRAINSCOPE_INLINE void meet_spheres_of(const PackedGrains &grains, const PairGroup &group, GroupGeometry &g) {
+  Lanes xi[4], xj[4], d[3], square;
+  LaneMask reachable;
+  load_rows([&](int k) { return grains.grains[group.i[k]].x; }, xi);
+  load_rows([&](int k) { return grains.grains[group.j[k]].x; }, xj);
+  distance(xi, xj, d, square, reachable, g);
+  g.gap = root(square) - xi[3] - xj[3];
+  g.touching = reachable;
+}
+
+struct Sides {
+  Lanes velocity[2][4], spin[2][4];  // fourth: mass, size
+};
+
+GRAINSCOPE_INLINE void load_motion(const PackedGrains &grains, const PairGroup &group, Sides &s) {
+  load_rows([&](int k) { return grains.grains[group.i[k]].velocity; }, s.velocity[0]);
+  load_rows([&](int k) { return grains.grains[group.j[k]].velocity; }, s.velocity[1]);
+  load_rows([&](int k) { return grains.grains[group.i[k]].spin; }, s.spin[0]);
+  load_rows([&](int k) { return grains.grains[group.j[k]].spin; }, s.spin[1]);
+}
+
+GRAINSCOPE_INLINE Lanes effective_mass(const Sides &s, const GroupLaw &law) {
+  const Lanes mi = s.velocity[0][3], mj = s.velocity[1][3];
+  Lanes mass = mi * mj / (mi + mj);
+  if (law.frozen) {
+    mass = pick(law.frozen_i, mj, mass);
+    mass = pick(law.frozen_j, mi, mass);
+  }
+  return mass;
+}
+
+GRAINSCOPE_INLINE void coefficients(const GroupLaw &law, Coefficients<Lanes> &c) {
+  if (law.law.types == 1) {
+    for (int k = 0; k < 4; k++) c.constant[k] = law.terms[0]->constant[k] + Lanes{};
+    c.friction = law.terms[0]->friction + Lanes{};
+    return;
+  }
+  load_rows([&](int k) { return law.terms[k]->constant; }, c.constant);
+  for (int k = 0; k < LANES; k++) c.friction[k] = law.terms[k]->friction;
+}
+
+GRAINSCOPE_INLINE void cross(const Lanes *a, const Lanes *b, Lanes *c) {
+  c[0] = a[1] * b[2] - a[2] * b[1];
+  c[1] = a[2] * b[0] - a[0] * b[2];
+  c[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+/** Forces and torques to the grains, pair after pair; lambda and springs to the history. */
+GRAINSCOPE_INLINE void hand_out(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
+                                const Lanes *force, const Lanes *torque_i, const Lanes *torque_j) {
+  Lanes f[LANES], ti[LANES], tj[LANES];
+  const Lanes columns[3][4] = {{force[0], force[1], force[2], force[2]},
+                               {torque_i[0], torque_i[1], torque_i[2], torque_i[2]},
+                               {torque_j[0], torque_j[1], torque_j[2], torque_j[2]}};
+  transpose(columns[0], f);
+  transpose(columns[1], ti);
+  transpose(columns[2], tj);
+  for (int k = 0; k < LANES; k++) {
+    if (!g.touching[k]) continue;
+    PackedForce &on_i = grains.forces[group.i[k]], &on_j = grains.forces[std::min(group.j[k], grains.own)];
+    store(load(on_i.force) + f[k], on_i.force);
+    store(load(on_i.torque) + ti[k], on_i.torque);
+    store(load(on_j.force) - f[k], on_j.force);
+    store(load(on_j.torque) + tj[k], on_j.torque);
+  }
+}
+
+GRAINSCOPE_INLINE void keep_history(const PairGroup &group, const GroupGeometry &g, const Lanes *columns) {
+  Lanes rows[LANES];
+  transpose(columns, rows);
+  for (int k = 0; k < LANES; k++)
+    if (g.touching[k]) store(rows[k], group.history[k]);
+}
+
+GRAINSCOPE_INLINE void keep_forces(const Approach<Lanes> &a, const Normal<Lanes> &n, const Friction<Lanes> &f,
+                                   Lanes friction, Lanes limit, const Lanes *force, const Lanes *point,
+                                   const Lanes *before, GroupForces &kept) {
+  for (int k = 0; k < 3; k++) {
+    kept.normal[k] = a.normal[k];
+    kept.force[k] = force[k];
+    kept.tangential_velocity[k] = a.tangential_velocity[k];
+    kept.point[k] = point[k];
+    kept.before[k] = before[k];
+    kept.uncut[k] = f.uncut[k];
+    kept.after[k] = f.spring[k];
+  }
+  kept.overlap = a.overlap;
+  kept.normal_velocity = a.normal_velocity;
+  kept.law_force = n.force;
+  kept.kn = n.kn;
+  kept.kt = n.kt;
+  kept.gamma_n = n.gamma_n;
+  kept.gamma_t = n.gamma_t;
+  kept.friction = friction;
+  kept.limit = limit;
+  kept.length = f.length;
+  kept.cut = f.cut;
+}
+
+/** Torques of a normal and a tangential force on i, at their arms. */
+struct ArmTorques {
+  const Lanes *arm_i, *arm_j;
+  bool friction;
+  GRAINSCOPE_INLINE void operator()(const Lanes *normal, const Lanes *tangential, Lanes *on_i, Lanes *on_j) const {
+    Lanes against[3], more_i[3], more_j[3];
+    for (int k = 0; k < 3; k++) against[k] = -normal[k];
+    cross(arm_i, normal, on_i);
+    cross(arm_j, against, on_j);
+    if (!friction) return;
+    for (int k = 0; k < 3; k++) against[k] = -tangential[k];
+    cross(arm_i, tangential, more_i);
+    cross(arm_j, against, more_j);
+    for (int k = 0; k < 3; k++) {
+      on_i[k] += more_i[k];
+      on_j[k] += more_j[k];
+    }
+  }
+};
+
+/** Of a tangential force on spheres, by the distances of the contact point from their centres. */
+struct LeverTorques {
+  const Lanes *normal, *lever;
+  GRAINSCOPE_INLINE void operator()(const Lanes *, const Lanes *tangential, Lanes *on_i, Lanes *on_j) const {
+    Lanes t[3];
+    cross(normal, tangential, t);
+    for (int k = 0; k < 3; k++) {
+      on_i[k] = -lever[0] * t[k];
+      on_j[k] = -lever[1] * t[k];
+    }
+  }
+};
+
+/** Everything from the approach on. `lambda`: the first column of the history from now on; its own where null. */
+template <class Torques>
+GRAINSCOPE_INLINE void push(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
+                            const GroupLaw &law, const Approach<Lanes> &a, const Lanes *point, const Lanes *lambda,
+                            Torques torques, GroupForces *kept) {
+  Coefficients<Lanes> c;
+  coefficients(law, c);
+  const Normal<Lanes> n = normal_force(law.law, c, a);
+  const Lanes limit = c.friction * absolute(n.force);
+  Lanes history[4] = {}, *before = history + 1;
+  Friction<Lanes> f{};
+  if (law.law.tangential == PairLaw::Tangential::history) {
+    load_rows([&](int k) { return group.history[k]; }, history);
+    spring_friction(law.law, limit, a, n, before, f);
+  } else if (law.law.tangential == PairLaw::Tangential::no_history) {
+    viscous_friction(limit, a, n, f);
+  }
+  Lanes normal[3], force[3], torque_i[3], torque_j[3];
+  for (int k = 0; k < 3; k++) {
+    normal[k] = n.force * a.normal[k];
+    force[k] = 0.0 + normal[k] + f.force[k];
+  }
+  torques(normal, f.force, torque_i, torque_j);
+  hand_out(grains, group, g, force, torque_i, torque_j);
+  if (kept) keep_forces(a, n, f, c.friction, limit, force, point, before, *kept);
+  if (law.law.tangential == PairLaw::Tangential::history) {
+    const Lanes columns[4] = {lambda ? *lambda : history[0], f.spring[0], f.spring[1], f.spring[2]};
+    keep_history(group, g, columns);
+  } else if (lambda) {
+    for (int k = 0; k < LANES; k++)
+      if (g.touching[k]) *group.history[k] = (*lambda)[k];
+  }
+}
+
+template <bool round>
+GRAINSCOPE_INLINE void push_ellipsoids_of(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
+                                          const GroupLaw &law, GroupForces *kept) {
+  Sides s;
+  load_motion(grains, group, s);
+  Approach<Lanes> a;
+  const Lanes size_i = s.spin[0][3], size_j = s.spin[1][3];
+  a.radius = size_i * size_j / (size_i + size_j);
+  if (!round && law.law.curvature_limit > 0.0)
+    a.radius = least(a.radius * law.law.curvature_limit, 1.0 / (g.curvature[0] + g.curvature[1]));
+  a.overlap = g.depth[0] + g.depth[1];
+  a.mass = effective_mass(s, law);
+
+  Lanes xi[4], xj[4], point[3], arm_i[3], arm_j[3];
+  load_rows([&](int k) { return grains.grains[group.i[k]].x; }, xi);
+  load_rows([&](int k) { return grains.grains[group.j[k]].x; }, xj);
+  for (int k = 0; k < 3; k++) {
+    a.normal[k] = -g.normal[k];
+    point[k] = xi[k] + g.point[k];
+    arm_i[k] = point[k] - xi[k];
+    arm_j[k] = point[k] - xj[k];
+  }
+  Lanes turn_i[3], turn_j[3], v[3];
+  cross(s.spin[0], arm_i, turn_i);
+  cross(s.spin[1], arm_j, turn_j);
+  for (int k = 0; k < 3; k++) v[k] = s.velocity[0][k] - s.velocity[1][k] + turn_i[k] - turn_j[k];
+  a.normal_velocity = v[0] * a.normal[0] + v[1] * a.normal[1] + v[2] * a.normal[2];
+  for (int k = 0; k < 3; k++) a.tangential_velocity[k] = v[k] - a.normal_velocity * a.normal[k];
+
+  if (round) {
+    const Lanes lever[2] = {size_i - g.depth[0], size_j - g.depth[1]};
+    for (int k = 0; k < 3; k++) point[k] = xi[k] - lever[0] * a.normal[k];
+    push(grains, group, g, law, a, point, nullptr, LeverTorques{a.normal, lever}, kept);
+  } else {
+    const bool friction = law.law.tangential != PairLaw::Tangential::off;
+    const Lanes lambda = g.lambda - 0.5;
+    push(grains, group, g, law, a, point, &lambda, ArmTorques{arm_i, arm_j, friction}, kept);
+  }
+}
+
+GRAINSCOPE_INLINE void push_spheres_of(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
+                                       const GroupLaw &law, GroupForces *kept) {
+  Sides s;
+  load_motion(grains, group, s);
+  Approach<Lanes> a;
+  const Lanes radius_i = s.spin[0][3], radius_j = s.spin[1][3], r = root(g.square), inverse = 1.0 / r;
+  a.radius = radius_i * radius_j / (radius_i + radius_j);
+  a.overlap = radius_i + radius_j - r;
+  a.mass = effective_mass(s, law);
+  const Lanes half = 0.5 * a.overlap, lever_i = radius_i - half, lever_j = radius_j - half;
+  Lanes xi[4], d[3], v[3], w[3], point[3];
+  load_rows([&](int k) { return grains.grains[group.i[k]].x; }, xi);
+  for (int k = 0; k < 3; k++) {
+    d[k] = -g.d[k];
+    a.normal[k] = d[k] * inverse;
+    v[k] = s.velocity[0][k] - s.velocity[1][k];
+    w[k] = (lever_i * s.spin[0][k] + lever_j * s.spin[1][k]) * inverse;
+    point[k] = xi[k] - lever_i * a.normal[k];
+  }
+  a.normal_velocity = v[0] * a.normal[0] + v[1] * a.normal[1] + v[2] * a.normal[2];
+  for (int k = 0; k < 3; k++) {
+    const int l = (k + 1) % 3, m = (k + 2) % 3;
+    const Lanes along = a.normal_velocity * a.normal[k];
+    a.tangential_velocity[k] = (v[k] - along) - (d[m] * w[l] - d[l] * w[m]);
+  }
+  const Lanes lever[2] = {lever_i, lever_j};
+  push(grains, group, g, law, a, point, nullptr, LeverTorques{a.normal, lever}, kept);
+}
+
+}
+
+GRAINSCOPE_CLONES
+void meet_spheroids(const PackedGrains &grains, const PairGroup &group, GroupGeometry &g) {
+  meet_spheroids_of(grains, group, g);
+}
+GRAINSCOPE_CLONES
+void meet_round(const PackedGrains &grains, const PairGroup &group, GroupGeometry &g) {
+  meet_round_of(grains, group, g);
+}
+GRAINSCOPE_CLONES
+void meet_spheres(const PackedGrains &grains, const PairGroup &group, GroupGeometry &g) {
+  meet_spheres_of(grains, group, g);
+}
+GRAINSCOPE_CLONES
+void push_ellipsoids(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g, const GroupLaw &law,
+                     GroupForces *kept) {
+  push_ellipsoids_of<false>(grains, group, g, law, kept);
+}
+GRAINSCOPE_CLONES
+void push_round(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g, const GroupLaw &law,
+                GroupForces *kept) {
+  push_ellipsoids_of<true>(grains, group, g, law, kept);
+}
+GRAINSCOPE_CLONES
+void push_spheres(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g, const GroupLaw &law,
+                  GroupForces *kept) {
+  push_spheres_of(grains, group, g, law, kept);
+}
+
+}

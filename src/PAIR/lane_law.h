@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_LANE_LAW_H
+#define GRAINSCOPE_LANE_LAW_H
+
+#include "pair_law.h"
+#include "pointers.h"
+#include <string>
+
+namespace grainscope {
+
+/** The pair style's contact models as a PairLaw, where they are such that many contacts can be worked out side by
+ *  side: whatever else the command says goes the host's way. */
+class LaneLaw : private LAMMPS_NS::Pointers {
+ public:
+  explicit LaneLaw(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
+
+  /** Before a run. `models`: the words of the command. */
+  void connect(const std::string &models);
+  bool covers() const { return covers_; }
+  /** Material properties and time step as they are now. */
+  const PairLaw &now();
+  const PairLaw::Terms &terms(int type_i, int type_j) const {
+    return law_.terms[(type_i - 1) * law_.types + type_j - 1];
+  }
+
+ private:
+  bool covers_ = false;
+  PairLaw law_;
+  // of the host, for each pair of atom types
+  double **young_ = nullptr, **shear_ = nullptr, **beta_ = nullptr, **log_restitution_ = nullptr, **friction_ = nullptr,
+         **stiffness_[4] = {};
+
+  bool read(const std::string &models);
+  PairLaw::Terms terms_of(int type_i, int type_j) const;
+};
+
+}
+
+#endif

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#ifndef GRAINSCOPE_PACKED_SCENE_H
+#define GRAINSCOPE_PACKED_SCENE_H
+
+#include "ellipsoid_bodies.h"
+#include "pair_group.h"
+#include "atom.h"
+#include "pointers.h"
+#include <algorithm>
+#include <vector>
+
+namespace grainscope {
+
+/** All owned and ghost grains as the pair loop reads them, and the forces that it adds up. */
+class PackedScene : private LAMMPS_NS::Pointers {
+ public:
+  explicit PackedScene(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
+
+  /** With a new neighbour list: what stays until the next. */
+  void restart(const EllipsoidBodies &bodies);
+  /** With every force evaluation: where the grains are, how they move, and the forces on them so far. */
+  void load(const EllipsoidBodies &bodies);
+  void hand_back_forces() const;
+
+  PackedGrains grains() { return {grains_.data(), shapes_.data(), forces_.data(), atom->nlocal}; }
+  /** On one of them; of ghosts all in one place, which nobody reads. */
+  PackedForce &force_on(int grain) { return forces_[std::min<std::size_t>(grain, forces_.size() - 1)]; }
+
+ private:
+  std::vector<PackedGrain> grains_;
+  std::vector<PackedShape> shapes_;
+  std::vector<PackedForce> forces_;
+};
+
+}
+
+#endif
