@@ -17,7 +17,6 @@ import statistics
 import subprocess
 import sys
 import tempfile
-import time
 
 import numpy as np
 
@@ -131,18 +130,18 @@ class Bench:
 
     def execute(self, command):
         """Standard output and error together, the memory of the largest process in bytes, and the share of a processor
-        that it had."""
+        that the process had whenever it could run: the start of MPI waits for other things."""
         with tempfile.TemporaryFile("w+") as text, session(self.environment) as environment:
-            start = time.monotonic()
             process = subprocess.Popen(command, cwd=self.folder, env=environment, stdout=text, stderr=subprocess.STDOUT)
+            os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)
+            ran, queued, _ = map(int, pathlib.Path(f"/proc/{process.pid}/schedstat").read_text().split())
             _, status, usage = os.wait4(process.pid, 0)
-            share = (usage.ru_utime + usage.ru_stime) / (time.monotonic() - start)
             process.returncode = os.waitstatus_to_exitcode(status)
             text.seek(0)
             output = text.read()
         if process.returncode:
             raise SystemExit(f"the run failed: {' '.join(command)}\n{output[-3000:]}")
-        return output, usage.ru_maxrss * 1024.0, share
+        return output, usage.ru_maxrss * 1024.0, ran / (ran + queued)
 
     def packing(self, alpha):
         dump = self.states / f"dense_{alpha:g}.restart.dump"
