@@ -5,7 +5,8 @@ The packing of in.dense, tiled to the number of grains asked for, is sheared on 
 LIGGGHTS's time loop, of runs that alternate between the cases. On one rank: medians, of times multiplied by the share
 of a processor that the run had (other work on the machine then matters little); the gain is the median of the gains
 over the first case, round by round. On more ranks, which wait for each other: the quickest run; this wants a quiet
-machine. With --count instructions per step by callgrind instead (repeatable; needs valgrind).
+machine. With --count instructions per step by callgrind instead (repeatable; needs valgrind). With --compare lammps
+the spheres (alpha = 1) run in LAMMPS too, with contacts as stiff and as damped (README.md).
 """
 import argparse
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ import math
 import os
 import pathlib
 import re
+import shutil
 import statistics
 import subprocess
 import sys
@@ -35,6 +37,8 @@ CASES = {
     "gran+ellipsoid": ("superquadric", "gran", f"ellipsoid {LIMITS}", "nve/superquadric"),
     "spheres": ("sphere", "gran/insitu", "default tangential_damping off", "nve/sphere"),
 }
+LAMMPS = "lammps"
+SPHERES = ("spheres", LAMMPS)
 COLUMNS = (
     "alpha",
     "N",
@@ -51,7 +55,7 @@ COLUMNS = (
     "listed per grain",
     "MB",
 )
-PARTS = ("Pair", "Neigh", "Comm", "Other")
+PARTS = ("Pair", "Neigh", "Comm")
 
 
 @dataclass
@@ -111,15 +115,15 @@ class Packing:
 @dataclass
 class Result:
     step: float  # seconds
-    parts: dict  # seconds per step
+    parts: list  # seconds per step: PARTS and the rest
     rebuilds: int
     neighbours: float  # per grain
     memory: float  # bytes, of the largest process
 
 
 class Bench:
-    def __init__(self, binary, folder, states):
-        self.binary, self.folder, self.states = binary, folder, states
+    def __init__(self, binary, lammps, folder, states):
+        self.binary, self.lammps, self.folder, self.states = binary, lammps, folder, states
         self.environment = dict(
             os.environ,
             OMPI_ALLOW_RUN_AS_ROOT="1",
@@ -167,7 +171,7 @@ class Bench:
         return Packing.read(dump, alpha)
 
     def prepare(self, packing, count, case):
-        spheres = CASES[case][0] == "sphere"
+        spheres = case in SPHERES
         data = self.folder / f"{'spheres' if spheres else 'grains'}_{packing.alpha:g}_{count}.data"
         turn = data.with_suffix(".turn")
         if not data.exists():
@@ -176,20 +180,13 @@ class Bench:
 
     def deck(self, packing, count, case, settle, steps, reach):
         data, turn = self.prepare(packing, count, case)
-        grains, pair, surface, move = CASES[case]
-        values = {
-            "grains": grains,
-            "data": data,
-            "turn": turn,
-            "alpha": packing.alpha,
-            "pair": pair,
-            "surface": surface,
-            "move": move,
-            "reach": reach,
-            "settle": settle,
-            "steps": steps,
-        }
-        return [str(self.binary), "-in", str(HERE / "in.speed"), "-log", "none"] + [
+        values = {"data": data, "reach": reach, "settle": settle, "steps": steps}
+        if case == LAMMPS:
+            program, script = self.lammps, "in.lammps"
+        else:
+            program, script = self.binary, "in.speed"
+            values.update(zip(("grains", "pair", "surface", "move"), CASES[case]), turn=turn, alpha=packing.alpha)
+        return [str(program), "-in", str(HERE / script), "-log", "none"] + [
             str(word) for name, value in values.items() for word in ("-var", name, value)
         ]
 
@@ -198,12 +195,18 @@ class Bench:
         output, memory, share = self.execute(
             [*launch, *self.deck(packing, count, case, max(20, steps // 5), steps, reach)]
         )
-        output = output[output.rindex("Setting up run") :]
+        output = output[output.rindex("Loop time of") :]
         scale = (share if ranks == 1 else 1.0) / steps
-        parts = {part: float(re.search(rf"^{part} *time \(%\) = (\S+)", output, re.M)[1]) * scale for part in PARTS}
+
+        def seconds(pattern):
+            return float(re.search(pattern, output, re.M)[1]) * scale
+
+        step = seconds(r"^Loop time of (\S+)")
+        # LIGGGHTS: "Pair  time (%) = 0.2 (75)"; LAMMPS: "Pair    | 0.2 | 0.2 | 0.2 |", least, mean and most
+        parts = [seconds(rf"^{part} *(?:time \(%\) =|\| *\S+ *\|) *(\S+)") for part in PARTS]
         return Result(
-            float(re.search(r"^Loop time of (\S+)", output, re.M)[1]) * scale,
-            parts,
+            step,
+            [*parts, step - sum(parts)],
             int(re.search(r"^Neighbor list builds = (\d+)", output, re.M)[1]),
             float(re.search(r"^Ave neighs/atom = (\S+)", output, re.M)[1]),
             memory,
@@ -231,7 +234,8 @@ def steps_for(count):
 
 
 def cases_for(arguments, alpha):
-    return [case for case in arguments.cases if case != "spheres" or alpha == 1.0]
+    cases = arguments.cases + ([LAMMPS] if arguments.compare else [])
+    return [case for case in cases if case not in SPHERES or alpha == 1.0]
 
 
 def take_time(bench, arguments):
@@ -253,7 +257,7 @@ def take_time(bench, arguments):
                     gain = statistics.median(first.step / one.step for first, one in zip(results[runs[0]], result))
                     whole = 1e3 * statistics.median(one.step for one in result)
                     parts = " | ".join(
-                        f"{1e3 * statistics.median(one.parts[part] for one in result):.3f}" for part in PARTS
+                        f"{1e3 * statistics.median(part):.3f}" for part in zip(*(one.parts for one in result))
                     )
                     print(
                         f"| {alpha:g} | {count:,} | {ranks} | {reach:g} | {case} | {whole:.3f} | {gain:.2f} | {parts} "
@@ -300,6 +304,7 @@ def main():
         metavar="case",
         help="of %(choices)s; gains are relative to the first (default: all)",
     )
+    parser.add_argument("--compare", choices=[LAMMPS], help="a further case: spheres in LAMMPS (program lmp)")
     parser.add_argument("--repeats", type=int, default=5, help="rounds (default %(default)s)")
     parser.add_argument("--steps", type=int, help="steps of each run (default: 1000 for 2000 grains, fewer for more)")
     parser.add_argument("--count", action="store_true", help="instructions per step instead of time, on one rank")
@@ -307,11 +312,16 @@ def main():
         "--states", type=pathlib.Path, help="folder that keeps the packings (a new one takes 2 to 15 minutes)"
     )
     arguments = parser.parse_args()
+    lammps = shutil.which("lmp")
+    if arguments.compare and not lammps:
+        parser.error("--compare lammps needs LAMMPS's program lmp, which is not here (Debian: apt-get install lammps)")
+    if arguments.compare and 1.0 not in arguments.alpha:
+        parser.error("--compare lammps compares spheres, but 1 is not among --alpha")
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         states = (arguments.states or folder).resolve()
         states.mkdir(parents=True, exist_ok=True)
-        bench = Bench(arguments.binary.resolve(), folder, states)
+        bench = Bench(arguments.binary.resolve(), lammps, folder, states)
         if arguments.count:
             count_instructions(bench, arguments)
         else:
