@@ -20,8 +20,9 @@ struct Triaxial {
 };
 
 /** Body axis `k` (0, 1, 2) in the laboratory: a column of the rotation matrix of the unit quaternion (w, x, y, z). */
-inline void rotated_axis(const double q[4], int k, double axis[3]) {
-  const double *v = q + 1;
+template <class Real>
+inline void rotated_axis(const Real *q, int k, Real *axis) {
+  const Real *v = q + 1;
   const int i = k == 2 ? 0 : k + 1, j = k == 0 ? 2 : k - 1;
   axis[k] = 1.0 - 2.0 * (v[i] * v[i] + v[j] * v[j]);
   axis[i] = 2.0 * (v[k] * v[i] + q[0] * v[j]);

@@ -13,39 +13,90 @@ using namespace pair_law;
 
 constexpr int LANE_STEPS = 6;  // pairs that need more are solved again, alone
 
-GRAINSCOPE_INLINE void distance(const Lanes *xi, const Lanes *xj, Lanes *d, Lanes &square, LaneMask &reachable,
-                                GroupGeometry &g) {
+/** The lanes that hold pairs of their own. */
+GRAINSCOPE_INLINE LaneMask filled(const PairGroup &group) {
+  const LaneMask lane = {0, 1, 2, 3};
+  return lane < (long)group.size + LaneMask{};
+}
+
+/** What follows from what is reachable and touching. */
+GRAINSCOPE_INLINE void count(LaneMask there, GroupGeometry &g, SolverTally &tally) {
+  g.apart = there & ~g.touching;
+  const LaneMask counted = g.reachable & ~g.alone;
+  tally.solved += counted;
+  tally.touching += counted & g.touching;
+  const Lanes steps = pick(counted, g.steps, Lanes{});
+  tally.steps += steps;
+  tally.most_steps = pick(tally.most_steps < steps, steps, tally.most_steps);
+}
+
+GRAINSCOPE_INLINE void distance(const Lanes *xi, const Lanes *xj, LaneMask there, Lanes *d, Lanes &square,
+                                LaneMask &reachable, GroupGeometry &g) {
   for (int k = 0; k < 3; k++) {
     d[k] = xj[k] - xi[k];
     g.d[k] = d[k];
   }
   square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
   const Lanes reach = xi[3] + xj[3];
-  reachable = square < reach * reach;
+  reachable = there & (square < reach * reach);
   g.square = square;
   g.reachable = reachable;
 }
 
-GRAINSCOPE_INLINE void meet_spheroids_of(const PackedGrains &grains, const PairGroup &group, GroupGeometry &g) {
-  const auto i = [&](int k) -> const PackedGrain & { return grains.grains[group.i[k]]; };
-  const auto j = [&](int k) -> const PackedGrain & { return grains.grains[group.j[k]]; };
+/** Four spheroids, by their numbers. */
+GRAINSCOPE_INLINE void load_spheroids(const PackedGrains &grains, const int *numbers, SpheroidOf<Lanes> &body) {
+  Lanes axis[4], shape[4];
+  load_rows([&](int k) { return grains.grains[numbers[k]].axis; }, axis);
+  if (grains.one_shape) {
+    const PackedShape &one = grains.shapes[0];
+    shape[0] = one.equatorial_square + Lanes{};
+    shape[1] = one.polar_square + Lanes{};
+    shape[2] = one.inverse_equatorial_square + Lanes{};
+    shape[3] = one.inverse_polar_square + Lanes{};
+  } else {
+    load_rows([&](int k) { return &grains.shapes[numbers[k]].equatorial_square; }, shape);
+  }
+  body = {{axis[0], axis[1], axis[2]}, shape[0], shape[1], shape[2], shape[3], axis[3]};
+}
+
+GRAINSCOPE_INLINE void load_places(const PackedGrains &grains, const PairGroup &group, Lanes *xi, Lanes *xj) {
+  load_rows([&](int k) { return grains.grains[group.i[k]].x; }, xi);
+  load_rows([&](int k) { return grains.grains[group.j[k]].x; }, xj);
+}
+
+GRAINSCOPE_INLINE void part_spheroids_of(const PackedGrains &grains, const PairGroup &group, GroupGeometry &g) {
+  constexpr double MARGIN = 1e-12;
   Lanes xi[4], xj[4], d[3], square;
   LaneMask reachable;
-  load_rows([&](int k) { return i(k).x; }, xi);
-  load_rows([&](int k) { return j(k).x; }, xj);
-  distance(xi, xj, d, square, reachable, g);
+  const LaneMask there = filled(group);
+  load_places(grains, group, xi, xj);
+  distance(xi, xj, there, d, square, reachable, g);
+  SpheroidOf<Lanes> one, two;
+  load_spheroids(grains, group.i, one);
+  load_spheroids(grains, group.j, two);
+  SpheroidPair<Lanes> pair(one, two, d);
+  const Lanes h1 = root(support(one, d)), h2 = root(support(two, d));
+  typename SpheroidPair<Lanes>::State s;
+  pair.evaluate(h1 / (h1 + h2), s);
+  const Lanes sum = root(s.support1) + root(s.support2), dp = dot(d, s.p);
+  g.apart = there & (!reachable | (dp > sum * (1.0 + MARGIN)));
+  g.gap = pick(reachable, (dp - sum) / root(dot(s.p, s.p)), root(square) - xi[3] - xj[3]);
+}
 
-  Lanes axis[4], shape[4];
-  load_rows([&](int k) { return i(k).axis; }, axis);
-  load_rows([&](int k) { return &grains.shapes[group.i[k]].equatorial_square; }, shape);
-  const SpheroidOf<Lanes> one{{axis[0], axis[1], axis[2]}, shape[0], shape[1], shape[2], shape[3], axis[3]};
-  load_rows([&](int k) { return j(k).axis; }, axis);
-  load_rows([&](int k) { return &grains.shapes[group.j[k]].equatorial_square; }, shape);
-  const SpheroidOf<Lanes> two{{axis[0], axis[1], axis[2]}, shape[0], shape[1], shape[2], shape[3], axis[3]};
-
+GRAINSCOPE_INLINE void meet_spheroids_of(const PackedGrains &grains, const PairGroup &group, GroupGeometry &g,
+                                         SolverTally &tally) {
+  Lanes xi[4], xj[4], d[3], square;
+  LaneMask reachable;
+  const LaneMask there = filled(group);
+  load_places(grains, group, xi, xj);
+  distance(xi, xj, there, d, square, reachable, g);
+  SpheroidOf<Lanes> one, two;
+  load_spheroids(grains, group.i, one);
+  load_spheroids(grains, group.j, two);
   Lanes start;
   for (int k = 0; k < LANES; k++) start[k] = *group.history[k];
-  start = pick(start == 0.0, Lanes{}, start + 0.5);
+  const LaneMask stranger = start == 0.0;
+  start = pick(stranger, Lanes{}, start + 0.5);
   Answer<Lanes> a{};
   solve<SpheroidPair<Lanes>>(one, two, d, start, ELLIPSOID_TOLERANCE, LANE_STEPS, a);
 
@@ -72,15 +123,18 @@ GRAINSCOPE_INLINE void meet_spheroids_of(const PackedGrains &grains, const PairG
   g.steps = a.steps;
   g.touching = a.touching & reachable;
   g.alone = alone & reachable;
+  g.met = g.touching & stranger;
+  count(there, g, tally);
 }
 
 /** sphere_contact(). */
-GRAINSCOPE_INLINE void meet_round_of(const PackedGrains &grains, const PairGroup &group, GroupGeometry &g) {
+GRAINSCOPE_INLINE void meet_round_of(const PackedGrains &grains, const PairGroup &group, GroupGeometry &g,
+                                     SolverTally &tally) {
   Lanes xi[4], xj[4], axis[4], d[3], square;
   LaneMask reachable;
-  load_rows([&](int k) { return grains.grains[group.i[k]].x; }, xi);
-  load_rows([&](int k) { return grains.grains[group.j[k]].x; }, xj);
-  distance(xi, xj, d, square, reachable, g);
+  const LaneMask there = filled(group);
+  load_places(grains, group, xi, xj);
+  distance(xi, xj, there, d, square, reachable, g);
   load_rows([&](int k) { return grains.grains[group.i[k]].axis; }, axis);
   const Lanes radius1 = axis[0];
   load_rows([&](int k) { return grains.grains[group.j[k]].axis; }, axis);
@@ -100,17 +154,20 @@ GRAINSCOPE_INLINE void meet_round_of(const PackedGrains &grains, const PairGroup
   const Lanes small = 1e-10 * least(radius1, radius2);
   g.touching = reachable & (r < sum);
   g.alone = reachable & (square < small * small);
+  g.met = g.touching;  // the history does not tell
+  count(there, g, tally);
 }
 
 /** Of spheres that are known by their radius alone. */
 GRAINSCOPE_INLINE void meet_spheres_of(const PackedGrains &grains, const PairGroup &group, GroupGeometry &g) {
   Lanes xi[4], xj[4], d[3], square;
   LaneMask reachable;
-  load_rows([&](int k) { return grains.grains[group.i[k]].x; }, xi);
-  load_rows([&](int k) { return grains.grains[group.j[k]].x; }, xj);
-  distance(xi, xj, d, square, reachable, g);
+  const LaneMask there = filled(group);
+  load_places(grains, group, xi, xj);
+  distance(xi, xj, there, d, square, reachable, g);
   g.gap = root(square) - xi[3] - xj[3];
-  g.touching = reachable;
+  g.touching = g.met = reachable;
+  g.apart = there & ~reachable;
 }
 
 struct Sides {
@@ -135,7 +192,7 @@ GRAINSCOPE_INLINE Lanes effective_mass(const Sides &s, const GroupLaw &law) {
 }
 
 GRAINSCOPE_INLINE void coefficients(const GroupLaw &law, Coefficients<Lanes> &c) {
-  if (law.law.types == 1) {
+  if (law.law->types == 1) {
     for (int k = 0; k < 4; k++) c.constant[k] = law.terms[0]->constant[k] + Lanes{};
     c.friction = law.terms[0]->friction + Lanes{};
     return;
@@ -242,14 +299,14 @@ GRAINSCOPE_INLINE void push(const PackedGrains &grains, const PairGroup &group, 
                             Torques torques, GroupForces *kept) {
   Coefficients<Lanes> c;
   coefficients(law, c);
-  const Normal<Lanes> n = normal_force(law.law, c, a);
+  const Normal<Lanes> n = normal_force(*law.law, c, a);
   const Lanes limit = c.friction * absolute(n.force);
   Lanes history[4] = {}, *before = history + 1;
   Friction<Lanes> f{};
-  if (law.law.tangential == PairLaw::Tangential::history) {
+  if (law.law->tangential == PairLaw::Tangential::history) {
     load_rows([&](int k) { return group.history[k]; }, history);
-    spring_friction(law.law, limit, a, n, before, f);
-  } else if (law.law.tangential == PairLaw::Tangential::no_history) {
+    spring_friction(*law.law, limit, a, n, before, f);
+  } else if (law.law->tangential == PairLaw::Tangential::no_history) {
     viscous_friction(limit, a, n, f);
   }
   Lanes normal[3], force[3], torque_i[3], torque_j[3];
@@ -260,7 +317,7 @@ GRAINSCOPE_INLINE void push(const PackedGrains &grains, const PairGroup &group, 
   torques(normal, f.force, torque_i, torque_j);
   hand_out(grains, group, g, force, torque_i, torque_j);
   if (kept) keep_forces(a, n, f, c.friction, limit, force, point, before, *kept);
-  if (law.law.tangential == PairLaw::Tangential::history) {
+  if (law.law->tangential == PairLaw::Tangential::history) {
     const Lanes columns[4] = {lambda ? *lambda : history[0], f.spring[0], f.spring[1], f.spring[2]};
     keep_history(group, g, columns);
   } else if (lambda) {
@@ -277,14 +334,13 @@ GRAINSCOPE_INLINE void push_ellipsoids_of(const PackedGrains &grains, const Pair
   Approach<Lanes> a;
   const Lanes size_i = s.spin[0][3], size_j = s.spin[1][3];
   a.radius = size_i * size_j / (size_i + size_j);
-  if (!round && law.law.curvature_limit > 0.0)
-    a.radius = least(a.radius * law.law.curvature_limit, 1.0 / (g.curvature[0] + g.curvature[1]));
+  if (!round && law.law->curvature_limit > 0.0)
+    a.radius = least(a.radius * law.law->curvature_limit, 1.0 / (g.curvature[0] + g.curvature[1]));
   a.overlap = g.depth[0] + g.depth[1];
   a.mass = effective_mass(s, law);
 
   Lanes xi[4], xj[4], point[3], arm_i[3], arm_j[3];
-  load_rows([&](int k) { return grains.grains[group.i[k]].x; }, xi);
-  load_rows([&](int k) { return grains.grains[group.j[k]].x; }, xj);
+  load_places(grains, group, xi, xj);
   for (int k = 0; k < 3; k++) {
     a.normal[k] = -g.normal[k];
     point[k] = xi[k] + g.point[k];
@@ -303,7 +359,7 @@ GRAINSCOPE_INLINE void push_ellipsoids_of(const PackedGrains &grains, const Pair
     for (int k = 0; k < 3; k++) point[k] = xi[k] - lever[0] * a.normal[k];
     push(grains, group, g, law, a, point, nullptr, LeverTorques{a.normal, lever}, kept);
   } else {
-    const bool friction = law.law.tangential != PairLaw::Tangential::off;
+    const bool friction = law.law->tangential != PairLaw::Tangential::off;
     const Lanes lambda = g.lambda - 0.5;
     push(grains, group, g, law, a, point, &lambda, ArmTorques{arm_i, arm_j, friction}, kept);
   }
@@ -341,12 +397,16 @@ GRAINSCOPE_INLINE void push_spheres_of(const PackedGrains &grains, const PairGro
 }
 
 GRAINSCOPE_CLONES
-void meet_spheroids(const PackedGrains &grains, const PairGroup &group, GroupGeometry &g) {
-  meet_spheroids_of(grains, group, g);
+void meet_spheroids(const PackedGrains &grains, const PairGroup &group, GroupGeometry &g, SolverTally &tally) {
+  meet_spheroids_of(grains, group, g, tally);
 }
 GRAINSCOPE_CLONES
-void meet_round(const PackedGrains &grains, const PairGroup &group, GroupGeometry &g) {
-  meet_round_of(grains, group, g);
+void part_spheroids(const PackedGrains &grains, const PairGroup &group, GroupGeometry &g) {
+  part_spheroids_of(grains, group, g);
+}
+GRAINSCOPE_CLONES
+void meet_round(const PackedGrains &grains, const PairGroup &group, GroupGeometry &g, SolverTally &tally) {
+  meet_round_of(grains, group, g, tally);
 }
 GRAINSCOPE_CLONES
 void meet_spheres(const PackedGrains &grains, const PairGroup &group, GroupGeometry &g) {

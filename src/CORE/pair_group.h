@@ -2,26 +2,13 @@
 #ifndef GRAINSCOPE_PAIR_GROUP_H
 #define GRAINSCOPE_PAIR_GROUP_H
 
+#include "packed_grain.h"
 #include "pair_law.h"
 
 namespace grainscope {
 
-/** What a contact asks of a grain, in rows of four numbers; spheroids have their axes in the last. */
-struct alignas(64) PackedGrain {
-  double x[3], reach;  // centre, and radius of the bounding sphere
-  double velocity[3], mass;
-  double spin[3], size;             // angular velocity, and radius of the sphere of equal volume
-  double axis[3], inverse_product;  // as in Spheroid
-};
-struct alignas(32) PackedShape {  // as in Spheroid
-  double equatorial_square, polar_square, inverse_equatorial_square, inverse_polar_square;
-};
-/** The fourth number of each row is read by nobody. */
-struct alignas(64) PackedForce {
-  double force[4], torque[4];
-};
-
-/** Pairs of grains that are worked on together. The arrays are full: idle places repeat the last pair. */
+/** `size` pairs of grains that are worked on together. The arrays are full: idle places repeat the last pair, and what
+ *  is found of them is false. */
 struct PairGroup {
   int size;
   int i[LANES], j[LANES];
@@ -35,6 +22,8 @@ struct GroupGeometry {
   Lanes normal[3], point[3], depth[2], curvature[2], lambda, gap, steps;
   LaneMask reachable;  // bounding spheres overlap; the others are apart by `gap`
   LaneMask touching;
+  LaneMask apart;  // not touching, of pairs that are there
+  LaneMask met;    // touching, and did not when they were looked at last, as far as the history tells
   LaneMask alone;  // to be asked of ellipsoid_contact(): concentric, not settled, or no numbers
 };
 
@@ -49,20 +38,30 @@ struct GroupForces {
 
 struct PackedGrains {
   const PackedGrain *grains;
-  const PackedShape *shapes;  // of each grain
+  const PackedShape *shapes;  // of each grain, or
+  bool one_shape;             // the first is that of all
   PackedForce *forces;        // of the `own` first grains, and of one more, which takes what is for ghosts
   int own;
 };
 
-/** ellipsoid_contact() of spheroids that are not both spheres. */
-void meet_spheroids(const PackedGrains &grains, const PairGroup &group, GroupGeometry &geometry);
+/** What the solver did, lane by lane: pairs in each, those that touch, steps, and the most steps of one pair. */
+struct SolverTally {
+  LaneMask solved{}, touching{};  // as negative numbers
+  Lanes steps{}, most_steps{};
+};
+
+/** ellipsoid_contact() of spheroids that are not both spheres; those that are `alone` are not counted. */
+void meet_spheroids(const PackedGrains &grains, const PairGroup &group, GroupGeometry &geometry, SolverTally &tally);
+/** Which of the pairs of meet_spheroids() are surely `apart`, found without a start and with a margin against rounding;
+ *  of others nothing is known. Fills in `gap` and `reachable` beside. */
+void part_spheroids(const PackedGrains &grains, const PairGroup &group, GroupGeometry &geometry);
 /** sphere_contact(), of grains that have the radius of the contact in axis[0]. */
-void meet_round(const PackedGrains &grains, const PairGroup &group, GroupGeometry &geometry);
+void meet_round(const PackedGrains &grains, const PairGroup &group, GroupGeometry &geometry, SolverTally &tally);
 /** Spheres that touch where their bounding spheres do: fills in d, square, reachable, touching and gap. */
 void meet_spheres(const PackedGrains &grains, const PairGroup &group, GroupGeometry &geometry);
 
 struct GroupLaw {
-  const PairLaw &law;
+  const PairLaw *law;
   const PairLaw::Terms *terms[LANES];  // of each pair; only the first is read if there is but one atom type
   bool frozen;                         // some grains are: a pair's mass is then that of the other
   LaneMask frozen_i, frozen_j;

@@ -2,10 +2,8 @@
 #ifndef GRAINSCOPE_SEPARATION_MEMORY_H
 #define GRAINSCOPE_SEPARATION_MEMORY_H
 
+#include "packed_grain.h"
 #include <Eigen/Core>
-#include <Eigen/LU>
-#include <algorithm>
-#include <cmath>
 #include <vector>
 
 namespace grainscope {
@@ -18,20 +16,23 @@ namespace grainscope {
  *  are never. */
 class SeparationMemory {
  public:
-  /** A new neighbour list: nothing is known. Pairs of it are at most `reach` apart, centre to centre. */
-  void restart(int grains, int pairs, double reach) {
-    pose_.clear();
+  /** A new neighbour list: nothing is known. Pairs of it are at most `reach` apart, centre to centre. elongation(i): of
+   *  grain i, its longest less its shortest semi-axis. */
+  template <class Elongation>
+  void restart(int grains, int pairs, double reach, Elongation elongation) {
+    known_ = false;
+    poses_.resize(grains);
+    for (int i = 0; i < grains; i++) poses_[i].elongation = elongation(i);
     moved_.assign(grains, 0.0);
-    apart_until_.assign(pairs, 0.0f);
     most_moved_ = 0.0;
+    apart_until_.assign(pairs, 0.0f);
     reach_ = reach;
   }
 
-  /** The grains as they are now: the box (edges in columns, origin), positions, unit quaternions; elongation(i) is the
-   *  longest less the shortest semi-axis of grain i. */
-  template <class Elongation>
-  void move(const Eigen::Matrix3d &edges, const Eigen::Vector3d &origin, const double *const *x,
-            const double *const *quaternion, Elongation elongation);
+  /** The grains as they are now: the box (edges in columns, origin), centres, and unit quaternions, one after the
+   *  other. */
+  void move(const Eigen::Matrix3d &edges, const Eigen::Vector3d &origin, const PackedGrain *grains,
+            const double *quaternions);
 
   double moved(int grain) const { return moved_[grain]; }
   /** Of all grains. */
@@ -46,54 +47,20 @@ class SeparationMemory {
     apart_until_[pair] = gap > 1e-9 * reach_ ? static_cast<float>((motion + gap) * (1.0 - 1e-6)) : 0.0f;
   }
 
- private:
-  struct Pose {
-    double x[3], q[4];
+  /** A grain as it was at the last move. */
+  struct alignas(64) Pose {
+    double x[3], elongation, turn[4];
   };
-  std::vector<Pose> pose_;  // at the last move
+
+ private:
+  std::vector<Pose> poses_;
+  bool known_ = false;
   std::vector<double> moved_;
   std::vector<float> apart_until_;
-  double most_moved_ = 0.0;
-  double reach_ = 0.0;
+  double most_moved_ = 0.0, reach_ = 0.0;
   Eigen::Matrix3d edges_;
   Eigen::Vector3d origin_;
 };
-
-template <class Elongation>
-void SeparationMemory::move(const Eigen::Matrix3d &edges, const Eigen::Vector3d &origin, const double *const *x,
-                            const double *const *quaternion, Elongation elongation) {
-  const int n = static_cast<int>(moved_.size());
-  const bool first = pose_.empty();
-  pose_.resize(n);
-  if (!first) {
-    const Eigen::Matrix3d f = edges * edges_.inverse();
-    // per grain, for r up to 1.5 times the reach
-    const double affine = 0.75 * reach_ * (f - Eigen::Matrix3d::Identity()).norm();
-    for (int i = 0; i < n; i++) {
-      const Pose &old = pose_[i];
-      const double r0 = old.x[0] - origin_[0], r1 = old.x[1] - origin_[1], r2 = old.x[2] - origin_[2];
-      double distance2 = 0.0;
-      for (int k = 0; k < 3; k++) {
-        const double off = x[i][k] - origin[k] - (f(k, 0) * r0 + f(k, 1) * r1 + f(k, 2) * r2);
-        distance2 += off * off;
-      }
-      moved_[i] += affine + std::sqrt(distance2);
-      const double slope = elongation(i);
-      if (slope != 0.0) {
-        double turn2 = 0.0;  // phi = 4 asin(|dq|/2) <= 2 |dq| (1 + 0.143 |dq|^2)
-        for (int k = 0; k < 4; k++) turn2 += (quaternion[i][k] - old.q[k]) * (quaternion[i][k] - old.q[k]);
-        moved_[i] += slope * 2.0 * std::sqrt(turn2) * (1.0 + 0.143 * turn2);
-      }
-      most_moved_ = std::max(most_moved_, moved_[i]);
-    }
-  }
-  for (int i = 0; i < n; i++) {
-    std::copy(x[i], x[i] + 3, pose_[i].x);
-    std::copy(quaternion[i], quaternion[i] + 4, pose_[i].q);
-  }
-  edges_ = edges;
-  origin_ = origin;
-}
 
 }
 

@@ -17,7 +17,7 @@ void EllipsoidBodies::prepare() {
     read_shapes(n);
     refuse_other_than_spheres();
   }
-  if (only_spheres_) return;
+  if (only_spheres_ || !wants_axes_) return;
   for (int i = 0; i < n; i++)
     if (!is_sphere(i)) rotated_axis(atom->quaternion[i], grains_[i].axis, grains_[i].spheroid.u);
 }
@@ -86,8 +86,15 @@ void EllipsoidBodies::refuse_other_than_spheres() {
 
 Triaxial EllipsoidBodies::frame(int i) const { return make_triaxial(atom->shape[i], atom->quaternion[i]); }
 
+Spheroid EllipsoidBodies::turned(int i) const {
+  Spheroid spheroid = grains_[i].spheroid;
+  if (!is_sphere(i)) rotated_axis(atom->quaternion[i], grains_[i].axis, spheroid.u);
+  return spheroid;
+}
+
 EllipsoidContact EllipsoidBodies::solve_alone(const Query &q) const {
   if (grains_[q.i].triaxial || grains_[q.j].triaxial) return ellipsoid_contact(frame(q.i), frame(q.j), q.d, q.start);
+  if (!wants_axes_) return ellipsoid_contact(turned(q.i), turned(q.j), q.d, q.start);
   return ellipsoid_contact(grains_[q.i].spheroid, grains_[q.j].spheroid, q.d, q.start);
 }
 
@@ -128,9 +135,18 @@ void EllipsoidBodies::count(const Query &query, EllipsoidContact &contact) {
   error->warning(FLERR, message);
 }
 
+void EllipsoidBodies::count(const SolverTally &tally) {
+  for (int k = 0; k < LANES; k++) {
+    counts.solved -= tally.solved[k];
+    counts.touching -= tally.touching[k];
+    counts.steps += tally.steps[k];
+    counts.most_steps = std::max(counts.most_steps, tally.most_steps[k]);
+  }
+}
+
 double EllipsoidBodies::mean_curvature(int i, const double y[3]) const {
   return grains_[i].triaxial ? grainscope::mean_curvature(frame(i), y)
-                             : grainscope::mean_curvature(grains_[i].spheroid, y);
+                             : grainscope::mean_curvature(wants_axes_ ? grains_[i].spheroid : turned(i), y);
 }
 
 }

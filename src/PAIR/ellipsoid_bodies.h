@@ -3,6 +3,7 @@
 #define GRAINSCOPE_ELLIPSOID_BODIES_H
 
 #include "ellipsoid_contact.h"
+#include "pair_group.h"
 #include "neighbor.h"
 #include "pointers.h"
 #include "update.h"
@@ -44,6 +45,8 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
   /** Before a force evaluation; all ranks together. Refuses grains that are no ellipsoids, or no spheres where a model
    *  needs spheres. */
   void prepare();
+  /** A loop that finds the axes of grains itself says no. */
+  void set_wants_axes(bool wants) { wants_axes_ = wants; }
   /** The words of a contact model that knows spheres only, or "". */
   void set_sphere_model(const std::string &model) { sphere_model_ = model; }
 
@@ -64,13 +67,17 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
   bool in_lanes(int i, int j) const {
     return only_spheres_ || (!grains_[i].triaxial && !grains_[j].triaxial && !(is_sphere(i) && is_sphere(j)));
   }
-  /** Of a spheroid, or a sphere. */
+  /** Of a spheroid, or a sphere; its axis is there where prepare() was asked for it. */
   const Spheroid &spheroid(int i) const { return grains_[i].spheroid; }
+  /** The body axis that is the symmetry axis; of spheres, any. */
+  int symmetry(int i) const { return grains_[i].axis; }
   bool is_sphere(int i) const { return grains_[i].elongation == 0.0; }
   /** Difference of the largest and the smallest semi-axis. */
   double elongation(int i) const { return grains_[i].elongation; }
 
   SolverCounts counts;
+  /** Adds to them what was done in lanes. */
+  void count(const SolverTally &tally);
 
  private:
   struct Grain {
@@ -80,6 +87,7 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
     bool triaxial;
   };
   std::vector<Grain> grains_;
+  bool wants_axes_ = true;
   bool only_spheres_ = false, some_spheres_ = false, some_triaxial_ = false;
   NeighbourListWatch lists_;
   bool warned_ = false;
@@ -89,6 +97,7 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
   void refuse_other_blockiness();
   void refuse_other_than_spheres();
   Triaxial frame(int i) const;
+  Spheroid turned(int i) const;
   EllipsoidContact solve_alone(const Query &query) const;
   void count(const Query &query, EllipsoidContact &contact);
 };

@@ -15,10 +15,14 @@
 #include "neighbor.h"
 #include "fix_insert_stream.h"  // before pair_gran_base.h, which needs it and does not say so
 #include "pair_gran_base.h"
-#include <array>
+#include <algorithm>
 #include <cstring>
+#include <vector>
 
 namespace grainscope {
+
+using LIGGGHTS::ContactModels::CONTACT_NORMAL_MODEL;
+using LIGGGHTS::ContactModels::CONTACT_TANGENTIAL_MODEL;
 
 /** The pair loop of `surface ellipsoid` under gran/insitu: the host's, for what sheared packings need of it, in the
  *  host's order and to the host's last bit, but several contacts side by side, and neighbours that are surely apart are
@@ -43,6 +47,7 @@ class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model>, public Reset
     const bool rare = pair->storeSumDelta() || pair->storeContactForces() || pair->storeContactForcesStress() ||
                       pair->store_sum_normal_force() || pair->fr_pair() || (pair->cpl() && addflag) ||
                       lmp_->modify->n_fixes_style("insert/stream/predefined");
+    bodies_.set_wants_axes(rare);
     if (rare) Host::compute_force(pair, eflag, vflag, addflag);
     else own_compute_force(eflag, vflag);
   }
@@ -50,16 +55,27 @@ class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model>, public Reset
  private:
   using Pair = NearPairs::Pair;
 
+  /** A pair that is to be looked at. */
+  struct Candidate {
+    const Pair *pair;
+    double motion;  // of its two grains, so far
+  };
+  static constexpr std::size_t CHUNK = 512;  // candidates at a time: what they ask for stays in the second cache
+
   void own_compute_force(int eflag, int vflag);
   void follow_motion();
-  const PairLaw *law_in_lanes();
-  void work();
-  void meet(int n);
-  void meet_alone(int k);
-  bool push(int n);
-  void fill_law(GroupLaw &law) const;
-  void enter_one_by_one(int n);
-  void leave(int k);
+  void set_law();
+  void gather(std::size_t first, std::size_t last);
+  template <class Candidates>
+  void fill(Candidates candidate, int n);
+  void part_strangers(std::size_t many);
+  void work_on(bool all);
+  void work(const Candidate *candidates, int n);
+  void meet(const Candidate *candidates, int n);
+  void meet_alone(const Pair &pair, int k);
+  bool push(const Candidate *candidates, int n);
+  void set_law_of_pairs();
+  void leave(const Candidate &candidate, int k);
   EllipsoidContact contact_of(int k) const;
   void enter(const Pair &pair, int k, const EllipsoidContact &contact);
   void close(const Pair &pair);
@@ -80,14 +96,18 @@ class EllipsoidLoop : public LIGGGHTS::PairStyles::Granular<Model>, public Reset
   SeparationMemory apart_;
   NearPairs near_;
   NeighbourListWatch lists_;
-  const PairLaw *pair_law_ = nullptr;  // of this evaluation; null where contacts go the host's way
+  bool in_lanes_ = false;         // contacts of this evaluation; else they go the host's way
+  bool lanes_solve_all_ = false;  // there are no pairs for which that is known not to be
+  GroupLaw group_law_{};
+  int touched_flags_ = 0;  // that its models set
+  std::vector<Candidate> candidates_;
+  std::size_t many_ = 0;                // of them
+  std::vector<std::size_t> strangers_;  // of them, those that did not touch when they were looked at last
   // pairs that are worked on together
-  int many_ = 0;
-  std::array<const Pair *, LANES> members_;
-  std::array<double, LANES> motions_;  // of their two grains, so far
   PairGroup group_;
   GroupGeometry geometry_;
   GroupForces forces_;
+  SolverTally tally_;
 };
 
 template <class Model>
@@ -100,16 +120,15 @@ void EllipsoidLoop<Model>::own_compute_force(int eflag, int vflag) {
   s_.shearupdate = pair_->shearupdate();
   model_.beginPass(s_, on_i_, on_j_);
   follow_motion();
-  pair_law_ = law_in_lanes();
+  set_law();
   bodies_.counts.listed += near_.listed();
-  for (const Pair &pair : near_.pairs()) {
-    const double motion = apart_.moved(pair.i) + apart_.moved(pair.j);
-    members_[many_] = &pair;
-    motions_[many_] = motion;
-    many_ += apart_.may_touch(pair.number, motion);  // without a branch: no processor could guess it
-    if (many_ == LANES) work();
+  const std::size_t near = near_.pairs().size();
+  for (std::size_t first = 0; first < near; first += CHUNK) {
+    gather(first, std::min(first + CHUNK, near));
+    work_on(first + CHUNK >= near);
   }
-  if (many_) work();
+  bodies_.count(tally_);
+  tally_ = SolverTally();
   scene_.hand_back_forces();
   model_.endPass(s_, on_i_, on_j_);
 }
@@ -119,74 +138,138 @@ template <class Model>
 void EllipsoidLoop<Model>::follow_motion() {
   const LAMMPS_NS::Atom *atom = lmp_->atom;
   const LAMMPS_NS::NeighList *list = pair_->list;
+  const int n = atom->nlocal + atom->nghost;
   if (lists_.renewed(*lmp_->neighbor, *lmp_->update)) {
     int pairs = 0;
     for (int ii = 0; ii < list->inum; ii++) pairs += list->numneigh[list->ilist[ii]];
-    apart_.restart(atom->nlocal + atom->nghost, pairs, lmp_->neighbor->cutneighmax);
+    apart_.restart(n, pairs, lmp_->neighbor->cutneighmax, [this](int i) { return bodies_.elongation(i); });
     near_.restart();
     scene_.restart(bodies_);
   }
   scene_.load(bodies_);
   const BoxState box(lmp_);
-  apart_.move(box.edges, Eigen::Map<const Eigen::Vector3d>(lmp_->domain->boxlo), atom->x, atom->quaternion,
-              [this](int i) { return bodies_.elongation(i); });
+  apart_.move(box.edges, Eigen::Map<const Eigen::Vector3d>(lmp_->domain->boxlo), scene_.grains().grains,
+              n ? atom->quaternion[0] : nullptr);
   near_.choose(*list, pair_->listgranhistory, pair_->dnum(), apart_);
 }
 
-/** First evaluations of a run are the host's: no spring moves, and damping may be bound. */
+/** What does not change within an evaluation. */
 template <class Model>
-const PairLaw *EllipsoidLoop<Model>::law_in_lanes() {
+void EllipsoidLoop<Model>::set_law() {
+  // First evaluations of a run are the host's: no spring moves, and damping may be bound.
   const bool first =
       !s_.shearupdate || TangentialBound::get().mode() != TangentialBound::Mode::off || reader_.observer().repeats();
   const bool softened = bodies_.only_spheres() && surface_.curvature_limit > 0.0 && surface_.curvature_limit < 1.0;
-  return first || softened || !law_.covers() ? nullptr : &law_.now();
+  in_lanes_ = !first && !softened && law_.covers();
+  lanes_solve_all_ = bodies_.only_spheres() || (!bodies_.some_spheres() && !bodies_.some_triaxial());
+  if (!in_lanes_) return;
+  law_.refresh();
+  group_law_.law = &law_.law();
+  group_law_.terms[0] = &law_.terms(1, 1);
+  group_law_.frozen = pair_->freeze_group_bit() != 0;
+  const bool friction = law_.law().tangential != PairLaw::Tangential::off;
+  touched_flags_ = CONTACT_NORMAL_MODEL | (friction ? CONTACT_TANGENTIAL_MODEL : 0);
 }
 
-/** The pairs that were gathered, in the order of the neighbour list. */
+/** The candidates among some near pairs, behind those that are left. */
 template <class Model>
-void EllipsoidLoop<Model>::work() {
-  const int n = many_;
-  many_ = 0;
-  meet(n);
-  if (!pair_law_ || !push(n)) enter_one_by_one(n);
-  for (int k = 0; k < n; k++)
-    if (!geometry_.touching[k]) leave(k);
+void EllipsoidLoop<Model>::gather(std::size_t first, std::size_t last) {
+  std::size_t n = many_, strange = 0;
+  candidates_.resize(CHUNK + LANES);
+  strangers_.resize(CHUNK + LANES);
+  const Pair *pairs = near_.pairs().data();
+  for (std::size_t k = first; k < last; k++) {  // without a branch: no processor could guess it
+    const double motion = apart_.moved(pairs[k].i) + apart_.moved(pairs[k].j);
+    const bool may_touch = apart_.may_touch(pairs[k].number, motion);
+    candidates_[n] = {pairs + k, motion};
+    strangers_[strange] = n;
+    strange += may_touch && pairs[k].history[surface_.lambda] == 0.0;
+    n += may_touch;
+  }
+  many_ = n;
+  if (!bodies_.only_spheres() && !bodies_.some_triaxial()) part_strangers(strange);
 }
 
-/** How they lie to each other. */
 template <class Model>
-void EllipsoidLoop<Model>::meet(int n) {
+template <class Candidates>
+inline void EllipsoidLoop<Model>::fill(Candidates candidate, int n) {
   group_.size = n;
   for (int k = 0; k < LANES; k++) {
-    const Pair &pair = *members_[std::min(k, n - 1)];
+    const Pair &pair = *candidate(std::min(k, n - 1)).pair;
     group_.i[k] = pair.i;
     group_.j[k] = pair.j;
     group_.history[k] = pair.history + surface_.lambda;
   }
-  if (bodies_.only_spheres()) meet_round(scene_.grains(), group_, geometry_);
-  else meet_spheroids(scene_.grains(), group_, geometry_);
-  for (int k = n; k < LANES; k++) geometry_.touching[k] = geometry_.alone[k] = 0;
-  SolverCounts &counts = bodies_.counts;
-  const bool some_alone = any(geometry_.alone) || bodies_.some_triaxial() || bodies_.some_spheres();
-  for (int k = 0; k < n; k++) {
-    if (!geometry_.reachable[k]) continue;
-    if (some_alone && (geometry_.alone[k] || !bodies_.in_lanes(group_.i[k], group_.j[k]))) {
-      meet_alone(k);
-      continue;
+}
+
+/** Pairs that did not touch when they were looked at last do not now, as a rule, and exert no force, so that their order
+ *  does not matter: those that are surely apart are dropped here, at a fraction of the solver's cost. */
+template <class Model>
+void EllipsoidLoop<Model>::part_strangers(std::size_t many) {
+  for (std::size_t first = 0; first < many; first += LANES) {
+    const std::size_t *numbers = &strangers_[first];
+    fill([&](int k) -> const Candidate & { return candidates_[numbers[k]]; },
+         static_cast<int>(std::min<std::size_t>(LANES, many - first)));
+    part_spheroids(scene_.grains(), group_, geometry_);
+    for (int k = 0; k < LANES; k++) {
+      if (!geometry_.apart[k]) continue;
+      Candidate &candidate = candidates_[numbers[k]];
+      bodies_.counts.solved -= geometry_.reachable[k];
+      leave(candidate, k);
+      candidate.pair = nullptr;
     }
-    counts.solved++;
-    counts.touching -= geometry_.touching[k];
-    counts.steps += geometry_.steps[k];
-    counts.most_steps = std::max(counts.most_steps, geometry_.steps[k]);
   }
+  std::size_t left = many ? strangers_[0] : many_;
+  for (std::size_t k = left; k < many_; k++) {
+    candidates_[left] = candidates_[k];
+    left += candidates_[k].pair != nullptr;
+  }
+  many_ = left;
+}
+
+/** Groups of candidates, in the order of the neighbour list; the last is worked on only if all are to be. */
+template <class Model>
+void EllipsoidLoop<Model>::work_on(bool all) {
+  const std::size_t whole = all ? many_ : many_ - many_ % LANES;
+  for (std::size_t first = 0; first < whole; first += LANES)
+    work(&candidates_[first], static_cast<int>(std::min<std::size_t>(LANES, many_ - first)));
+  std::copy(candidates_.begin() + whole, candidates_.begin() + many_, candidates_.begin());
+  many_ -= whole;
+}
+
+template <class Model>
+void EllipsoidLoop<Model>::work(const Candidate *candidates, int n) {
+  meet(candidates, n);
+  if (!in_lanes_ || !push(candidates, n)) {
+    for (int k = 0; k < n; k++)
+      if (geometry_.touching[k]) enter(*candidates[k].pair, k, contact_of(k));
+  }
+  if (any(geometry_.met))
+    for (int k = 0; k < n; k++)
+      if (geometry_.met[k]) apart_.set_touching(candidates[k].pair->number);
+  if (any(geometry_.apart))
+    for (int k = 0; k < n; k++)
+      if (geometry_.apart[k]) leave(candidates[k], k);
+}
+
+/** How they lie to each other. */
+template <class Model>
+void EllipsoidLoop<Model>::meet(const Candidate *candidates, int n) {
+  fill([candidates](int k) -> const Candidate & { return candidates[k]; }, n);
+  if (bodies_.only_spheres()) meet_round(scene_.grains(), group_, geometry_, tally_);
+  else meet_spheroids(scene_.grains(), group_, geometry_, tally_);
+  if (!any(geometry_.alone) && lanes_solve_all_) return;
+  for (int k = 0; k < n; k++)
+    if (geometry_.reachable[k] && (geometry_.alone[k] || !bodies_.in_lanes(group_.i[k], group_.j[k])))
+      meet_alone(*candidates[k].pair, k);
 }
 
 /** What no lane can solve. */
 template <class Model>
-void EllipsoidLoop<Model>::meet_alone(int k) {
+void EllipsoidLoop<Model>::meet_alone(const Pair &pair, int k) {
   const Lanes *d = geometry_.d;
   const EllipsoidBodies::Query query{
-      group_.i[k], group_.j[k], {d[0][k], d[1][k], d[2][k]}, surface_.start(members_[k]->history)};
+      group_.i[k], group_.j[k], {d[0][k], d[1][k], d[2][k]}, surface_.start(pair.history)};
   const EllipsoidContact c = bodies_.solve(query);
   for (int l = 0; l < 3; l++) {
     geometry_.normal[l][k] = c.normal[l];
@@ -198,7 +281,8 @@ void EllipsoidLoop<Model>::meet_alone(int k) {
   }
   geometry_.lambda[k] = c.lambda;
   geometry_.gap[k] = c.gap;
-  geometry_.touching[k] = c.touching ? -1 : 0;
+  geometry_.touching[k] = geometry_.met[k] = c.touching ? -1 : 0;
+  geometry_.apart[k] = ~geometry_.touching[k];
 }
 
 template <class Model>
@@ -221,24 +305,19 @@ EllipsoidContact EllipsoidLoop<Model>::contact_of(int k) const {
 
 /** Their forces, side by side; false where one of them must go the host's way. */
 template <class Model>
-bool EllipsoidLoop<Model>::push(int n) {
+bool EllipsoidLoop<Model>::push(const Candidate *candidates, int n) {
   const bool round = bodies_.only_spheres();
   if (!round && bodies_.some_spheres())
     for (int k = 0; k < n; k++)
       if (bodies_.is_sphere(group_.i[k]) && bodies_.is_sphere(group_.j[k])) return false;
-  GroupLaw law{*pair_law_, {}, false, {}, {}};
-  fill_law(law);
-  const bool observed = reader_.observer().active();
-  GroupForces *kept = observed || pair_->evflag ? &forces_ : nullptr;
-  (round ? push_round : push_ellipsoids)(scene_.grains(), group_, geometry_, law, kept);
-  const int touched =
-      LIGGGHTS::ContactModels::CONTACT_NORMAL_MODEL |
-      (pair_law_->tangential == PairLaw::Tangential::off ? 0 : LIGGGHTS::ContactModels::CONTACT_TANGENTIAL_MODEL);
-  for (int k = 0; k < n; k++) {
+  if (group_law_.frozen || group_law_.law->types > 1) set_law_of_pairs();
+  const bool observed = reader_.observer().active(), kept = observed || pair_->evflag;
+  (round ? push_round : push_ellipsoids)(scene_.grains(), group_, geometry_, group_law_, kept ? &forces_ : nullptr);
+  for (int k = 0; k < n; k++)
+    if (geometry_.touching[k]) *candidates[k].pair->flags |= touched_flags_;
+  for (int k = 0; k < n && kept; k++) {
     if (!geometry_.touching[k]) continue;
-    const Pair &pair = *members_[k];
-    *pair.flags |= touched;
-    apart_.set_touching(pair.number);
+    const Pair &pair = *candidates[k].pair;
     if (observed) {
       const int types[2] = {lmp_->atom->type[pair.i], lmp_->atom->type[pair.j]};
       reader_.after(group_, geometry_, forces_, k, pair.history, types);
@@ -252,33 +331,22 @@ bool EllipsoidLoop<Model>::push(int n) {
 }
 
 template <class Model>
-inline void EllipsoidLoop<Model>::fill_law(GroupLaw &law) const {
+void EllipsoidLoop<Model>::set_law_of_pairs() {
   const LAMMPS_NS::Atom *atom = lmp_->atom;
-  law.terms[0] = &law_.terms(1, 1);
-  if (pair_law_->types > 1)
-    for (int k = 0; k < LANES; k++) law.terms[k] = &law_.terms(atom->type[group_.i[k]], atom->type[group_.j[k]]);
   const int freeze = pair_->freeze_group_bit();
-  law.frozen = freeze != 0;
-  for (int k = 0; k < LANES && law.frozen; k++) {
-    law.frozen_i[k] = atom->mask[group_.i[k]] & freeze ? -1 : 0;
-    law.frozen_j[k] = atom->mask[group_.j[k]] & freeze ? -1 : 0;
-  }
-}
-
-template <class Model>
-void EllipsoidLoop<Model>::enter_one_by_one(int n) {
-  for (int k = 0; k < n; k++) {
-    if (!geometry_.touching[k]) continue;
-    enter(*members_[k], k, contact_of(k));
-    apart_.set_touching(members_[k]->number);
+  for (int k = 0; k < LANES; k++) {
+    const int i = group_.i[k], j = group_.j[k];
+    group_law_.terms[k] = &law_.terms(atom->type[i], atom->type[j]);
+    group_law_.frozen_i[k] = atom->mask[i] & freeze ? -1 : 0;
+    group_law_.frozen_j[k] = atom->mask[j] & freeze ? -1 : 0;
   }
 }
 
 /** A pair that does not touch. */
 template <class Model>
-inline void EllipsoidLoop<Model>::leave(int k) {
-  const Pair &pair = *members_[k];
-  apart_.set_apart(pair.number, geometry_.gap[k], motions_[k]);
+inline void EllipsoidLoop<Model>::leave(const Candidate &candidate, int k) {
+  const Pair &pair = *candidate.pair;
+  apart_.set_apart(pair.number, geometry_.gap[k], candidate.motion);
   if (geometry_.reachable[k]) surface_.forget(pair.history);
   if (*pair.flags) close(pair);
 }

@@ -120,11 +120,10 @@ PairLaw::Terms LaneLaw::terms_of(int i, int j) const {
   return t;
 }
 
-const PairLaw &LaneLaw::now() {
+void LaneLaw::refresh() {
   law_.dt = update->dt;
   for (int i = 0; i < law_.types; i++)
     for (int j = 0; j < law_.types; j++) law_.terms[i * law_.types + j] = terms_of(i + 1, j + 1);
-  return law_;
 }
 
 }

@@ -18,7 +18,8 @@ class LaneLaw : private LAMMPS_NS::Pointers {
   void connect(const std::string &models);
   bool covers() const { return covers_; }
   /** Material properties and time step as they are now. */
-  const PairLaw &now();
+  void refresh();
+  const PairLaw &law() const { return law_; }
   const PairLaw::Terms &terms(int type_i, int type_j) const {
     return law_.terms[(type_i - 1) * law_.types + type_j - 1];
   }

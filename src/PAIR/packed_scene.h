@@ -22,13 +22,14 @@ class PackedScene : private LAMMPS_NS::Pointers {
   void load(const EllipsoidBodies &bodies);
   void hand_back_forces() const;
 
-  PackedGrains grains() { return {grains_.data(), shapes_.data(), forces_.data(), atom->nlocal}; }
+  PackedGrains grains() { return {grains_.data(), shapes_.data(), shapes_.size() == 1, forces_.data(), atom->nlocal}; }
   /** On one of them; of ghosts all in one place, which nobody reads. */
   PackedForce &force_on(int grain) { return forces_[std::min<std::size_t>(grain, forces_.size() - 1)]; }
 
  private:
   std::vector<PackedGrain> grains_;
-  std::vector<PackedShape> shapes_;
+  std::vector<PackedShape> shapes_;  // one, if it is that of all
+  std::vector<unsigned char> symmetry_;
   std::vector<PackedForce> forces_;
 };
 
