@@ -79,7 +79,7 @@ GRAINSCOPE_INLINE void part_spheroids_of(const PackedGrains &grains, const PairG
   typename SpheroidPair<Lanes>::State s;
   pair.evaluate(h1 / (h1 + h2), s);
   const Lanes sum = root(s.support1) + root(s.support2), dp = dot(d, s.p);
-  g.apart = there & (!reachable | (dp > sum * (1.0 + MARGIN)));
+  g.apart = there & (~reachable | (dp > sum * (1.0 + MARGIN)));
   g.gap = pick(reachable, (dp - sum) / root(dot(s.p, s.p)), root(square) - xi[3] - xj[3]);
 }
 

@@ -105,10 +105,7 @@ EllipsoidContact EllipsoidBodies::solve(const Query &query) {
 }
 
 void EllipsoidBodies::count(const Query &query, EllipsoidContact &contact) {
-  counts.solved++;
-  counts.steps += contact.steps;
-  counts.touching += contact.touching;
-  counts.most_steps = std::max<double>(counts.most_steps, contact.steps);
+  count(contact.touching, contact.steps);
   if (!contact.fallback) return;
   counts.fallbacks++;
   const double r = grains_[query.i].equivalent_radius, *d = query.d;
@@ -133,6 +130,13 @@ void EllipsoidBodies::count(const Query &query, EllipsoidContact &contact) {
            "(told once per rank; compute contact/solver counts)",
            atom->tag[query.i], atom->tag[query.j]);
   error->warning(FLERR, message);
+}
+
+void EllipsoidBodies::count(bool touching, double steps) {
+  counts.solved++;
+  counts.touching += touching;
+  counts.steps += steps;
+  counts.most_steps = std::max(counts.most_steps, steps);
 }
 
 void EllipsoidBodies::count(const SolverTally &tally) {

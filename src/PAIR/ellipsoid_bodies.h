@@ -76,7 +76,8 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
   double elongation(int i) const { return grains_[i].elongation; }
 
   SolverCounts counts;
-  /** Adds to them what was done in lanes. */
+  /** Adds to them what was done in lanes: a pair, or many. */
+  void count(bool touching, double steps);
   void count(const SolverTally &tally);
 
  private:

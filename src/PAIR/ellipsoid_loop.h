@@ -256,12 +256,16 @@ void EllipsoidLoop<Model>::work(const Candidate *candidates, int n) {
 template <class Model>
 void EllipsoidLoop<Model>::meet(const Candidate *candidates, int n) {
   fill([candidates](int k) -> const Candidate & { return candidates[k]; }, n);
-  if (bodies_.only_spheres()) meet_round(scene_.grains(), group_, geometry_, tally_);
-  else meet_spheroids(scene_.grains(), group_, geometry_, tally_);
-  if (!any(geometry_.alone) && lanes_solve_all_) return;
-  for (int k = 0; k < n; k++)
-    if (geometry_.reachable[k] && (geometry_.alone[k] || !bodies_.in_lanes(group_.i[k], group_.j[k])))
-      meet_alone(*candidates[k].pair, k);
+  SolverTally uncounted;
+  SolverTally &tally = lanes_solve_all_ ? tally_ : uncounted;
+  if (bodies_.only_spheres()) meet_round(scene_.grains(), group_, geometry_, tally);
+  else meet_spheroids(scene_.grains(), group_, geometry_, tally);
+  if (lanes_solve_all_ && !any(geometry_.alone)) return;
+  for (int k = 0; k < n; k++) {
+    if (!geometry_.reachable[k]) continue;
+    if (geometry_.alone[k] || !bodies_.in_lanes(group_.i[k], group_.j[k])) meet_alone(*candidates[k].pair, k);
+    else if (!lanes_solve_all_) bodies_.count(geometry_.touching[k], geometry_.steps[k]);
+  }
 }
 
 /** What no lane can solve. */
