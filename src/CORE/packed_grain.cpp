@@ -31,13 +31,13 @@ void pack_motion(const GrainRows &rows, PackedGrain *grains) {
     PackedGrain &grain = grains[i];
     put_row(rows.x + 3 * i, rows.radius[i], grain.x);
     put_row(rows.velocity + 3 * i, rows.mass[i], grain.velocity);
-    put_row(rows.spin + 3 * i, grain.size, grain.spin);
+    put_row(rows.spin + 3 * i, rows.size ? rows.size[i] : grain.size, grain.spin);
   }
   if (last < 0) return;
   PackedGrain &grain = grains[last];
   put_last(rows.x + 3 * last, rows.radius[last], grain.x);
   put_last(rows.velocity + 3 * last, rows.mass[last], grain.velocity);
-  put_last(rows.spin + 3 * last, grain.size, grain.spin);
+  put_last(rows.spin + 3 * last, rows.size ? rows.size[last] : grain.size, grain.spin);
 }
 
 GRAINSCOPE_CLONES

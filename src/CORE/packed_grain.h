@@ -27,6 +27,7 @@ struct alignas(64) PackedForce {
 struct GrainRows {
   int count;
   const double *x, *velocity, *spin, *quaternion, *radius, *mass;
+  const double *size;  // null where that of PackedGrain stays
 };
 
 /** Places and motions into `grains`. */

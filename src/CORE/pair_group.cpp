@@ -227,12 +227,29 @@ GRAINSCOPE_INLINE void hand_out(const PackedGrains &grains, const PairGroup &gro
   }
 }
 
-GRAINSCOPE_INLINE void keep_history(const PairGroup &group, const GroupGeometry &g, const Lanes *columns) {
-  Lanes rows[LANES];
-  transpose(columns, rows);
-  for (int k = 0; k < LANES; k++)
-    if (g.touching[k]) store(rows[k], group.history[k]);
-}
+/** The columns of the history: lambda - 1/2 and a spring. */
+struct LambdaAndSpring {
+  static constexpr bool lambda = true;
+  static GRAINSCOPE_INLINE void get(const PairGroup &group, Lanes *columns) {
+    load_rows([&](int k) { return group.history[k]; }, columns);
+  }
+  static GRAINSCOPE_INLINE void put(Lanes row, double *history) { store(row, history); }
+};
+/** A spring alone: three columns, which are the first of `columns`, too. */
+struct SpringAlone {
+  static constexpr bool lambda = false;
+  static GRAINSCOPE_INLINE void get(const PairGroup &group, Lanes *columns) {
+    Lanes rows[LANES];
+    for (int k = 0; k < LANES; k++) {
+      const double *h = group.history[k];
+      rows[k] = Lanes{h[0], h[1], h[2], h[2]};
+    }
+    transpose(rows, columns);
+  }
+  static GRAINSCOPE_INLINE void put(Lanes row, double *history) {
+    for (int k = 0; k < 3; k++) history[k] = row[k];
+  }
+};
 
 GRAINSCOPE_INLINE void keep_forces(const Approach<Lanes> &a, const Normal<Lanes> &n, const Friction<Lanes> &f,
                                    Lanes friction, Lanes limit, const Lanes *force, const Lanes *point,
@@ -292,8 +309,8 @@ struct LeverTorques {
   }
 };
 
-/** Everything from the approach on. `lambda`: the first column of the history from now on; its own where null. */
-template <class Torques>
+/** Everything from the approach on. `lambda`: of the history from now on; what it was where null. */
+template <class History, class Torques>
 GRAINSCOPE_INLINE void push(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
                             const GroupLaw &law, const Approach<Lanes> &a, const Lanes *point, const Lanes *lambda,
                             Torques torques, GroupForces *kept) {
@@ -301,10 +318,10 @@ GRAINSCOPE_INLINE void push(const PackedGrains &grains, const PairGroup &group, 
   coefficients(law, c);
   const Normal<Lanes> n = normal_force(*law.law, c, a);
   const Lanes limit = c.friction * absolute(n.force);
-  Lanes history[4] = {}, *before = history + 1;
+  Lanes history[4] = {}, *before = history + History::lambda;
   Friction<Lanes> f{};
   if (law.law->tangential == PairLaw::Tangential::history) {
-    load_rows([&](int k) { return group.history[k]; }, history);
+    History::get(group, history);
     spring_friction(*law.law, limit, a, n, before, f);
   } else if (law.law->tangential == PairLaw::Tangential::no_history) {
     viscous_friction(limit, a, n, f);
@@ -318,8 +335,13 @@ GRAINSCOPE_INLINE void push(const PackedGrains &grains, const PairGroup &group, 
   hand_out(grains, group, g, force, torque_i, torque_j);
   if (kept) keep_forces(a, n, f, c.friction, limit, force, point, before, *kept);
   if (law.law->tangential == PairLaw::Tangential::history) {
-    const Lanes columns[4] = {lambda ? *lambda : history[0], f.spring[0], f.spring[1], f.spring[2]};
-    keep_history(group, g, columns);
+    Lanes columns[4], rows[LANES];
+    columns[0] = lambda ? *lambda : history[0];
+    columns[3] = f.spring[2];
+    for (int k = 0; k < 3; k++) columns[k + History::lambda] = f.spring[k];
+    transpose(columns, rows);
+    for (int k = 0; k < LANES; k++)
+      if (g.touching[k]) History::put(rows[k], group.history[k]);
   } else if (lambda) {
     for (int k = 0; k < LANES; k++)
       if (g.touching[k]) *group.history[k] = (*lambda)[k];
@@ -357,11 +379,11 @@ GRAINSCOPE_INLINE void push_ellipsoids_of(const PackedGrains &grains, const Pair
   if (round) {
     const Lanes lever[2] = {size_i - g.depth[0], size_j - g.depth[1]};
     for (int k = 0; k < 3; k++) point[k] = xi[k] - lever[0] * a.normal[k];
-    push(grains, group, g, law, a, point, nullptr, LeverTorques{a.normal, lever}, kept);
+    push<LambdaAndSpring>(grains, group, g, law, a, point, nullptr, LeverTorques{a.normal, lever}, kept);
   } else {
     const bool friction = law.law->tangential != PairLaw::Tangential::off;
     const Lanes lambda = g.lambda - 0.5;
-    push(grains, group, g, law, a, point, &lambda, ArmTorques{arm_i, arm_j, friction}, kept);
+    push<LambdaAndSpring>(grains, group, g, law, a, point, &lambda, ArmTorques{arm_i, arm_j, friction}, kept);
   }
 }
 
@@ -391,7 +413,7 @@ GRAINSCOPE_INLINE void push_spheres_of(const PackedGrains &grains, const PairGro
     a.tangential_velocity[k] = (v[k] - along) - (d[m] * w[l] - d[l] * w[m]);
   }
   const Lanes lever[2] = {lever_i, lever_j};
-  push(grains, group, g, law, a, point, nullptr, LeverTorques{a.normal, lever}, kept);
+  push<SpringAlone>(grains, group, g, law, a, point, nullptr, LeverTorques{a.normal, lever}, kept);
 }
 
 }

@@ -12,7 +12,7 @@ namespace grainscope {
 struct PairGroup {
   int size;
   int i[LANES], j[LANES];
-  // of each pair in the contact history: lambda - 1/2, or 0; behind it, with Tangential::history, the spring
+  // of each pair in the contact history: lambda - 1/2, or 0, of ellipsoids; then, with Tangential::history, the spring
   double *history[LANES];
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "gran_insitu_models.h"
 #include "ellipsoid_loop.h"
+#include "sphere_loop.h"
 #include "granular_styles.h"
 #include <unordered_map>
 
@@ -19,8 +20,11 @@ IGranularPairStyle *create(LAMMPS_NS::LAMMPS *lmp, LAMMPS_NS::PairGran *pair, in
   using namespace LIGGGHTS::ContactModels;
   using Model = Observed<ContactModel<Style>>;
   // Cohesion acts on grains that do not touch: every neighbour must be looked at.
-  if constexpr (int(Style::SURFACE) == int(SURFACE_ELLIPSOID) && int(Style::COHESION) == int(COHESION_OFF))
+  constexpr bool cohesive = int(Style::COHESION) != int(COHESION_OFF);
+  if constexpr (!cohesive && int(Style::SURFACE) == int(SURFACE_ELLIPSOID))
     return new EllipsoidLoop<Model>(lmp, pair, hash);
+  else if constexpr (!cohesive && int(Style::SURFACE) == int(SURFACE_DEFAULT))
+    return new SphereLoop<Model>(lmp, pair, hash);
   else return new LIGGGHTS::PairStyles::Granular<Model>(lmp, pair, hash);
 }
 

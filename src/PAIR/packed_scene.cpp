@@ -25,12 +25,20 @@ void PackedScene::restart(const EllipsoidBodies &bodies) {
   if (alike && n > 0) shapes_.resize(1);
 }
 
-void PackedScene::load(const EllipsoidBodies &bodies) {
-  const int own = atom->nlocal, n = static_cast<int>(grains_.size());
+void PackedScene::load(const EllipsoidBodies *bodies) {
+  const int own = atom->nlocal, n = own + atom->nghost;
+  grains_.resize(n);
   if (n > 0) {
-    const GrainRows rows{n, atom->x[0], atom->v[0], atom->omega[0], atom->quaternion[0], atom->radius, atom->rmass};
+    const GrainRows rows{n,
+                         atom->x[0],
+                         atom->v[0],
+                         atom->omega[0],
+                         bodies ? atom->quaternion[0] : nullptr,
+                         atom->radius,
+                         atom->rmass,
+                         bodies ? nullptr : atom->radius};
     pack_motion(rows, grains_.data());
-    if (!bodies.only_spheres()) pack_axes(rows, symmetry_.data(), grains_.data());
+    if (bodies && !bodies->only_spheres()) pack_axes(rows, symmetry_.data(), grains_.data());
   }
   forces_.resize(own + 1);
   for (int i = 0; i < own; i++) {

@@ -16,10 +16,11 @@ class PackedScene : private LAMMPS_NS::Pointers {
  public:
   explicit PackedScene(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
 
-  /** With a new neighbour list: what stays until the next. */
+  /** With a new neighbour list, for ellipsoids: what stays until the next. */
   void restart(const EllipsoidBodies &bodies);
-  /** With every force evaluation: where the grains are, how they move, and the forces on them so far. */
-  void load(const EllipsoidBodies &bodies);
+  /** With every force evaluation: where the grains are, how they move, and the forces on them so far. `bodies`: null for
+   *  spheres that are no ellipsoids. */
+  void load(const EllipsoidBodies *bodies);
   void hand_back_forces() const;
 
   PackedGrains grains() { return {grains_.data(), shapes_.data(), shapes_.size() == 1, forces_.data(), atom->nlocal}; }
