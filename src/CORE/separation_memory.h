@@ -41,6 +41,11 @@ class SeparationMemory {
   bool may_touch(int pair, double motion) const { return motion >= apart_until_[pair]; }
   /** False only if the pair is surely apart until its motion has become `motion`. */
   bool may_touch_before(int pair, double motion) const { return apart_until_[pair] <= motion; }
+  /** It will be asked for soon. */
+  void prefetch(int grain, int pair) const {
+    __builtin_prefetch(&moved_[grain]);
+    __builtin_prefetch(&apart_until_[pair], 1);
+  }
   void set_touching(int pair) { apart_until_[pair] = 0.0f; }
   /** Of a pair now at least `gap` apart; the margin is for the rounding of all that is summed up here. */
   void set_apart(int pair, double gap, double motion) {

@@ -37,7 +37,8 @@ class EllipsoidLoop : public LaneLoop<Model> {
     const Pair *pair;
     double motion;  // of its two grains, so far
   };
-  static constexpr std::size_t CHUNK = 512;  // candidates at a time: what they ask for stays in the second cache
+  static constexpr std::size_t CHUNK = 128;  // near pairs at a time: what they ask for stays in the cache
+  static constexpr std::size_t AHEAD = NearPairs::AHEAD;  // near pairs, of which is asked for what decides whether they are looked at
 
   EllipsoidBodies &bodies_;
   const EllipsoidSurface &surface_;
@@ -71,7 +72,7 @@ void EllipsoidLoop<Model>::evaluate() {
   follow_motion();
   lanes_solve_all_ = bodies_.only_spheres() || (!bodies_.some_spheres() && !bodies_.some_triaxial());
   bodies_.counts.listed += near_.listed();
-  const std::size_t near = near_.pairs().size();
+  const std::size_t near = near_.size();
   for (std::size_t first = 0; first < near; first += CHUNK) {
     gather(first, std::min(first + CHUNK, near));
     work_on(first + CHUNK >= near);
@@ -106,8 +107,16 @@ void EllipsoidLoop<Model>::gather(std::size_t first, std::size_t last) {
   std::size_t n = many_, strange = 0;
   candidates_.resize(CHUNK + LANES);
   strangers_.resize(CHUNK + LANES);
-  const Pair *pairs = near_.pairs().data();
+  const Pair *pairs = near_.pairs();
+  const PackedGrain *grains = scene_.grains().grains;
   for (std::size_t k = first; k < last; k++) {  // without a branch: no processor could guess it
+    const Pair &coming = pairs[k + AHEAD];
+    __builtin_prefetch(coming.history + surface_.lambda);
+    apart_.prefetch(coming.j, coming.number);
+    __builtin_prefetch(grains[pairs[k].j].x);
+    __builtin_prefetch(grains[pairs[k].j].spin);
+    __builtin_prefetch(&scene_.force_on(pairs[k].j), 1);
+    __builtin_prefetch(pairs[k].history + surface_.lambda + 3, 1);
     const double motion = apart_.moved(pairs[k].i) + apart_.moved(pairs[k].j);
     const bool may_touch = apart_.may_touch(pairs[k].number, motion);
     candidates_[n] = {pairs + k, motion};

@@ -23,6 +23,7 @@ void NearPairs::choose(const LAMMPS_NS::NeighList &list, const LAMMPS_NS::NeighL
                         history ? history->firstdouble[i] + columns * jj : nullptr});
     }
   }
+  pairs_.resize(pairs_.size() + AHEAD, pairs_.empty() ? Pair{} : pairs_.back());
   listed_ = number;
 }
 

@@ -12,6 +12,7 @@ namespace grainscope {
  *  steps, and are not even visited. They are chosen anew when the grains have moved as far as the choice allows for. */
 class NearPairs {
  public:
+  static constexpr std::size_t AHEAD = 16;  // how far one may look beyond the last
   struct Pair {
     int i, j;
     int number;  // in the neighbour list
@@ -28,11 +29,13 @@ class NearPairs {
   void choose(const LAMMPS_NS::NeighList &list, const LAMMPS_NS::NeighList *history, int columns,
               const SeparationMemory &apart);
 
-  const std::vector<Pair> &pairs() const { return pairs_; }
+  /** Behind them lie as many more as a look ahead may reach. */
+  const Pair *pairs() const { return pairs_.data(); }
+  std::size_t size() const { return pairs_.size() - AHEAD; }
   int listed() const { return listed_; }
 
  private:
-  static constexpr double STEPS = 8.0;  // that a choice should last
+  static constexpr double STEPS = 8.0;        // that a choice should last
   std::vector<Pair> pairs_;
   int listed_ = 0;
   bool chosen_ = false;
