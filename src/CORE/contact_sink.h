@@ -5,6 +5,7 @@
 namespace grainscope {
 
 class ContactSpan;
+struct ContactLanes;
 
 /** Receives contacts. A source (pair_style gran/insitu) asks each sink before a force evaluation whether it wants it,
  *  then hands it every contact once per owner, many at a time. Sink and source may be destroyed in either order. */
@@ -30,6 +31,9 @@ class ContactSink {
   /** The evaluation begins: forget the last one. */
   virtual void begin_contacts() = 0;
   virtual void add_contacts(ContactSpan contacts) = 0;
+  /** True if contacts between grains of the evaluation that begins may also come side by side, to add_lanes(). */
+  virtual bool takes_lanes() const { return false; }
+  virtual void add_lanes(const ContactLanes &) {}
   /** False if Contact::motion is not used. */
   virtual bool needs_motion() const { return true; }
   /** True if image shifts of ghosts must be known during the evaluation. */

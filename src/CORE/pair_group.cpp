@@ -251,29 +251,30 @@ struct SpringAlone {
   }
 };
 
-GRAINSCOPE_INLINE void keep_forces(const Approach<Lanes> &a, const Normal<Lanes> &n, const Friction<Lanes> &f,
-                                   Lanes friction, Lanes limit, const Lanes *force, const Lanes *point,
-                                   const Lanes *before, GroupForces &kept) {
+GRAINSCOPE_INLINE void keep_forces(LaneMask touching, const Approach<Lanes> &a, const Normal<Lanes> &n,
+                                   const Friction<Lanes> &f, Lanes friction, Lanes limit, const Lanes *force,
+                                   const Lanes *point, const Lanes *before, GroupForces &kept) {
+  const auto touched = [touching](Lanes x) { return pick(touching, x, Lanes{}); };
   for (int k = 0; k < 3; k++) {
-    kept.normal[k] = a.normal[k];
-    kept.force[k] = force[k];
-    kept.tangential_velocity[k] = a.tangential_velocity[k];
-    kept.point[k] = point[k];
-    kept.before[k] = before[k];
-    kept.uncut[k] = f.uncut[k];
-    kept.after[k] = f.spring[k];
+    kept.normal[k] = touched(a.normal[k]);
+    kept.force[k] = touched(force[k]);
+    kept.tangential_velocity[k] = touched(a.tangential_velocity[k]);
+    kept.point[k] = touched(point[k]);
+    kept.before[k] = touched(before[k]);
+    kept.uncut[k] = touched(f.uncut[k]);
+    kept.after[k] = touched(f.spring[k]);
   }
-  kept.overlap = a.overlap;
-  kept.normal_velocity = a.normal_velocity;
-  kept.law_force = n.force;
-  kept.kn = n.kn;
-  kept.kt = n.kt;
-  kept.gamma_n = n.gamma_n;
-  kept.gamma_t = n.gamma_t;
-  kept.friction = friction;
-  kept.limit = limit;
-  kept.length = f.length;
-  kept.cut = f.cut;
+  kept.overlap = touched(a.overlap);
+  kept.normal_velocity = touched(a.normal_velocity);
+  kept.law_force = touched(n.force);
+  kept.kn = touched(n.kn);
+  kept.kt = touched(n.kt);
+  kept.gamma_n = touched(n.gamma_n);
+  kept.gamma_t = touched(n.gamma_t);
+  kept.friction = touched(friction);
+  kept.limit = touched(limit);
+  kept.length = touched(f.length);
+  kept.cut = touching & f.cut;
 }
 
 /** Torques of a normal and a tangential force on i, at their arms. */
@@ -333,7 +334,7 @@ GRAINSCOPE_INLINE void push(const PackedGrains &grains, const PairGroup &group, 
   }
   torques(normal, f.force, torque_i, torque_j);
   hand_out(grains, group, g, force, torque_i, torque_j);
-  if (kept) keep_forces(a, n, f, c.friction, limit, force, point, before, *kept);
+  if (kept) keep_forces(g.touching, a, n, f, c.friction, limit, force, point, before, *kept);
   if (law.law->tangential == PairLaw::Tangential::history) {
     Lanes columns[4], rows[LANES];
     columns[0] = lambda ? *lambda : history[0];

@@ -27,7 +27,7 @@ struct GroupGeometry {
   LaneMask alone;  // to be asked of ellipsoid_contact(): concentric, not settled, or no numbers
 };
 
-/** What the law made of the contacts of a group, for those that measure. */
+/** What the law made of the contacts of a group, for those that measure; 0 in lanes that do not touch. */
 struct GroupForces {
   Lanes normal[3], force[3];  // towards i, on i
   Lanes overlap, normal_velocity, tangential_velocity[3], point[3];

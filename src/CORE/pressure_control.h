@@ -44,6 +44,7 @@ struct NetworkResponse {
 
    private:
     friend struct NetworkResponse;
+    friend class NetworkLanes;
     struct Pair {
       BoxMode a, b;
       double same_flow;

@@ -139,12 +139,17 @@ void FixPressStrain::evaluate_variables() {
 
 void FixPressStrain::begin_contacts() {
   impl_->now = NetworkResponse();
+  impl_->lanes.reset();
   impl_->pressure_step = -1;
 }
 
 void FixPressStrain::add_contacts(grainscope::ContactSpan contacts) {
   for (const grainscope::Contact &contact : contacts) impl_->now.add(contact, impl_->pairs);
 }
+
+void FixPressStrain::add_lanes(const grainscope::ContactLanes &contacts) { impl_->lanes.add(contacts, impl_->pairs); }
+
+void FixPressStrain::end_contacts() { impl_->now.add(impl_->lanes.sum(), 1.0); }
 
 void FixPressStrain::plan_flip() {
   if (!impl_->box.needs_flip()) return;

@@ -45,6 +45,9 @@ class FixPressStrain : public FixDeform, public grainscope::DeclaresOutputs, pub
   bool wants_contacts() override { return true; }
   void begin_contacts() override;
   void add_contacts(grainscope::ContactSpan contacts) override;
+  bool takes_lanes() const override { return true; }
+  void add_lanes(const grainscope::ContactLanes &contacts) override;
+  void end_contacts() override;
 
   /** What the change of the box's velocities at the end of the last step gave to grains outside it, by the deck's fix
    *  press/strain; null without one, or before the first step of a run. */

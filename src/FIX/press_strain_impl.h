@@ -5,6 +5,7 @@
 #include "box_jump.h"
 #include "clipping_watch.h"
 #include "fix_press_strain.h"
+#include "network_lanes.h"
 #include "press_strain_forecast.h"
 #include "press_strain_settings.h"
 #include <functional>
@@ -44,6 +45,7 @@ struct FixPressStrain::Impl {
 
   bool flip_pending = false;
 
+  grainscope::NetworkLanes lanes;                  // of that, what came side by side
   grainscope::NetworkResponse now;                 // this rank's sums of the last evaluation, over volume
   grainscope::NetworkResponse window;              // the same since the last input
   double window_steps = 0.0, planned_steps = 0.0;  // since the last input; and until the next, as it was planned

@@ -17,13 +17,16 @@ void ContactObserver::add(ContactSink *sink) {
 
 void ContactObserver::remove(ContactSink *sink) {
   sinks_.erase(std::remove(sinks_.begin(), sinks_.end(), sink), sinks_.end());
-  listening_.erase(std::remove(listening_.begin(), listening_.end(), sink), listening_.end());
+  for (std::vector<ContactSink *> *some : {&listening_, &takers_, &others_})
+    some->erase(std::remove(some->begin(), some->end(), sink), some->end());
 }
 
 void ContactObserver::remove_all() {
   for (ContactSink *sink : sinks_) sink->set_source(nullptr);
   sinks_.clear();
   listening_.clear();
+  takers_.clear();
+  others_.clear();
   walls_ = std::make_shared<int>();
   set_up_ = 0;
 }
@@ -52,8 +55,11 @@ bool ContactObserver::begin(bool springs_move, bool repeats) {
     batch_.fill(Contact());
   }
   motion_ = keeps_past_;
+  takers_.clear();
+  others_.clear();
   for (ContactSink *sink : listening_) {
     sink->begin_contacts();
+    (sink->takes_lanes() && !keeps_past_ ? takers_ : others_).push_back(sink);
     motion_ = motion_ || sink->needs_motion();
     images = images || sink->needs_images();
   }
@@ -62,7 +68,8 @@ bool ContactObserver::begin(bool springs_move, bool repeats) {
 
 void ContactObserver::hand_over() {
   const ContactSpan contacts(batch_.data(), next_ - batch_.data());
-  for (ContactSink *sink : listening_) sink->add_contacts(contacts);
+  if (contacts.size())
+    for (ContactSink *sink : in_lanes_ ? others_ : listening_) sink->add_contacts(contacts);
   next_ = batch_.data();
 }
 

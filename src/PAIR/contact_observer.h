@@ -71,11 +71,19 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   int local_grains() const { return n_local_; }
 
   /** A contact to be filled in, where another of this evaluation may have been; sinks see it at the latest when the
-   *  evaluation ends. */
-  Contact &next() {
-    if (next_ == batch_.data() + batch_.size()) hand_over();
+   *  evaluation ends. `in_lanes`: those that take lanes get it by take(). */
+  Contact &next(bool in_lanes = false) {
+    if (next_ == batch_.data() + batch_.size() || in_lanes != in_lanes_) hand_over();
+    in_lanes_ = in_lanes;
     return *next_++;
   }
+  /** Contacts side by side, to the sinks that take them so. */
+  void take(const ContactLanes &contacts) const {
+    for (ContactSink *sink : takers_) sink->add_lanes(contacts);
+  }
+  bool takes_lanes() const { return !takers_.empty(); }
+  /** Whether all contacts must come one by one, too. */
+  bool needs_records() const { return keeps_past_ || takers_.size() < listening_.size(); }
 
   /** Image shift of atom j, three integers as doubles: x_j = x_owner + H . shift. Valid when a sink asked for
    *  images. */
@@ -88,8 +96,10 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
 
  private:
   std::vector<ContactSink *> sinks_, listening_;
+  std::vector<ContactSink *> takers_, others_;  // of those that listen: who takes lanes, and who does not
   std::array<Contact, 32> batch_;  // 16 kB: they stay in the first cache
   Contact *next_ = batch_.data();  // the first that is not filled in
+  bool in_lanes_ = false;          // the batch is of contacts that went to takers_ already
   bool active_ = false;
   std::shared_ptr<void> walls_ = std::make_shared<int>();  // each fix for walls holds it, too
   int set_up_ = 0;                                         // fixes for walls when the run was set up

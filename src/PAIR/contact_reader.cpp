@@ -185,7 +185,7 @@ void ContactReader::after(const PairGroup &group, const GroupGeometry &g, const 
                           const int types[2]) {
   const int i = group.i[k], j = group.j[k];
   const bool ghost = j >= observer_.local_grains();
-  Contact &c = observer_.next();
+  Contact &c = observer_.next(true);
   c.partner.emplace<PartnerGrain>(PartnerGrain{j, ghost});
   c.weight = ghost ? 0.5 : 1.0;
   c.branch = -Vector3d(g.d[0][k], g.d[1][k], g.d[2][k]);

@@ -2,6 +2,7 @@
 #ifndef GRAINSCOPE_LANE_LOOP_H
 #define GRAINSCOPE_LANE_LOOP_H
 
+#include "contact_lanes.h"
 #include "gran_insitu_models.h"
 #include "lane_law.h"
 #include "near_pairs.h"
@@ -31,7 +32,7 @@ class LaneLoop : public LIGGGHTS::PairStyles::Granular<Model>, public ResetsOpen
 
   LaneLoop(LAMMPS_NS::LAMMPS *lmp, PairGran *pair, int64_t hash)
       : Host(lmp, pair, hash), lmp_(lmp), pair_(pair), style_(static_cast<LAMMPS_NS::PairGranInsitu &>(*pair)),
-        reader_(style_.reader()), model_(static_cast<Model &>(*reader_.model())), law_(style_.lane_law()), scene_(lmp) {
+        reader_(style_.reader()), observer_(style_.observer()), model_(static_cast<Model &>(*reader_.model())), law_(style_.lane_law()), scene_(lmp) {
   }
 
   void compute_force(PairGran *pair, int eflag, int vflag, int addflag) override {
@@ -56,7 +57,7 @@ class LaneLoop : public LIGGGHTS::PairStyles::Granular<Model>, public ResetsOpen
   virtual void approach(int k) = 0;
 
   bool in_lanes() const { return in_lanes_; }
-  bool observed() const { return reader_.observer().active(); }
+  bool observed() const { return observer_.active(); }
   void set_law();
   void set_law_of_pairs();
   /** What follows from the forces of a group: those that touched. pair(k): pair k of the group. */
@@ -69,6 +70,7 @@ class LaneLoop : public LIGGGHTS::PairStyles::Granular<Model>, public ResetsOpen
   PairGran *pair_;
   LAMMPS_NS::PairGranInsitu &style_;
   ContactReader &reader_;
+  ContactObserver &observer_;
   Model &model_;
   LaneLaw &law_;
 
@@ -111,7 +113,7 @@ template <class Model>
 void LaneLoop<Model>::set_law() {
   // First evaluations of a run are the host's: no spring moves, and damping may be bound.
   const bool first =
-      !s_.shearupdate || TangentialBound::get().mode() != TangentialBound::Mode::off || reader_.observer().repeats();
+      !s_.shearupdate || TangentialBound::get().mode() != TangentialBound::Mode::off || observer_.repeats();
   in_lanes_ = !first && law_.covers();
   kept_ = observed() || pair_->evflag ? &forces_ : nullptr;
   if (!in_lanes_) return;
@@ -144,9 +146,16 @@ inline void LaneLoop<Model>::follow_up(PairOf pair, int n) {
     for (int k = 0; k < n; k++)
       if (geometry_.touching[k]) *pair(k).flags |= touched_flags_;
   if (!kept_) return;
-  for (int k = 0; k < n; k++) {
+  if (observed() && observer_.takes_lanes()) {
+    ContactLanes contacts{group_, geometry_, forces_, reader_.law(), {}};
+    for (int k = 0; k < n; k++)
+      if (geometry_.touching[k]) contacts.weight[k] = group_.j[k] < lmp_->atom->nlocal ? 1.0 : 0.5;
+    observer_.take(contacts);
+  }
+  const bool records = observed() && observer_.needs_records();
+  for (int k = 0; k < n && (records || pair_->evflag); k++) {
     if (!geometry_.touching[k]) continue;
-    if (observed()) {
+    if (records) {
       const int types[2] = {lmp_->atom->type[group_.i[k]], lmp_->atom->type[group_.j[k]]};
       reader_.after(group_, geometry_, forces_, k, pair(k).history, types);
     }
