@@ -7,14 +7,13 @@
 
 namespace grainscope {
 
-/** Contacts between grains, side by side, as a Contact tells them one by one. In lanes that hold none the weight and
- *  all of `forces` are 0. */
+/** Contacts between grains, side by side, as a Contact tells them one by one. In lanes that hold none all of `forces` is 0,
+ *  `forces.weight` too; `forces.motion` says whether all of it is there. */
 struct ContactLanes {
   const PairGroup &group;
   const GroupGeometry &geometry;
   const GroupForces &forces;
   const ContactLaw &law;
-  Lanes weight;  // as in Contact
 
   /** Component k of Contact::branch. */
   Lanes branch(int k) const { return -geometry.d[k]; }

@@ -34,6 +34,8 @@ class ContactSink {
   /** True if contacts between grains of the evaluation that begins may also come side by side, to add_lanes(). */
   virtual bool takes_lanes() const { return false; }
   virtual void add_lanes(const ContactLanes &) {}
+  /** False if what GroupForces tells of the motion is not used there. */
+  virtual bool lanes_need_motion() const { return true; }
   /** False if Contact::motion is not used. */
   virtual bool needs_motion() const { return true; }
   /** True if image shifts of ghosts must be known during the evaluation. */

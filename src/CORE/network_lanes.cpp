@@ -9,7 +9,7 @@ void NetworkLanes::add(const ContactLanes &c, const NetworkResponse::Pairs &pair
   const GroupForces &f = c.forces;
   Lanes force[3], branch[3];
   for (int k = 0; k < 3; k++) {
-    force[k] = c.weight * f.force[k];
+    force[k] = f.weight * f.force[k];
     branch[k] = c.branch(k);
   }
   for (int mode = 0; mode < number_of_box_modes; mode++)
@@ -19,7 +19,7 @@ void NetworkLanes::add(const ContactLanes &c, const NetworkResponse::Pairs &pair
               gamma_t = c.law.tangential == TangentialLaw::none ? Lanes{} : pick(f.cut, Lanes{}, f.gamma_t);
   for (const NetworkResponse::Pairs::Pair &pair : pairs.pairs_) {
     const Lanes along = f.normal[pair.a.flow] * f.normal[pair.b.flow], across = pair.same_flow - along,
-                wr2 = c.weight * branch[pair.a.gradient] * branch[pair.b.gradient];
+                wr2 = f.weight * branch[pair.a.gradient] * branch[pair.b.gradient];
     stiffness_[pair.place] += wr2 * (k_n * along + k_t * across);
     damping_[pair.place] += wr2 * (f.gamma_n * along + gamma_t * across);
   }

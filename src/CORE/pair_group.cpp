@@ -251,6 +251,12 @@ struct SpringAlone {
   }
 };
 
+GRAINSCOPE_INLINE Lanes weight_of(const PackedGrains &grains, const PairGroup &group, LaneMask touching) {
+  LaneMask j;
+  for (int k = 0; k < LANES; k++) j[k] = group.j[k];
+  return pick(touching, pick(j < (long)grains.own + LaneMask{}, 1.0 + Lanes{}, 0.5 + Lanes{}), Lanes{});
+}
+
 GRAINSCOPE_INLINE void keep_forces(LaneMask touching, const Approach<Lanes> &a, const Normal<Lanes> &n,
                                    const Friction<Lanes> &f, Lanes friction, Lanes limit, const Lanes *force,
                                    const Lanes *point, const Lanes *before, GroupForces &kept) {
@@ -258,14 +264,8 @@ GRAINSCOPE_INLINE void keep_forces(LaneMask touching, const Approach<Lanes> &a, 
   for (int k = 0; k < 3; k++) {
     kept.normal[k] = touched(a.normal[k]);
     kept.force[k] = touched(force[k]);
-    kept.tangential_velocity[k] = touched(a.tangential_velocity[k]);
-    kept.point[k] = touched(point[k]);
-    kept.before[k] = touched(before[k]);
-    kept.uncut[k] = touched(f.uncut[k]);
-    kept.after[k] = touched(f.spring[k]);
   }
   kept.overlap = touched(a.overlap);
-  kept.normal_velocity = touched(a.normal_velocity);
   kept.law_force = touched(n.force);
   kept.kn = touched(n.kn);
   kept.kt = touched(n.kt);
@@ -275,6 +275,15 @@ GRAINSCOPE_INLINE void keep_forces(LaneMask touching, const Approach<Lanes> &a, 
   kept.limit = touched(limit);
   kept.length = touched(f.length);
   kept.cut = touching & f.cut;
+  if (!kept.motion) return;
+  kept.normal_velocity = touched(a.normal_velocity);
+  for (int k = 0; k < 3; k++) {
+    kept.tangential_velocity[k] = touched(a.tangential_velocity[k]);
+    kept.point[k] = touched(point[k]);
+    kept.before[k] = touched(before[k]);
+    kept.uncut[k] = touched(f.uncut[k]);
+    kept.after[k] = touched(f.spring[k]);
+  }
 }
 
 /** Torques of a normal and a tangential force on i, at their arms. */
@@ -334,7 +343,10 @@ GRAINSCOPE_INLINE void push(const PackedGrains &grains, const PairGroup &group, 
   }
   torques(normal, f.force, torque_i, torque_j);
   hand_out(grains, group, g, force, torque_i, torque_j);
-  if (kept) keep_forces(g.touching, a, n, f, c.friction, limit, force, point, before, *kept);
+  if (kept) {
+    kept->weight = weight_of(grains, group, g.touching);
+    keep_forces(g.touching, a, n, f, c.friction, limit, force, point, before, *kept);
+  }
   if (law.law->tangential == PairLaw::Tangential::history) {
     Lanes columns[4], rows[LANES];
     columns[0] = lambda ? *lambda : history[0];

@@ -29,11 +29,15 @@ struct GroupGeometry {
 
 /** What the law made of the contacts of a group, for those that measure; 0 in lanes that do not touch. */
 struct GroupForces {
+  Lanes weight;               // 1, or 1/2 where j is a ghost
   Lanes normal[3], force[3];  // towards i, on i
-  Lanes overlap, normal_velocity, tangential_velocity[3], point[3];
-  Lanes law_force, kn, kt, gamma_n, gamma_t, friction, limit;
-  Lanes before[3], uncut[3], after[3], length;  // of the spring (Friction), or of the tangential velocity
+  Lanes overlap, law_force, kn, kt, gamma_n, gamma_t, friction, limit;
+  Lanes length;  // of the uncut spring (Friction), or of the tangential velocity
   LaneMask cut;
+  // How they move; left out where nobody asks for it.
+  bool motion = true;
+  Lanes normal_velocity, tangential_velocity[3], point[3];
+  Lanes before[3], uncut[3], after[3];  // of the spring (Friction)
 };
 
 struct PackedGrains {

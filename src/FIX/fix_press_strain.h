@@ -46,6 +46,7 @@ class FixPressStrain : public FixDeform, public grainscope::DeclaresOutputs, pub
   void begin_contacts() override;
   void add_contacts(grainscope::ContactSpan contacts) override;
   bool takes_lanes() const override { return true; }
+  bool lanes_need_motion() const override { return false; }
   void add_lanes(const grainscope::ContactLanes &contacts) override;
   void end_contacts() override;
 

@@ -82,6 +82,8 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
     for (ContactSink *sink : takers_) sink->add_lanes(contacts);
   }
   bool takes_lanes() const { return !takers_.empty(); }
+  /** Whether one of these sinks reads the motion of GroupForces. */
+  bool lanes_need_motion() const { return lanes_motion_; }
   /** Whether all contacts must come one by one, too. */
   bool needs_records() const { return keeps_past_ || takers_.size() < listening_.size(); }
 
@@ -97,15 +99,16 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
  private:
   std::vector<ContactSink *> sinks_, listening_;
   std::vector<ContactSink *> takers_, others_;  // of those that listen: who takes lanes, and who does not
-  std::array<Contact, 32> batch_;  // 16 kB: they stay in the first cache
-  Contact *next_ = batch_.data();  // the first that is not filled in
-  bool in_lanes_ = false;          // the batch is of contacts that went to takers_ already
+  std::array<Contact, 32> batch_;               // 16 kB: they stay in the first cache
+  Contact *next_ = batch_.data();               // the first that is not filled in
+  bool in_lanes_ = false;                       // the batch is of contacts that went to takers_ already
   bool active_ = false;
   std::shared_ptr<void> walls_ = std::make_shared<int>();  // each fix for walls holds it, too
   int set_up_ = 0;                                         // fixes for walls when the run was set up
   int to_come_ = 0;                                        // those of this evaluation that are not through
   bool wanted_ = false;                                    // the evaluation, by a sink or for what contacts remember
   bool motion_ = false;
+  bool lanes_motion_ = false;
   bool keeps_past_ = false;
   bool springs_move_ = true;
   bool repeats_ = false;

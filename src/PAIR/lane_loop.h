@@ -32,8 +32,8 @@ class LaneLoop : public LIGGGHTS::PairStyles::Granular<Model>, public ResetsOpen
 
   LaneLoop(LAMMPS_NS::LAMMPS *lmp, PairGran *pair, int64_t hash)
       : Host(lmp, pair, hash), lmp_(lmp), pair_(pair), style_(static_cast<LAMMPS_NS::PairGranInsitu &>(*pair)),
-        reader_(style_.reader()), observer_(style_.observer()), model_(static_cast<Model &>(*reader_.model())), law_(style_.lane_law()), scene_(lmp) {
-  }
+        reader_(style_.reader()), observer_(style_.observer()), model_(static_cast<Model &>(*reader_.model())),
+        law_(style_.lane_law()), scene_(lmp) {}
 
   void compute_force(PairGran *pair, int eflag, int vflag, int addflag) override {
     const bool rare = pair->storeSumDelta() || pair->storeContactForces() || pair->storeContactForcesStress() ||
@@ -116,6 +116,7 @@ void LaneLoop<Model>::set_law() {
       !s_.shearupdate || TangentialBound::get().mode() != TangentialBound::Mode::off || observer_.repeats();
   in_lanes_ = !first && law_.covers();
   kept_ = observed() || pair_->evflag ? &forces_ : nullptr;
+  forces_.motion = observed() && (observer_.needs_records() || observer_.lanes_need_motion());
   if (!in_lanes_) return;
   law_.refresh();
   group_law_.law = &law_.law();
@@ -146,12 +147,7 @@ inline void LaneLoop<Model>::follow_up(PairOf pair, int n) {
     for (int k = 0; k < n; k++)
       if (geometry_.touching[k]) *pair(k).flags |= touched_flags_;
   if (!kept_) return;
-  if (observed() && observer_.takes_lanes()) {
-    ContactLanes contacts{group_, geometry_, forces_, reader_.law(), {}};
-    for (int k = 0; k < n; k++)
-      if (geometry_.touching[k]) contacts.weight[k] = group_.j[k] < lmp_->atom->nlocal ? 1.0 : 0.5;
-    observer_.take(contacts);
-  }
+  if (observed() && observer_.takes_lanes()) observer_.take({group_, geometry_, forces_, reader_.law()});
   const bool records = observed() && observer_.needs_records();
   for (int k = 0; k < n && (records || pair_->evflag); k++) {
     if (!geometry_.touching[k]) continue;
