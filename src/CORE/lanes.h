@@ -13,6 +13,11 @@
 #define GRAINSCOPE_CLONES
 #endif
 
+// Functions that pass vectors are inlined: no matter how a processor without such vectors would pass them.
+#ifdef __GNUC__
+#pragma GCC diagnostic ignored "-Wpsabi"
+#endif
+
 #define GRAINSCOPE_INLINE inline __attribute__((always_inline))
 
 namespace grainscope {
