@@ -11,6 +11,11 @@ namespace grainscope {
 /** Four numbers side by side, wherever the allocator put them: not through a reference, which clang takes for
  *  aligned. */
 typedef double Four __attribute__((vector_size(32)));
+typedef long long FourMask __attribute__((vector_size(32)));
+template <>
+struct MaskOf<Four> {
+  using type = FourMask;
+};
 GRAINSCOPE_INLINE Four four_at(const double *memory) {
   Four four;
   std::memcpy(&four, memory, sizeof four);
@@ -27,6 +32,14 @@ GRAINSCOPE_INLINE Four four_times(double x) { return Four{x, x, x, x}; }
 /** Torque of a force. */
 GRAINSCOPE_INLINE Four torque_of(const Eigen::Vector3d &arm, const Eigen::Vector3d &f) {
   return four_of(arm[1] * f[2] - arm[2] * f[1], arm[2] * f[0] - arm[0] * f[2], arm[0] * f[1] - arm[1] * f[0]);
+}
+
+GRAINSCOPE_INLINE Four root(Four x) { return Four{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])}; }
+GRAINSCOPE_INLINE double absolute(double x) { return std::fabs(x); }
+GRAINSCOPE_INLINE Four absolute(Four x) { return (Four)((FourMask)x & 0x7fffffffffffffffLL); }
+GRAINSCOPE_INLINE bool all(bool condition) { return condition; }
+GRAINSCOPE_INLINE bool all(FourMask condition) {
+  return (condition[0] & condition[1] & condition[2] & condition[3]) != 0;
 }
 
 }

@@ -2,17 +2,42 @@
 #ifndef GRAINSCOPE_SPHEROID_ROTATION_H
 #define GRAINSCOPE_SPHEROID_ROTATION_H
 
+#include "four.h"
 #include "symmetry_axis.h"
 #include <cmath>
 
+/** Rotations of one grain, with Real = double, or of several side by side. */
 namespace grainscope {
+
+/** tan(h)/h from h^2, where it is not small. */
+inline double library_tangent(double h2, double) {
+  const double h = std::sqrt(h2);
+  return std::tan(h) / h;
+}
+
+constexpr double SMALL_TURN = 1e-3;
+
+/** Likewise; where it is small, by the series. Seldom needed: kept out of the way of what is. */
+__attribute__((noinline, cold)) inline void library_tangents(int n, const double *h2, double *ratio) {
+  for (int k = 0; k < n; k++)
+    if (!(h2[k] < SMALL_TURN)) ratio[k] = library_tangent(h2[k], ratio[k]);
+}
+GRAINSCOPE_INLINE Four library_tangent(Four h2, Four series) {
+  double given[4], ratio[4];
+  put(h2, given);
+  put(series, ratio);
+  library_tangents(4, given, ratio);
+  return four_at(ratio);
+}
 
 /** tan(h)/h from h^2. Below h = 0.03 (a turn of 3.6 degrees) by its series, of which the first term left out is below
  *  1e-17. */
-inline double tan_over_angle(double h2) {
-  if (h2 < 1e-3) return 1.0 + h2 * (1.0 / 3 + h2 * (2.0 / 15 + h2 * (17.0 / 315 + h2 * (62.0 / 2835))));
-  const double h = std::sqrt(h2);
-  return std::tan(h) / h;
+template <class Real>
+GRAINSCOPE_INLINE Real tan_over_angle(Real h2) {
+  const Real series = 1.0 + h2 * (1.0 / 3 + h2 * (2.0 / 15 + h2 * (17.0 / 315 + h2 * (62.0 / 2835))));
+  const typename MaskOf<Real>::type small = h2 < SMALL_TURN;
+  if (!all(small)) return library_tangent(h2, series);
+  return series;
 }
 
 /** A rigid body whose moments of inertia are I_u about its body axis k, of direction u, and I_e about every axis across
@@ -22,51 +47,53 @@ inline double tan_over_angle(double h2) {
  *  Without torque L and L.u are constant: u turns about L at the rate |L|/I_e, and the body about u at (1/I_u - 1/I_e)
  *  (L.u) beside.
  *  Source: Goldstein, Classical Mechanics, ch. 5 (the free symmetric top). */
-template <int k>
+template <int k, class Real>
 class SymmetricTop {
  public:
-  SymmetricTop(const double inertia[3], const double momentum[3], const double q[4])
+  GRAINSCOPE_INLINE SymmetricTop(const Real inertia[3], const Real momentum[3], const Real q[4])
       : across_(1.0 / inertia[i]), along_(1.0 / inertia[k] - across_), momentum_(momentum) {
     find_axis(q);
   }
 
-  void angular_velocity(double omega[3]) const {
-    const double along = along_ * momentum_along_axis();
+  GRAINSCOPE_INLINE void angular_velocity(Real omega[3]) const {
+    const Real along = along_ * momentum_along_axis();
     for (int n = 0; n < 3; n++) omega[n] = across_ * momentum_[n] + along * u_[n];
   }
 
   /** Turns q by time dt. A turn by the angle 2h about n is the quaternion (1, tan(h) n), normalised; the two turns
    *  commute. */
-  void rotate(double dt, double q[4]) {
-    const double *L = momentum_;
-    double half = 0.5 * dt * across_, own = 0.5 * dt * along_ * momentum_along_axis();
-    half *= tan_over_angle(half * half * (L[0] * L[0] + L[1] * L[1] + L[2] * L[2]));
-    own *= tan_over_angle(own * own);
+  GRAINSCOPE_INLINE void rotate(double dt, Real q[4]) {
+    const Real *L = momentum_;
+    Real half = 0.5 * dt * across_, own = 0.5 * dt * along_ * momentum_along_axis();
+    half *= tan_over_angle<Real>(half * half * (L[0] * L[0] + L[1] * L[1] + L[2] * L[2]));
+    own *= tan_over_angle<Real>(own * own);
 
-    double p[4];  // q (1, own e_k)
+    Real p[4];  // q (1, own e_k)
     p[0] = q[0] - own * q[1 + k];
     p[1 + i] = q[1 + i] + own * q[1 + j];
     p[1 + j] = q[1 + j] - own * q[1 + i];
     p[1 + k] = q[1 + k] + own * q[0];
 
-    const double x = half * L[0], y = half * L[1], z = half * L[2];
+    const Real x = half * L[0], y = half * L[1], z = half * L[2];
     q[0] = p[0] - x * p[1] - y * p[2] - z * p[3];  // (1, half L) p
     q[1] = p[1] + x * p[0] + y * p[3] - z * p[2];
     q[2] = p[2] + y * p[0] + z * p[1] - x * p[3];
     q[3] = p[3] + z * p[0] + x * p[2] - y * p[1];
-    const double scale = 1.0 / std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    const Real norm2 = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3], scale = 1.0 / root(norm2);
     for (int n = 0; n < 4; n++) q[n] *= scale;
     find_axis(q);
   }
 
  private:
   static constexpr int i = (k + 1) % 3, j = (k + 2) % 3;
-  double across_, along_, u_[3];
-  const double *momentum_;
+  Real across_, along_, u_[3];
+  const Real *momentum_;
 
-  double momentum_along_axis() const { return momentum_[0] * u_[0] + momentum_[1] * u_[1] + momentum_[2] * u_[2]; }
+  GRAINSCOPE_INLINE Real momentum_along_axis() const {
+    return momentum_[0] * u_[0] + momentum_[1] * u_[1] + momentum_[2] * u_[2];
+  }
 
-  void find_axis(const double q[4]) {
+  GRAINSCOPE_INLINE void find_axis(const Real q[4]) {
     u_[i] = 2.0 * (q[1 + k] * q[1 + i] + q[0] * q[1 + j]);
     u_[j] = 2.0 * (q[1 + k] * q[1 + j] - q[0] * q[1 + i]);
     u_[k] = 1.0 - 2.0 * (q[1 + i] * q[1 + i] + q[1 + j] * q[1 + j]);
@@ -76,36 +103,53 @@ class SymmetricTop {
 /** Two moments of inertia are equal. (Semi-axes that are equal to 1e-9 give moments that are equal to 2e-9.) */
 inline bool is_symmetric_top(const double inertia[3]) { return symmetry_axis(inertia, 4e-9).shape != Shape::triaxial; }
 
-/** The body axis across which the moments are the most alike: that of symmetry; where all three are equal, any. */
-inline int axis_of_symmetric_top(const double inertia[3]) {
-  const double x = std::fabs(inertia[1] - inertia[2]), y = std::fabs(inertia[2] - inertia[0]),
-               z = std::fabs(inertia[0] - inertia[1]);
-  return z <= x && z <= y ? 2 : x <= y ? 0 : 1;
+/** The body axis across which the moments are the most alike: that of symmetry; where all three are equal, any. -1
+ *  where those side by side have not the same. */
+template <class Real>
+GRAINSCOPE_INLINE int axis_of_symmetric_top(const Real inertia[3]) {
+  using Mask = typename MaskOf<Real>::type;
+  const Real x = absolute(inertia[1] - inertia[2]), y = absolute(inertia[2] - inertia[0]),
+             z = absolute(inertia[0] - inertia[1]);
+  const Mask about_z = (z <= x) & (z <= y), about_x = (x <= y) & !about_z, about_y = !(about_z | about_x);
+  return all(about_z) ? 2 : all(about_x) ? 0 : all(about_y) ? 1 : -1;
 }
 
-/** Angular velocity of a symmetric top, by the formula above. */
-inline void angular_velocity(const double inertia[3], const double momentum[3], const double q[4], double omega[3]) {
-  switch (axis_of_symmetric_top(inertia)) {
-    case 0: SymmetricTop<0>(inertia, momentum, q).angular_velocity(omega); break;
-    case 1: SymmetricTop<1>(inertia, momentum, q).angular_velocity(omega); break;
-    default: SymmetricTop<2>(inertia, momentum, q).angular_velocity(omega);
-  }
-}
-
-template <int k>
-void rotate_about(const double inertia[3], const double momentum[3], double dt, double q[4], double omega[3]) {
-  SymmetricTop<k> top(inertia, momentum, q);
+template <int k, class Real>
+GRAINSCOPE_INLINE void rotate_about(const Real inertia[3], const Real momentum[3], double dt, Real q[4],
+                                    Real omega[3]) {
+  SymmetricTop<k, Real> top(inertia, momentum, q);
   top.rotate(dt, q);
   top.angular_velocity(omega);
 }
 
-/** Turns a symmetric top freely, exactly, by time dt, and gives the angular velocity that it then has. */
-inline void rotate_freely(const double inertia[3], const double momentum[3], double dt, double q[4], double omega[3]) {
-  switch (axis_of_symmetric_top(inertia)) {
+/** Of symmetric tops whose axis is `axis`. */
+template <class Real>
+GRAINSCOPE_INLINE void angular_velocity(int axis, const Real inertia[3], const Real momentum[3], const Real q[4],
+                                        Real omega[3]) {
+  switch (axis) {
+    case 0: return SymmetricTop<0, Real>(inertia, momentum, q).angular_velocity(omega);
+    case 1: return SymmetricTop<1, Real>(inertia, momentum, q).angular_velocity(omega);
+    default: return SymmetricTop<2, Real>(inertia, momentum, q).angular_velocity(omega);
+  }
+}
+template <class Real>
+GRAINSCOPE_INLINE void rotate_freely(int axis, const Real inertia[3], const Real momentum[3], double dt, Real q[4],
+                                     Real omega[3]) {
+  switch (axis) {
     case 0: return rotate_about<0>(inertia, momentum, dt, q, omega);
     case 1: return rotate_about<1>(inertia, momentum, dt, q, omega);
     default: return rotate_about<2>(inertia, momentum, dt, q, omega);
   }
+}
+
+/** Angular velocity of a symmetric top, by the formula above. */
+inline void angular_velocity(const double inertia[3], const double momentum[3], const double q[4], double omega[3]) {
+  angular_velocity(axis_of_symmetric_top(inertia), inertia, momentum, q, omega);
+}
+
+/** Turns a symmetric top freely, exactly, by time dt, and gives the angular velocity that it then has. */
+inline void rotate_freely(const double inertia[3], const double momentum[3], double dt, double q[4], double omega[3]) {
+  rotate_freely(axis_of_symmetric_top(inertia), inertia, momentum, dt, q, omega);
 }
 
 }

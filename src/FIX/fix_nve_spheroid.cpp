@@ -5,6 +5,7 @@
 #include "atom.h"
 #include "error.h"
 #include "modify.h"
+#include "spheroid_motion.h"
 #include "spheroid_rotation.h"
 #include <algorithm>
 #include <climits>
@@ -63,33 +64,13 @@ void FixNVESpheroid::require_symmetric_tops() const {
   error->all(FLERR, message.str().c_str());
 }
 
-void FixNVESpheroid::initial_integrate(int) {
-  const int n = grains();
-  for (int i = 0; i < n; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
-    double *x = atom->x[i], *v = atom->v[i], *momentum = atom->angmom[i];
-    const double *f = atom->f[i], *torque = atom->torque[i];
-    const double kick = dtf / atom->rmass[i];
-    for (int k = 0; k < 3; k++) {
-      v[k] += kick * f[k];
-      x[k] += dtv * v[k];
-      momentum[k] += dtf * torque[k];
-    }
-    grainscope::rotate_freely(atom->inertia[i], momentum, dtv, atom->quaternion[i], atom->omega[i]);
-  }
+grainscope::Spheroids FixNVESpheroid::spheroids() const {
+  const auto rows = [](double **array) { return array ? array[0] : nullptr; };  // none where there never was a grain
+  return {
+      grains(),           groupbit,      atom->mask,    atom->rmass,        rows(atom->inertia),    rows(atom->f),
+      rows(atom->torque), rows(atom->x), rows(atom->v), rows(atom->angmom), rows(atom->quaternion), rows(atom->omega)};
 }
 
-void FixNVESpheroid::final_integrate() {
-  const int n = grains();
-  for (int i = 0; i < n; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
-    double *v = atom->v[i], *momentum = atom->angmom[i];
-    const double *f = atom->f[i], *torque = atom->torque[i];
-    const double kick = dtf / atom->rmass[i];
-    for (int k = 0; k < 3; k++) {
-      v[k] += kick * f[k];
-      momentum[k] += dtf * torque[k];
-    }
-    grainscope::angular_velocity(atom->inertia[i], momentum, atom->quaternion[i], atom->omega[i]);
-  }
-}
+void FixNVESpheroid::initial_integrate(int) { grainscope::kick_and_drift(spheroids(), dtf, dtv); }
+
+void FixNVESpheroid::final_integrate() { grainscope::kick(spheroids(), dtf); }

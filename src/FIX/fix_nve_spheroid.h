@@ -10,10 +10,14 @@ FixStyle(nve/spheroid,FixNVESpheroid)
 
 #include "fix_nve.h"
 
+namespace grainscope {
+struct Spheroids;
+}
+
 namespace LAMMPS_NS {
 
 /** Moves grains of two equal moments of inertia by kick, drift, kick; the drift turns them exactly
- *  (spheroid_rotation.h). Velocities and angular momenta are kicked by f dt/2m and torque dt/2, before and after. No
+ *  (spheroid_motion.h). Velocities and angular momenta are kicked by f dt/2m and torque dt/2, before and after. No
  *  output, no state. */
 class FixNVESpheroid : public FixNVE {
  public:
@@ -27,6 +31,7 @@ class FixNVESpheroid : public FixNVE {
 
  private:
   int grains() const;
+  grainscope::Spheroids spheroids() const;
   void require_symmetric_tops() const;
 };
 
