@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /** What the ledger is shown: contacts and grains. */
 #include "energy_ledger.h"
-#include "four.h"
+#include "lane_vectors.h"
 #include "lanes.h"
 #include <algorithm>
 #include <cmath>
@@ -72,14 +72,14 @@ void EnergyLedger::begin_evaluation(int n_local, bool repeats) {
 
 /** A force along one direction: what it does to its two grains, and what is summed of it. */
 struct EnergyLedger::Unit {
-  Four force, torque_i, torque_j, diagonal, beside;
+  Lanes force, torque_i, torque_j, diagonal, beside;
 
   GRAINSCOPE_INLINE Unit(const Contact &c, const Vector3d &f, const Vector3d &arm_j, double power)
-      : force(four_of(f)), torque_i(torque_of(c.motion->arm, f)), torque_j(torque_of(arm_j, f)) {
+      : force(lanes_of(f)), torque_i(torque_of(c.motion->arm, f)), torque_j(torque_of(arm_j, f)) {
     const Vector3d &r = c.branch;
-    const Four weight = four_times(c.weight);
-    diagonal = weight * Four{f[0] * r[0], f[1] * r[1], f[2] * r[2], power};
-    beside = weight * four_of(f[1] * r[2], f[0] * r[2], f[0] * r[1]);
+    const Lanes weight = lanes_of(c.weight);
+    diagonal = weight * Lanes{f[0] * r[0], f[1] * r[1], f[2] * r[2], power};
+    beside = weight * lanes_of(f[1] * r[2], f[0] * r[2], f[0] * r[1]);
   }
 };
 
@@ -92,16 +92,16 @@ void EnergyLedger::WallContacts::clear() {
 
 GRAINSCOPE_INLINE void EnergyLedger::WallContacts::add(int part, const Contact &c, const Vector3d &f) {
   const Vector3d &at = c.motion->point;
-  add_to(places[part], Four{f[0] * at[0], f[1] * at[1], f[2] * at[2], f.dot(c.wall().velocity)});
-  add_to(places[part] + 4, four_of(f[1] * at[2], f[0] * at[2], f[0] * at[1]));
-  add_to(force[part], four_of(f));
+  add_to(places[part], Lanes{f[0] * at[0], f[1] * at[1], f[2] * at[2], f.dot(c.wall().velocity)});
+  add_to(places[part] + 4, lanes_of(f[1] * at[2], f[0] * at[2], f[0] * at[1]));
+  add_to(force[part], lanes_of(f));
   touches.back().force[part] = f;
 }
 
 template <EnergyLedger::Partner partner>
 GRAINSCOPE_INLINE void EnergyLedger::add_part(int part, double size, const Unit &unit, const Contact &c, double *of_i,
                                               double *of_j) {
-  const Four times = four_times(size), force = times * unit.force;
+  const Lanes times = lanes_of(size), force = times * unit.force;
   const int at = 8 * slot_[partner][part];
   double *const sums = now_.contacts[partner].sums[part];
   add_to(sums, times * unit.diagonal);
@@ -173,7 +173,7 @@ GRAINSCOPE_INLINE void EnergyLedger::add_contact(const Law &law, const Contact &
   }
   if (law.rolling) {
     Unit unit(c, Vector3d::Zero(), arm_j, c.rolling->torque.dot(c.rolling->spin));
-    unit.torque_i = unit.torque_j = four_of(c.rolling->torque);
+    unit.torque_i = unit.torque_j = lanes_of(c.rolling->torque);
     add_part<partner>(rolling, 1.0, unit, c, of_i, of_j);
   }
   sums.normal_energy += c.weight * elastic_force * c.overlap * law.energy_factor;
@@ -211,13 +211,13 @@ void EnergyLedger::end_of_step(const Grain &g, const double omega[3], const doub
   const Vector3d p = Map<const Vector3d>(g.v) - frame_.flow(Map<const Vector3d>(g.x));
   ends_.k_tr += 0.5 * p.dot(g.mass * p + dt * force);
   ends_.k_rot += 0.5 * w.dot(angular + dt * torque);
-  Four other_force = four_of(force), other_torque = four_of(torque);
+  Lanes other_force = lanes_of(force), other_torque = lanes_of(torque);
   const double *at = wrenches_of(g.index);
   for (int k = 0; k < slots_; k++, at += 8) {
-    other_force -= four_at(at + 0);
-    other_torque -= four_at(at + 4);
+    other_force -= load(at + 0);
+    other_torque -= load(at + 4);
   }
-  add_to(ends_.other, other_force * four_of(p) + other_torque * four_of(w));
+  add_to(ends_.other, other_force * lanes_of(p) + other_torque * lanes_of(w));
 }
 
 void EnergyLedger::begin_start_of_step(const LedgerFrame &frame) {
@@ -244,15 +244,15 @@ void EnergyLedger::start_of_step(const Grain &g, const double omega_after[3], co
   if (moved_) {
     const Vector3d old = v - frame_.flow(x);
     starts_.k_old += kinetic(old);
-    add_to(starts_.stretch, four_times(0.5 * g.mass) * four_of(carried - old) * four_of(carried + old));
+    add_to(starts_.stretch, lanes_of(0.5 * g.mass) * lanes_of(carried - old) * lanes_of(carried + old));
   }
   starts_.k_rot += 0.5 * spin.dot(Map<const Vector3d>(momentum) - 0.5 * dt * torque);
 
-  const Four velocity = four_of(p), turning = four_of(spin);
-  Four other = four_of(force) * velocity + four_of(torque) * turning;
+  const Lanes velocity = lanes_of(p), turning = lanes_of(spin);
+  Lanes other = lanes_of(force) * velocity + lanes_of(torque) * turning;
   double *part = wrenches_of(g.index);
   for (int k = 0; k < slots_; k++, part += 8) {
-    const Four power = four_at(part + 0) * velocity + four_at(part + 4) * turning;
+    const Lanes power = load(part + 0) * velocity + load(part + 4) * turning;
     add_to(starts_.rate[k], power);
     other -= power;
     std::fill(part, part + 8, 0.0);
@@ -264,7 +264,7 @@ void EnergyLedger::start_of_step(const Grain &g, const double omega_after[3], co
   const Vector3d after = p + flow, drift = dt * next_.gradient_times(after), middle = g.mass * (p - 0.5 * drift);
   const Vector3d lengths = next_.velocity_gradient.diagonal().cwiseProduct(after).cwiseProduct(middle);
   const double all = drift.dot(middle), box = dt * (lengths[0] + (lengths[1] + lengths[2]));
-  add_to(starts_.drift, four_of(lengths));
+  add_to(starts_.drift, lanes_of(lengths));
   starts_.box -= box;
   starts_.shear -= all - box;
 }

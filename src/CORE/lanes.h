@@ -44,6 +44,13 @@ GRAINSCOPE_INLINE LaneMask pick(LaneMask condition, LaneMask yes, LaneMask no) {
   return (condition & yes) | (~condition & no);
 }
 
+GRAINSCOPE_INLINE double absolute(double x) { return std::fabs(x); }
+GRAINSCOPE_INLINE Lanes absolute(Lanes x) { return (Lanes)((LaneMask)x & 0x7fffffffffffffffL); }
+
+GRAINSCOPE_INLINE bool all(bool condition) { return condition; }
+GRAINSCOPE_INLINE bool all(LaneMask condition) {
+  return (condition[0] & condition[1] & condition[2] & condition[3]) != 0;
+}
 GRAINSCOPE_INLINE bool any(bool condition) { return condition; }
 GRAINSCOPE_INLINE bool any(LaneMask condition) {
   return ((condition[0] | condition[1]) | (condition[2] | condition[3])) != 0;

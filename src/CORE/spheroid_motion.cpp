@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "spheroid_motion.h"
-#include "four_rows.h"
+#include "lane_rows.h"
 #include "spheroid_rotation.h"
 #include <algorithm>
 
@@ -46,11 +46,11 @@ GRAINSCOPE_INLINE bool move(const Spheroids &g, int i, double kick, double dt) {
   return true;
 }
 
-/** Four by four from grain i on, up to those that are not moved side by side: where they begin. */
+/** Lanes by four from grain i on, up to those that are not moved side by side: where they begin. */
 template <bool drift>
 GRAINSCOPE_INLINE int move_fours(const Spheroids &grains, int i, double kick, double dt) {
   const Spheroids g = grains;  // of our own: no number that is written may be one of its pointers
-  while (i + ROWS<Four> <= g.n && move<drift, Four>(g, i, kick, dt)) i += ROWS<Four>;
+  while (i + ROWS<Lanes> <= g.n && move<drift, Lanes>(g, i, kick, dt)) i += ROWS<Lanes>;
   return i;
 }
 GRAINSCOPE_CLONES int kick_fours(const Spheroids &grains, int i, double kick) {
@@ -68,7 +68,7 @@ void move_all(const Spheroids &grains, double kick, double dt) {
   const bool fours = has_fours();
   for (int i = 0; i < g.n;) {
     if (fours) i = drift ? kick_and_drift_fours(grains, i, kick, dt) : kick_fours(grains, i, kick);
-    const int last = fours ? std::min(i + ROWS<Four>, g.n) : g.n;
+    const int last = fours ? std::min(i + ROWS<Lanes>, g.n) : g.n;
     for (; i < last; i++) move<drift, double>(g, i, kick, dt);
   }
 }

@@ -13,10 +13,6 @@ GRAINSCOPE_INLINE Real dot(const Real *a, const Real *b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 template <class Real>
-GRAINSCOPE_INLINE Real absolute(Real x) {
-  return pick(x < 0.0, -x, x);
-}
-template <class Real>
 GRAINSCOPE_INLINE Real least(Real a, Real b) {
   return pick(a < b, a, b);
 }

@@ -2,7 +2,7 @@
 #ifndef GRAINSCOPE_SPHEROID_ROTATION_H
 #define GRAINSCOPE_SPHEROID_ROTATION_H
 
-#include "four.h"
+#include "lane_vectors.h"
 #include "symmetry_axis.h"
 #include <cmath>
 
@@ -22,12 +22,12 @@ __attribute__((noinline, cold)) inline void library_tangents(int n, const double
   for (int k = 0; k < n; k++)
     if (!(h2[k] < SMALL_TURN)) ratio[k] = library_tangent(h2[k], ratio[k]);
 }
-GRAINSCOPE_INLINE Four library_tangent(Four h2, Four series) {
+GRAINSCOPE_INLINE Lanes library_tangent(Lanes h2, Lanes series) {
   double given[4], ratio[4];
-  put(h2, given);
-  put(series, ratio);
+  store(h2, given);
+  store(series, ratio);
   library_tangents(4, given, ratio);
-  return four_at(ratio);
+  return load(ratio);
 }
 
 /** tan(h)/h from h^2. Below h = 0.03 (a turn of 3.6 degrees) by its series, of which the first term left out is below
