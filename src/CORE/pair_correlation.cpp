@@ -1,155 +1,346 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pair_correlation.h"
+#include "lanes.h"
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace grainscope {
 
-using Eigen::Vector2d;
+using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+// All lengths in this file are in widths of a bin, so that the whole part of a distance is its bin.
 namespace {
 
-constexpr int batch = 256;  // distances at a time, a multiple of the lanes
-constexpr int lanes = 4;    // sums side by side: one that waits for the last to be stored takes half as long again
+constexpr int batch = 512;  // pairs at a time, a multiple of LANES
+constexpr int tables = 4;   // sums side by side: one that waits for the last to be stored takes half as long again
+constexpr double slack = 1.0 + 1e-9;     // of lengths that say where to look, beyond rounding
+constexpr double outward = 1.0 + 1e-12;  // two images that are both at the end of the range are both out of it
 
-struct Span {
-  std::size_t begin, end;
+/** Positions x of a group of points, or x in units of the edges, and their values; with room for a load of LANES from
+ *  any point on. */
+struct Columns {
+  std::vector<double> x[3], value;
+
+  explicit Columns(std::size_t points) : value(points + LANES, 0.0) {
+    for (auto &column : x) column.resize(points + LANES, 0.0);
+  }
+
+  void set(std::size_t i, const Vector3d &at, double v) {
+    for (int k = 0; k < 3; k++) x[k][i] = at[k];
+    value[i] = v;
+  }
 };
 
-/** A grid on the unit cube that sorts points, so that pairs within range lie in neighbouring cells. An edge along which
- *  all cells would be neighbours is not divided. */
-class Grid {
+Vector3d place_of(const PointValues &points, std::size_t i) { return {points.s[0][i], points.s[1][i], points.s[2][i]}; }
+
+/** Takes squared distances of pairs and products of their values, a batch at a time. */
+class PairTable {
  public:
-  Grid(const PeriodicCell &cell, double range, std::size_t points) : periodic_(cell.periodic) {
-    const int most = std::max(1, static_cast<int>(std::cbrt(points / 8.0)));
-    for (int k = 0; k < 3; k++) {
-      const double heights = range / cell.height(k), reach = heights < 1e3 ? heights : 1e3;  // farther is everywhere
-      n_[k] = static_cast<int>(std::min<double>(most, std::max(1.0, 2.0 / reach)));
-      reach_[k] = static_cast<int>(std::ceil(reach * n_[k]));
-      if (2 * reach_[k] + 1 >= n_[k]) n_[k] = 1;
-    }
+  explicit PairTable(int bins) : bins_(bins), products_(tables * (bins + 1)), pairs_(tables * (bins + 1)) {}
+
+  /** Where the next `n` pairs belong, at most a batch; LANES may be written from each of them on. */
+  GRAINSCOPE_INLINE int room_for(int n) {
+    if (filled_ + n > batch) count();
+    const int at = filled_;
+    filled_ += n;
+    return at;
   }
 
-  int cells() const { return n_[0] * n_[1] * n_[2]; }
-
-  /** -1 for a place that is not finite. */
-  int cell_of(const PointValues &points, std::size_t i) const {
-    int at[3];
-    for (int k = 0; k < 3; k++) {
-      double s = points.s[k][i];
-      if (periodic_[k]) s -= std::floor(s);
-      at[k] = cell_along(s, n_[k]);
-      if (at[k] < 0) return -1;
+  GRAINSCOPE_INLINE void count() {
+    const double out = static_cast<double>(bins_) * bins_;
+    for (int m = 0; m < batch; m++) {
+      const double r2 = squared[m] < out ? squared[m] : out;
+      place_[m] = tables * static_cast<int>(std::sqrt(r2));
     }
-    return index(at);
+    double *const products = products_.data();
+    int *const pairs = pairs_.data();
+    int m = 0;
+    for (; m + tables <= filled_; m += tables)
+      for (int k = 0; k < tables; k++) {
+        double *const sum = products + place_[m + k];
+        int *const number = pairs + place_[m + k];
+        sum[k] += product[m + k];
+        number[k]++;
+      }
+    for (; m < filled_; m++) {
+      products[place_[m]] += product[m];
+      pairs[place_[m]]++;
+    }
+    counted_ += filled_;
+    filled_ = 0;
+    if (counted_ > 1000 * bins_) total();  // sums of few terms are exact to more digits
   }
 
-  /** The points in the neighbours of cell `me` that come after it, in order. */
-  void neighbours_after(int me, const std::vector<std::size_t> &first, std::vector<Span> &spans) const {
-    const int at[3] = {me / (n_[1] * n_[2]), me / n_[2] % n_[1], me % n_[2]};
-    std::vector<int> along[3], found;
-    for (int k = 0; k < 3; k++) along[k] = neighbours_along(k, at[k]);
-    for (int a : along[0])
-      for (int b : along[1])
-        for (int c : along[2]) {
-          const int other[3] = {a, b, c};
-          if (index(other) > me) found.push_back(index(other));
-        }
-    std::sort(found.begin(), found.end());
-    spans.clear();
-    for (int other : found) {
-      if (!spans.empty() && spans.back().end == first[other]) spans.back().end = first[other + 1];
-      else spans.push_back({first[other], first[other + 1]});
+  PairSums sums() {
+    count();
+    total();
+    return sums_;
+  }
+
+  double squared[batch + LANES] = {}, product[batch + LANES] = {};
+
+ private:
+  int bins_, filled_ = 0, counted_ = 0;
+  // `tables` sums and numbers of each bin; the last bin holds what is out of range
+  std::vector<double> products_;
+  std::vector<int> pairs_;
+  PairSums sums_{bins_};
+  int place_[batch];
+
+  void total() {
+    for (int k = 0; k < bins_; k++)
+      for (int at = tables * k; at < tables * (k + 1); at++) {
+        sums_.products[k] += products_[at];
+        sums_.pairs[k] += pairs_[at];
+      }
+    std::fill(products_.begin(), products_.end(), 0.0);
+    std::fill(pairs_.begin(), pairs_.end(), 0);
+    counted_ = 0;
+  }
+};
+
+/** Equal slabs across one edge of a brick. Those at the ends of an edge that does not repeat go on for ever. */
+struct Slabs {
+  bool periodic = true;
+  int count = 1;
+  double length = 1.0, width = 1.0, per_width = 1.0, per_length = 1.0;
+
+  void divide(int n) {
+    count = n;
+    width = length / n;
+    per_width = n / length;
+    per_length = 1.0 / length;
+  }
+
+  /** The slab of a place, the nearest one of a place that is beyond the brick. */
+  GRAINSCOPE_INLINE int of(double x) const {
+    const double at = x * per_width, most = count - 1, least = at > 0.0 ? at : 0.0;
+    return static_cast<int>(least < most ? least : most);
+  }
+
+  GRAINSCOPE_INLINE int image_of(double x) const {
+    const int many = 8;  // places here are at most two bricks away
+    return periodic ? static_cast<int>(x * per_length + many) - many : 0;
+  }
+
+  GRAINSCOPE_INLINE double squared_distance(double x, int slab) const {
+    const double before = slab == 0 && !periodic ? 0.0 : slab * width - x,
+                 beyond = slab == count - 1 && !periodic ? 0.0 : x - (slab + 1) * width,
+                 apart = std::max(before, beyond);
+    return apart > 0.0 ? apart * apart : 0.0;
+  }
+};
+
+/** Points of a cell, up to whose rounding radius pairs are looked for, in the brick of its lattice: a box with right
+ *  angles that repeats itself as the cell does, its layers along z moved by the cell's third edge, its rows along y by
+ *  the second. The points of a row stand in the order of its cells. */
+class Brick {
+ public:
+  Brick(const Matrix3d &edges, const PeriodicCell &cell, const PointValues &given, double range)
+      : edges_(edges), range_(range), points_(given.size()) {
+    for (int k = 0; k < 3; k++) {
+      slabs_[k].periodic = cell.periodic[k];
+      slabs_[k].length = edges(k, k);
+    }
+    for (int k = 2; k > 0; k--)
+      for (int other = k - 1; other >= 0; other--)  // another edge of the same lattice
+        if (cell.periodic[other])
+          edges_.col(k) -= std::round(edges_(other, k) / edges(other, other)) * edges_.col(other);
+    divide(given.size());
+    sort(edges, given);
+  }
+
+  /** All pairs with those points i, i % ranks = rank, that are the first of a pair. */
+  GRAINSCOPE_INLINE void add(PairTable &table, int rank, int ranks) const {
+    for (std::size_t i = rank; i < size_; i += ranks) {
+      const double z = points_.x[2][i];
+      const int layer = slabs_[2].of(z);
+      for (int image = 0; image <= slabs_[2].image_of(z + range_); image++) {
+        const Place at = Place{points_.x[0][i], points_.x[1][i], z}.less(image, edges_.col(2));
+        const int last = slabs_[2].of(at.z + range_);
+        for (int k = image == 0 ? layer : 0; k <= last; k++) add_layer(table, i, at, k, image == 0 && k == layer);
+      }
     }
   }
 
  private:
-  std::array<bool, 3> periodic_;
-  int n_[3], reach_[3];
+  struct Place {
+    double x, y, z;
 
-  int index(const int at[3]) const { return (at[0] * n_[1] + at[1]) * n_[2] + at[2]; }
-
-  std::vector<int> neighbours_along(int k, int at) const {
-    std::vector<int> found;
-    if (n_[k] == 1) return {0};
-    for (int other = at - reach_[k]; other <= at + reach_[k]; other++) {
-      if (periodic_[k]) found.push_back((other + n_[k]) % n_[k]);
-      else if (other >= 0 && other < n_[k]) found.push_back(other);
+    GRAINSCOPE_INLINE Place less(int n, const Vector3d &edge) const {
+      return {x - n * edge[0], y - n * edge[1], z - n * edge[2]};
     }
-    return found;
+  };
+
+  Matrix3d edges_;  // tilted by half an edge at most, where they repeat
+  double range_;
+  Slabs slabs_[3];
+  std::size_t size_ = 0;
+  Columns points_;
+  std::vector<std::size_t> first_;  // cell c holds the points from first_[c] to first_[c + 1]
+
+  void divide(std::size_t points) {
+    double volume = 1.0, cells;
+    for (const Slabs &s : slabs_) volume *= s.length;
+    double width = std::max(range_ / 4.0, std::cbrt(12.0 * volume / points));
+    int n[3];
+    do {
+      for (int k = 0; k < 3; k++)
+        n[k] = static_cast<int>(std::min(std::max(1.0, slabs_[k].length / width), static_cast<double>(points)));
+      cells = static_cast<double>(n[0]) * n[1] * n[2];
+      width *= 1.2;
+    } while (cells > points);
+    for (int k = 0; k < 3; k++) slabs_[k].divide(k == 0 ? 8 * n[k] : n[k]);
+  }
+
+  std::size_t row_of(int layer, int row) const {
+    return (static_cast<std::size_t>(layer) * slabs_[1].count + row) * slabs_[0].count;
+  }
+
+  /** Wrapped into the brick. */
+  Vector3d place(const Matrix3d &edges, Vector3d s) const {
+    for (int k = 0; k < 3; k++)
+      if (slabs_[k].periodic) s[k] -= std::floor(s[k]);
+    Vector3d at = edges * s;
+    for (int k = 2; k >= 0; k--)
+      if (slabs_[k].periodic) at -= std::floor(at[k] * slabs_[k].per_length) * edges_.col(k);
+    return at;
+  }
+
+  /** Not so where it is not finite, or so far out that wrapping has no digits left. */
+  bool is_place(const Vector3d &at) const {
+    bool is = true;
+    for (int k = 0; k < 3; k++)
+      is = is && (slabs_[k].periodic ? std::fabs(at[k]) < 2.0 * slabs_[k].length : std::isfinite(at[k]));
+    return is;
+  }
+
+  void sort(const Matrix3d &edges, const PointValues &given) {
+    const std::size_t nowhere = std::numeric_limits<std::size_t>::max();
+    std::vector<std::size_t> cells(given.size(), nowhere);
+    first_.assign(row_of(slabs_[2].count, 0) + 1, 0);
+    for (std::size_t i = 0; i < given.size(); i++) {
+      const Vector3d at = place(edges, place_of(given, i));
+      if (!is_place(at)) continue;
+      cells[i] = row_of(slabs_[2].of(at[2]), slabs_[1].of(at[1])) + slabs_[0].of(at[0]);
+      first_[cells[i] + 1]++;
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    size_ = first_.back();
+    std::vector<std::size_t> next(first_);
+    for (std::size_t i = 0; i < given.size(); i++)
+      if (cells[i] != nowhere) points_.set(next[cells[i]]++, place(edges, place_of(given, i)), given.value[i]);
+  }
+
+  /** Partners in a layer; in that of point i itself only those after it. */
+  GRAINSCOPE_INLINE void add_layer(PairTable &table, std::size_t i, const Place &place, int layer, bool own) const {
+    const Slabs &rows = slabs_[1];
+    const double left = range_ * range_ - slabs_[2].squared_distance(place.z, layer);
+    if (!(left > 0.0)) return;
+    const double reach = std::sqrt(left);
+    const int last_image = rows.image_of(place.y + reach), own_row = rows.of(place.y);
+    for (int image = own ? 0 : rows.image_of(place.y - reach); image <= last_image; image++) {
+      const Place at = place.less(image, edges_.col(1));
+      const bool from_own = own && image == 0;
+      const int last = rows.of(at.y + reach);
+      for (int row = from_own ? own_row : rows.of(at.y - reach); row <= last; row++)
+        add_row(table, i, at, row_of(layer, row), left - rows.squared_distance(at.y, row), from_own && row == own_row);
+    }
+  }
+
+  GRAINSCOPE_INLINE void add_row(PairTable &table, std::size_t i, const Place &place, std::size_t row, double left,
+                                 bool own) const {
+    const Slabs &cells = slabs_[0];
+    if (!(left > 0.0)) return;
+    const double reach = std::sqrt(left);
+    const int last_image = cells.image_of(place.x + reach);
+    for (int image = own ? 0 : cells.image_of(place.x - reach); image <= last_image; image++) {
+      const double x = place.x - image * cells.length;
+      const std::size_t begin = own && image == 0 ? i + 1 : first_[row + cells.of(x - reach)],
+                        end = first_[row + cells.of(x + reach) + 1];
+      for (std::size_t j = begin; j < end; j += batch)
+        add_some(table, {x, place.y, place.z}, points_.value[i], j,
+                 static_cast<int>(std::min<std::size_t>(batch, end - j)));
+    }
+  }
+
+  GRAINSCOPE_INLINE void add_some(PairTable &table, const Place &at, double value, std::size_t j, int n) const {
+    const double *const x = &points_.x[0][j], *const y = &points_.x[1][j], *const z = &points_.x[2][j],
+                        *const values = &points_.value[j];
+    const int to = table.room_for(n);
+    for (int m = 0; m < n; m += LANES) {
+      const Lanes a = load(x + m) - at.x, b = load(y + m) - at.y, c = load(z + m) - at.z;
+      store(a * a + b * b + c * c, table.squared + to + m);
+      store(value * load(values + m), table.product + to + m);
+    }
   }
 };
 
-/** Points in the order of their cells; cell c holds those from first[c] to first[c + 1]. Those whose place is not
- *  finite are left out. */
-PointValues sorted(const PointValues &points, const Grid &grid, std::vector<std::size_t> &first) {
-  const std::size_t n = points.size();
-  std::vector<int> cell(n);
-  first.assign(grid.cells() + 1, 0);
-  for (std::size_t i = 0; i < n; i++)
-    if ((cell[i] = grid.cell_of(points, i)) >= 0) first[cell[i] + 1]++;
-  for (int c = 0; c < grid.cells(); c++) first[c + 1] += first[c];
-  std::vector<std::size_t> next(first.begin(), first.end() - 1);
-  PointValues out;
-  for (auto *column : {&out.s[0], &out.s[1], &out.s[2], &out.value}) column->resize(first.back());
-  for (std::size_t i = 0; i < n; i++) {
-    if (cell[i] < 0) continue;
-    const std::size_t to = next[cell[i]]++;
-    for (int k = 0; k < 3; k++) out.s[k][to] = points.s[k][i];
-    out.value[to] = points.value[i];
-  }
-  return out;
-}
-
-/** Adds up the pairs of one point with the others of a span. */
-class RowSums {
+/** Points of any cell at any range, in the order of their places along its longest height: partners are within range
+ *  along that, and at the nearest of all images. */
+class Queue {
  public:
-  RowSums(const PeriodicCell &cell, const PointValues &points, const DistanceBins &bins)
-      : cell_(cell), images_(cell, bins.range), points_(points), bins_(bins.count),
-        per_length_(bins.count / bins.range), row_(lanes * (bins.count + 1), Vector2d::Zero()) {
-    for (int k = 0; k < 3; k++) wrap_[k] = cell.periodic[k] ? 1.0 : 0.0;
-  }
-
-  void add(std::size_t i, Span others) {
-    for (std::size_t j = others.begin; j < others.end; j += batch) {
-      const int n = static_cast<int>(std::min<std::size_t>(batch, others.end - j));
-      squared_distances(i, j, n);
-      images_.lower(n, x_, y_, z_, r2_);
-      to_bins(n);
-      add_batch(&points_.value[j], n);
+  Queue(const PeriodicCell &cell, const PointValues &given, double range)
+      : cell_(cell), images_(cell, range), points_(given.size()) {
+    for (int k = 0; k < 3; k++)
+      if (cell.height(k) > cell.height(along_)) along_ = k;
+    reach_ = slack * range / cell.height(along_);
+    std::vector<std::size_t> order;
+    std::vector<double> s(given.s[along_]);
+    for (std::size_t i = 0; i < given.size(); i++) {
+      if (cell.periodic[along_]) s[i] -= std::floor(s[i]);
+      if (place_of(given, i).allFinite()) order.push_back(i);
+    }
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return s[i] < s[j]; });
+    for (std::size_t i : order) {
+      Vector3d at = place_of(given, i);
+      at[along_] = s[i];
+      points_.set(size_++, at, given.value[i]);
     }
   }
 
-  /** Moves what was added for point i to `sums`. */
-  void flush(std::size_t i, PairSums &sums) {
-    for (int k = 0; k < bins_; k++) {
-      Vector2d all = Vector2d::Zero();
-      for (int lane = 0; lane < lanes; lane++) all += row_[lane * (bins_ + 1) + k];
-      sums.products[k] += points_.value[i] * all[0];
-      sums.pairs[k] += all[1];
+  GRAINSCOPE_INLINE void add(PairTable &table, int rank, int ranks) {
+    const bool all = !(reach_ < 0.5), periodic = cell_.periodic[along_];
+    for (std::size_t i = rank; i < size_; i += ranks) {
+      const double end = points_.x[along_][i] + reach_;
+      add_span(table, i, i + 1, all ? size_ : first_after(end));
+      if (periodic && !all) add_span(table, i, 0, first_after(end - 1.0));
     }
-    std::fill(row_.begin(), row_.end(), Vector2d::Zero());
   }
 
  private:
-  const PeriodicCell &cell_;
+  PeriodicCell cell_;
   NearestImages images_;
-  const PointValues &points_;
-  int bins_;
-  double per_length_;
-  double wrap_[3];
-  // sum of values and pairs: per lane, of each bin; the last bin holds what is out of range
-  std::vector<Vector2d> row_;
-  double x_[batch], y_[batch], z_[batch], r2_[batch];
-  int bin_[batch];
+  int along_ = 0;
+  double reach_;
+  std::size_t size_ = 0;
+  Columns points_;
+  double x_[batch], y_[batch], z_[batch];
 
-  void squared_distances(std::size_t i, std::size_t j, int n) {
-    const double *sx = &points_.s[0][j], *sy = &points_.s[1][j], *sz = &points_.s[2][j];
-    const double x = points_.s[0][i], y = points_.s[1][i], z = points_.s[2][i];
-    const Eigen::Matrix3d &h = cell_.edges;
+  std::size_t first_after(double s) const {
+    const auto begin = points_.x[along_].begin();
+    return std::upper_bound(begin, begin + size_, s) - begin;
+  }
+
+  GRAINSCOPE_INLINE void add_span(PairTable &table, std::size_t i, std::size_t begin, std::size_t end) {
+    for (std::size_t j = begin; j < end; j += batch) {
+      const int n = static_cast<int>(std::min<std::size_t>(batch, end - j));
+      const int to = table.room_for(n);
+      set_squared(i, j, n, table.squared + to);
+      images_.lower(n, x_, y_, z_, table.squared + to);
+      for (int m = 0; m < n; m++) table.product[to + m] = points_.value[i] * points_.value[j + m];
+    }
+  }
+
+  GRAINSCOPE_INLINE void set_squared(std::size_t i, std::size_t j, int n, double *squared) {
+    const double *sx = &points_.x[0][j], *sy = &points_.x[1][j], *sz = &points_.x[2][j];
+    const double x = points_.x[0][i], y = points_.x[1][i], z = points_.x[2][i];
+    const Matrix3d &h = cell_.edges;
     const double xx = h(0, 0), xy = h(0, 1), xz = h(0, 2), yy = h(1, 1), yz = h(1, 2), zz = h(2, 2);
-    const double wx = wrap_[0], wy = wrap_[1], wz = wrap_[2];
+    const double wx = cell_.periodic[0], wy = cell_.periodic[1], wz = cell_.periodic[2];
     const double rounder = 6755399441055744.0;  // 1.5 2^52: adding and taking it off rounds to the nearest whole number
     for (int m = 0; m < n; m++) {
       double a = sx[m] - x, b = sy[m] - y, c = sz[m] - z;
@@ -159,27 +350,18 @@ class RowSums {
       x_[m] = xx * a + xy * b + xz * c;
       y_[m] = yy * b + yz * c;
       z_[m] = zz * c;
-      r2_[m] = x_[m] * x_[m] + y_[m] * y_[m] + z_[m] * z_[m];
+      squared[m] = x_[m] * x_[m] + y_[m] * y_[m] + z_[m] * z_[m];
     }
   }
-
-  void to_bins(int n) {
-    for (int m = 0; m < n; m++) bin_[m] = bin_index(std::sqrt(r2_[m]) * per_length_, bins_, bins_);
-  }
-
-  void add_batch(const double *value, int n) {
-    Vector2d *lane[lanes];
-    for (int k = 0; k < lanes; k++) lane[k] = &row_[k * (bins_ + 1)];
-    int m = 0;
-    for (; m + lanes <= n; m += lanes)
-      for (int k = 0; k < lanes; k++) {
-        Vector2d &at = lane[k][bin_[m + k]];
-        at[0] += value[m + k];
-        at[1] += 1.0;
-      }
-    for (; m < n; m++) lane[0][bin_[m]] += Vector2d(value[m], 1.0);
-  }
 };
+
+GRAINSCOPE_CLONES void add_pairs(const Brick &points, PairTable &table, int rank, int ranks) {
+  points.add(table, rank, ranks);
+}
+
+GRAINSCOPE_CLONES void add_pairs(Queue &points, PairTable &table, int rank, int ranks) {
+  points.add(table, rank, ranks);
+}
 
 }
 
@@ -190,22 +372,16 @@ void PointValues::add(const Vector3d &fraction, double v) {
 
 PairSums direct_pair_sums(const PeriodicCell &cell, const PointValues &points, const DistanceBins &bins, int rank,
                           int ranks) {
-  const Grid grid(cell, bins.range, points.size());
-  std::vector<std::size_t> first;
-  const PointValues ordered = sorted(points, grid, first);
-  PairSums sums(bins.count);
-  RowSums row(cell, ordered, bins);
-  std::vector<Span> spans;
-  for (int c = 0; c < grid.cells(); c++) {
-    grid.neighbours_after(c, first, spans);
-    for (std::size_t i = first[c]; i < first[c + 1]; i++) {
-      if (static_cast<int>(i % ranks) != rank) continue;
-      row.add(i, {i + 1, first[c + 1]});
-      for (const Span &span : spans) row.add(i, span);
-      row.flush(i, sums);
-    }
+  if (points.size() < 2) return PairSums(bins.count);
+  const PeriodicCell scaled{cell.edges * (outward * bins.count / bins.range), cell.periodic};
+  PairTable table(bins.count);
+  if (bins.range <= cell.rounding_radius() && scaled.edges.allFinite()) {
+    add_pairs(Brick(scaled.edges, scaled, points, slack * bins.count), table, rank, ranks);
+  } else {
+    Queue queue(scaled, points, bins.count);
+    add_pairs(queue, table, rank, ranks);
   }
-  return sums;
+  return table.sums();
 }
 
 }

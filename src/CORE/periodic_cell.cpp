@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "periodic_cell.h"
+#include "lanes.h"
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -49,7 +50,8 @@ NearestImages::NearestImages(const PeriodicCell &cell, double range) {
       }
 }
 
-void NearestImages::lower(int n, const double *x, const double *y, const double *z, double *r2) const {
+GRAINSCOPE_CLONES void NearestImages::lower(int n, const double *x, const double *y, const double *z,
+                                            double *r2) const {
   for (const Vector3d &shift : shifts_) {
     const double a = shift[0], b = shift[1], c = shift[2];
     for (int m = 0; m < n; m++) {

@@ -4,7 +4,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
+#include <string>
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -49,11 +51,11 @@ double nearest(const PeriodicCell &c, Vector3d s, int reach = 1) {
   return least;
 }
 
-PairSums brute_force(const PeriodicCell &c, const PointValues &p, const DistanceBins &bins) {
+PairSums brute_force(const PeriodicCell &c, const PointValues &p, const DistanceBins &bins, int reach = 1) {
   PairSums sums(bins.count);
   for (std::size_t i = 0; i < p.size(); i++)
     for (std::size_t j = 0; j < i; j++) {
-      const double r = nearest(c, position(p, i) - position(p, j));
+      const double r = nearest(c, position(p, i) - position(p, j), reach);
       if (r >= bins.range) continue;
       sums.products[static_cast<int>(r / bins.width())] += p.value[i] * p.value[j];
       sums.pairs[static_cast<int>(r / bins.width())] += 1.0;
@@ -156,9 +158,56 @@ TEST(direct_pair_sums, edges_that_do_not_repeat) {
     expect_equal(direct_pair_sums(c, p, {range, 6}), brute_force(c, p, {range, 6}), std::to_string(range));
 }
 
+TEST(direct_pair_sums, any_number_of_points_in_any_box) {
+  std::mt19937 generator(1908);
+  std::uniform_real_distribution<double> edge(3.0, 12.0), tilt(-0.5, 0.5), part(0.1, 1.0);
+  for (int n : {2, 3, 5, 7, 8, 9, 15, 16, 17, 31, 63, 129, 257})
+    for (int edges = 0; edges < 8; edges++) {
+      const double x = edge(generator), y = edge(generator), z = edge(generator);
+      PeriodicCell c = cell(x, y, z, tilt(generator) * y, tilt(generator) * x, tilt(generator) * x);
+      for (int k = 0; k < 3; k++) c.periodic[k] = !(edges >> k & 1);
+      for (double reach : {part(generator), 1.0, 1.0 + part(generator)}) {
+        const PointValues p = random_points(n, -0.3, 1.2);
+        const DistanceBins bins{reach * half_height(c), 1 + n % 23};
+        expect_equal(direct_pair_sums(c, p, bins), brute_force(c, p, bins, 2),
+                     std::to_string(n) + " points, edges " + std::to_string(edges));
+      }
+    }
+}
+
+TEST(direct_pair_sums, long_boxes_at_any_range) {
+  const PointValues p = random_points(701, -0.2, 1.3);
+  for (const PeriodicCell &c : {cell(30.0, 3.0, 4.0, 0.4, 1.0, 1.5), cell(3.0, 4.0, 90.0, -1.0, 0.7, 1.5)})
+    for (double range : {0.4, 1.4, 2.5, 6.0})
+      expect_equal(direct_pair_sums(c, p, {range, 11}), brute_force(c, p, {range, 11}, 2), std::to_string(range));
+}
+
+TEST(direct_pair_sums, layer_of_two_dimensions) {
+  PeriodicCell c = cell(9.0, 7.0, 9.0, 0.0, 0.0, 4.4);
+  c.periodic[2] = false;
+  PointValues p = random_points(801);
+  std::fill(p.s[2].begin(), p.s[2].end(), 0.0);
+  for (double part : {0.1, 0.5, 1.0, 1.5}) {
+    const DistanceBins bins{part * half_height(c), 19};
+    expect_equal(direct_pair_sums(c, p, bins), brute_force(c, p, bins), std::to_string(part));
+  }
+}
+
+/** Half a box away a point has images on both sides: at the end of the range, which neither is within. */
+TEST(direct_pair_sums, images_at_the_end_of_the_range) {
+  for (double size : {0.7, 1.0 / 3.0, 9.1}) {
+    PointValues p;
+    for (int k = 0; k < 216; k++) p.add((Vector3d(k % 6, k / 6 % 6, k / 36) + Vector3d::Constant(0.1)) / 6.0, 1.0);
+    double found = 0.0;
+    for (double pairs : direct_pair_sums(cell(size, size, size), p, {0.5 * size, 7}).pairs) found += pairs;
+    // neighbours whose squared distance in units of the lattice is 1, 2, 3, 4, 5, 6, 8; 9 is half the box
+    EXPECT_EQ(found, 108.0 * (6 + 12 + 8 + 6 + 24 + 24 + 12)) << size;
+  }
+}
+
 TEST(direct_pair_sums, shares_of_the_ranks_add_up) {
   const PointValues p = random_points(701);
-  for (double part : {0.3, 1.0}) {
+  for (double part : {0.3, 1.0, 1.6}) {
     const DistanceBins bins{part * half_height(sheared), 9};
     PairSums sum(bins.count);
     for (int rank = 0; rank < 4; rank++) {
@@ -188,14 +237,18 @@ TEST(direct_pair_sums, nothing_and_one_point_have_no_pairs) {
 
 /** Of a run that has blown up: a grain far out or nowhere, a box that is none. Whatever is not near is in no bin. */
 TEST(direct_pair_sums, what_is_no_place_has_no_pairs) {
-  for (double where : {1e150, -1e150, HUGE_VAL, std::nan("")}) {
-    PeriodicCell cell;
-    cell.periodic = {{false, true, true}};
-    PointValues points;
-    points.add(Vector3d(0.5, 0.5, 0.5), 1.0);
-    points.add(Vector3d(where, 0.6, 0.5), 1.0);
-    EXPECT_EQ(direct_pair_sums(cell, points, {0.5, 3}).pairs, std::vector<double>(3, 0.0)) << where;
-  }
+  for (int edge : {0, 2})  // a place far along the third edge is far along the others too, which that one leans over
+    for (double where : {1e150, -1e150, 1e308, HUGE_VAL, std::nan("")}) {
+      PeriodicCell c = cell(1.0, 1.0, 1.0, 0.2, 0.3, 0.3);
+      c.periodic[edge] = false;
+      PointValues points;
+      points.add(Vector3d(0.5, 0.5, 0.5), 1.0);
+      Vector3d stray(0.6, 0.6, 0.6);
+      stray[edge] = where;
+      points.add(stray, 1.0);
+      EXPECT_EQ(direct_pair_sums(c, points, {0.5 * c.rounding_radius(), 3}).pairs, std::vector<double>(3, 0.0))
+          << where << " along " << edge;
+    }
   PeriodicCell torn;
   torn.edges *= std::nan("");
   PointValues points;
