@@ -86,7 +86,10 @@ void check_mesh(const PeriodicCell &cell, const PointValues &points, const Dista
   mesh.row = 2 * (mesh.size[2] / 2 + 1);
   for (std::size_t i = 0; i < points.size(); i++) {
     const std::array<int, 3> at = mesh.cell_of(points, i);
-    for (int k = 0; k < 3; k++) require(at[k] >= 0 && at[k] < mesh.size[k], "a point is in a cell", at[k]);
+    for (int k = 0; k < 3; k++) {
+      const int least = std::isfinite(points.s[k][i]) ? 0 : -1;
+      require(at[k] >= least && at[k] < mesh.size[k], "a point is in a cell", at[k]);
+    }
   }
   const std::vector<double> ones(mesh.planes * mesh.size[1] * mesh.row, 1.0);
   std::vector<double> lags(bins.count, 0.0);
