@@ -195,7 +195,7 @@ PairSums ComputeVelocityCorrelation::Impl::share_of_pairs(LAMMPS *lmp, const Per
                                                           const PointValues &points, const DistanceBins &distances) {
   if (!mesh) {
     const PointValues all = grainscope::gathered(points, lmp->world);
-    bytes = 8.0 * sizeof(double) * all.size();  // and their copy in the order of cells
+    bytes = 11.0 * sizeof(double) * all.size();  // with a copy in the order of cells, and these
     return grainscope::direct_pair_sums(cell, all, distances, lmp->comm->me, lmp->comm->nprocs);
   }
   std::array<int, 3> size;
