@@ -2,6 +2,7 @@
 // Nanoseconds per pair of the ellipsoid kernel and of LIGGGHTS's superquadric routines, on the same pairs. Drawn as a
 // chart by ellipsoid_chart.py; by hand: ellipsoid_kernel --benchmark_filter=warm --benchmark_repetitions=9
 // --benchmark_report_aggregates_only=true
+#include "side_by_side.h"
 #include "superquadric_pair.h"
 #include <benchmark/benchmark.h>
 #include <algorithm>
@@ -127,24 +128,23 @@ void kernel(benchmark::State &state, Situation situation, double alpha, bool tri
   report(state, cases, points, situation == Situation::touching);
 }
 
-/** Many pairs in one call. */
+/** Four pairs in one call. */
 void side_by_side(benchmark::State &state, Situation situation, double alpha, bool triaxial, bool warm, double) {
   const std::vector<Case> &cases = cases_of(situation, alpha, triaxial);
-  std::vector<std::array<Spheroid, 2>> bodies(cases.size());
-  std::vector<EllipsoidPair> ready(cases.size());
-  std::vector<EllipsoidContact> contacts(cases.size());
+  std::vector<SideBySide::Query> queries(cases.size());
   for (size_t n = 0; n < cases.size(); n++) {
-    for (int k = 0; k < 2; k++) make(cases[n].pair, k, bodies[n][k]);
-    ready[n].one = &bodies[n][0];
-    ready[n].two = &bodies[n][1];
-    std::copy_n(cases[n].pair.d, 3, ready[n].d);
-    ready[n].start = warm ? cases[n].start : 0.0;
+    make(cases[n].pair, 0, queries[n].one);
+    make(cases[n].pair, 1, queries[n].two);
+    std::copy_n(cases[n].pair.d, 3, queries[n].d);
+    queries[n].start = warm ? cases[n].start : 0.0;
   }
-  for (auto _ : state) {
-    ellipsoid_contacts(PAIRS, ready.data(), contacts.data());
-    benchmark::DoNotOptimize(contacts.data());
-    benchmark::ClobberMemory();
-  }
+  SideBySide ready(queries);
+  for (auto _ : state)
+    ready.meet([](const PairGroup &, const GroupGeometry &geometry) {
+      benchmark::DoNotOptimize(&geometry);
+      benchmark::ClobberMemory();
+    });
+  const std::vector<EllipsoidContact> contacts = ready.contacts();
   std::vector<std::array<double, 3>> points(cases.size());
   for (size_t n = 0; n < cases.size(); n++) std::copy_n(contacts[n].point, 3, points[n].begin());
   report(state, cases, points, situation == Situation::touching);

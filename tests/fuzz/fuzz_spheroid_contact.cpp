@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact_checks.h"
+#include "side_by_side.h"
 #include <vector>
 
 using namespace grainscope;
@@ -35,31 +36,30 @@ void require_same(const EllipsoidContact &a, const EllipsoidContact &b) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
   fuzz::Input input(data, size);
   const int n = input.whole(1, 11);
-  std::vector<Spheroid> bodies(2 * n);
-  std::vector<EllipsoidPair> pairs(n);
-  for (int p = 0; p < n; p++) {
-    EllipsoidPair &pair = pairs[p];
+  std::vector<SideBySide::Query> queries(n);
+  for (SideBySide::Query &pair : queries) {
     if (input.byte() < 96) {
-      for (int side = 0; side < 2; side++) bodies[2 * p + side] = any_spheroid(input);
+      pair.one = any_spheroid(input);
+      pair.two = any_spheroid(input);
       for (double &x : pair.d) x = input.any();
       pair.start = input.any();
     } else {
       const GrainPair grains = fuzz::grain_pair(input, false);
-      for (int side = 0; side < 2; side++) make(grains, side, bodies[2 * p + side]);
+      make(grains, 0, pair.one);
+      make(grains, 1, pair.two);
       std::copy(grains.d, grains.d + 3, pair.d);
       pair.start = input.flag() ? 0.0 : input.uniform(0.0, 1.0);
       double aside[3];
       input.direction(aside, 3);
       fuzz::check_pair<Spheroid>(grains, pair.start, aside);
     }
-    pair.one = &bodies[2 * p];
-    pair.two = &bodies[2 * p + 1];
   }
-  std::vector<EllipsoidContact> contacts(n);
-  ellipsoid_contacts(n, pairs.data(), contacts.data());
+  SideBySide many(queries);
+  const std::vector<EllipsoidContact> contacts = many.contacts();
   for (int p = 0; p < n; p++) {
+    const SideBySide::Query &pair = many.queries()[p];
     fuzz::require_sound(contacts[p]);
-    require_same(contacts[p], ellipsoid_contact(*pairs[p].one, *pairs[p].two, pairs[p].d, pairs[p].start));
+    require_same(contacts[p], ellipsoid_contact(pair.one, pair.two, pair.d, pair.start));
   }
   return 0;
 }

@@ -5,6 +5,7 @@
 #include "fabric.h"
 #include "pair_correlation.h"
 #include "principal_axes.h"
+#include "side_by_side.h"
 #include "spheroid_rotation.h"
 #include <cmath>
 #include <cstdint>
@@ -57,14 +58,13 @@ void contact_row(const char *name, const EllipsoidContact &c, double smallest) {
        c.normal[2] * smallest});
 }
 
-/** 1e5 pairs, half spheroids (solved side by side), half triaxial: most of them touch. */
+/** 1e5 pairs, half spheroids (four side by side), half triaxial: most of them touch. */
 void contacts(Random &random) {
   constexpr int batch = 64;
   for (int n = 0; n < 100000; n += batch) {
     const bool triaxial = n / batch % 2;
-    std::vector<Spheroid> spheroids(2 * batch);
+    std::vector<SideBySide::Query> pairs(batch);
     std::vector<Triaxial> bodies(2 * batch);
-    std::vector<EllipsoidPair> pairs(batch);
     std::vector<double> smallest(batch, 5.0);
     for (int p = 0; p < batch; p++) {
       for (int side = 0; side < 2; side++) {
@@ -72,17 +72,17 @@ void contacts(Random &random) {
                      semi[3] = {1.0, triaxial ? random.uniform(std::fmin(a, 1.0), std::fmax(a, 1.0)) : 1.0, a};
         double q[4];
         random.direction(q, 4);
-        spheroids[2 * p + side] = make_spheroid(semi, q);
+        (side ? pairs[p].two : pairs[p].one) = make_spheroid(semi, q);
         bodies[2 * p + side] = make_triaxial(semi, q);
         for (double s : semi) smallest[p] = std::fmin(smallest[p], s);
       }
-      pairs[p] = {&spheroids[2 * p], &spheroids[2 * p + 1], {}, 0.0};
+      pairs[p].start = 0.0;
       random.direction(pairs[p].d, 3);
       const double apart = random.uniform(0.2, 2.0);
       for (double &x : pairs[p].d) x *= apart;
     }
     std::vector<EllipsoidContact> found(batch);
-    if (!triaxial) ellipsoid_contacts(batch, pairs.data(), found.data());
+    if (!triaxial) found = SideBySide(pairs).contacts();
     for (int p = 0; p < batch; p++) {
       if (triaxial) found[p] = ellipsoid_contact(bodies[2 * p], bodies[2 * p + 1], pairs[p].d, 0.0);
       contact_row(triaxial ? "triaxial" : "spheroid", found[p], smallest[p]);

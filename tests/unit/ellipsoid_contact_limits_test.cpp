@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ellipsoid_pairs.h"
+#include "side_by_side.h"
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
@@ -280,10 +281,8 @@ TEST(ellipsoid_contact_limits, no_numbers_are_told_as_fallbacks) {
     EXPECT_TRUE(kernel_contact<Triaxial>(pair).fallback);
     const Spheroid one = make_spheroid(pair.semi[0], pair.quaternion[0]),
                    two = make_spheroid(pair.semi[1], pair.quaternion[1]);
-    EllipsoidPair many[8];
-    EllipsoidContact contacts[8];
-    for (EllipsoidPair &same : many) same = {&one, &two, {pair.d[0], pair.d[1], pair.d[2]}, 0.0};
-    ellipsoid_contacts(8, many, contacts);
-    for (const EllipsoidContact &c : contacts) EXPECT_TRUE(c.fallback);
+    const SideBySide::Query query = {one, two, {pair.d[0], pair.d[1], pair.d[2]}, 0.0};
+    for (const EllipsoidContact &c : SideBySide(std::vector<SideBySide::Query>(8, query)).contacts())
+      EXPECT_TRUE(c.fallback);
   }
 }

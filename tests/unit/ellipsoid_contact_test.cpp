@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ellipsoid_pairs.h"
+#include "side_by_side.h"
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
@@ -390,13 +391,12 @@ TYPED_TEST(ellipsoid_form, curvatures_are_those_of_the_fundamental_forms) {
 
 /** Touching, apart, spheres, concentric, cold and warm, in any mixture and number: what each gives alone, to the last
  *  bit. */
-TEST(ellipsoid_contacts, are_those_found_one_by_one) {
+TEST(ellipsoid_contact, is_the_same_side_by_side) {
   RandomPairs random(41);
   for (int round = 0; round < 3000; round++) {
     const int n = 1 + round % 37;
-    std::vector<Spheroid> bodies(2 * n);
-    std::vector<EllipsoidPair> pairs(n);
-    for (int k = 0; k < n; k++) {
+    std::vector<SideBySide::Query> queries(n);
+    for (SideBySide::Query &query : queries) {
       GrainPair pair;
       const double kind = random.uniform();
       if (kind < 0.1)
@@ -405,14 +405,16 @@ TEST(ellipsoid_contacts, are_those_found_one_by_one) {
       random.place(pair, random.logarithmic(1e-12, 1.0) * (random.uniform() < 0.6 ? 1.0 : -1.0));
       if (random.uniform() < 0.02) std::fill_n(pair.d, 3, 0.0);
       const double lambda = kernel_contact<Spheroid>(pair).lambda, start = random.uniform();
-      for (int i = 0; i < 2; i++) make(pair, i, bodies[2 * k + i]);
-      pairs[k] = {&bodies[2 * k], &bodies[2 * k + 1], {pair.d[0], pair.d[1], pair.d[2]}, 0.0};
-      pairs[k].start = start < 0.3 ? 0.0 : start < 0.4 ? random.uniform(-0.1, 1.1) : slightly_off(random, lambda);
+      make(pair, 0, query.one);
+      make(pair, 1, query.two);
+      std::copy_n(pair.d, 3, query.d);
+      query.start = start < 0.3 ? 0.0 : start < 0.4 ? random.uniform(-0.1, 1.1) : slightly_off(random, lambda);
     }
-    std::vector<EllipsoidContact> together(n);
-    ellipsoid_contacts(n, pairs.data(), together.data());
+    SideBySide many(queries);
+    const std::vector<EllipsoidContact> together = many.contacts();
     for (int k = 0; k < n; k++) {
-      const EllipsoidContact alone = ellipsoid_contact(*pairs[k].one, *pairs[k].two, pairs[k].d, pairs[k].start);
+      const SideBySide::Query &query = many.queries()[k];
+      const EllipsoidContact alone = ellipsoid_contact(query.one, query.two, query.d, query.start);
       ASSERT_EQ(together[k].touching, alone.touching);
       ASSERT_EQ(together[k].fallback, alone.fallback);
       ASSERT_EQ(together[k].steps, alone.steps);

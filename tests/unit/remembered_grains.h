@@ -37,21 +37,18 @@ struct Grains {
     for (int i = 0; i < int(x.size()); i++)
       for (int j = i + 1; j < int(x.size()); j++)
         if ((x[i] - x[j]).norm() <= reach) pairs.push_back({i, j});
-    memory.restart(x.size(), pairs.size(), reach);
+    memory.restart(x.size(), pairs.size(), reach, [this](int i) {
+      return *std::max_element(shape[i].begin(), shape[i].end()) - *std::min_element(shape[i].begin(), shape[i].end());
+    });
     move();
   }
 
   void move() {
-    std::vector<const double *> positions, quaternions;
+    std::vector<PackedGrain> packed(x.size());
     std::vector<std::array<double, 4>> wxyz;
+    for (std::size_t i = 0; i < x.size(); i++) std::copy_n(x[i].data(), 3, packed[i].x);
     for (const Quaterniond &a : q) wxyz.push_back({a.w(), a.x(), a.y(), a.z()});
-    for (std::size_t i = 0; i < x.size(); i++) {
-      positions.push_back(x[i].data());
-      quaternions.push_back(wxyz[i].data());
-    }
-    memory.move(edges, origin, positions.data(), quaternions.data(), [this](int i) {
-      return *std::max_element(shape[i].begin(), shape[i].end()) - *std::min_element(shape[i].begin(), shape[i].end());
-    });
+    memory.move(edges, origin, packed.data(), wxyz.empty() ? nullptr : wxyz[0].data());
   }
 
   EllipsoidContact contact(int k) const {
