@@ -15,17 +15,22 @@ namespace {
 
 using Creator = IGranularPairStyle *(*)(LAMMPS_NS::LAMMPS *, LAMMPS_NS::PairGran *, int64_t);
 
+/** Cohesion acts on grains that do not touch: every neighbour must be looked at. The Style of a combination that is not
+ *  compiled tells nothing of it, its hash does. */
+bool cohesive(int64_t hash) {
+  constexpr int shift = 12, bits = 6;  // as in GranStyle
+  return ((hash >> shift) & ((1 << bits) - 1)) != LIGGGHTS::ContactModels::COHESION_OFF;
+}
+
 template <class Style>
 IGranularPairStyle *create(LAMMPS_NS::LAMMPS *lmp, LAMMPS_NS::PairGran *pair, int64_t hash) {
   using namespace LIGGGHTS::ContactModels;
   using Model = Observed<ContactModel<Style>>;
-  // Cohesion acts on grains that do not touch: every neighbour must be looked at.
-  constexpr bool cohesive = int(Style::COHESION) != int(COHESION_OFF);
-  if constexpr (!cohesive && int(Style::SURFACE) == int(SURFACE_ELLIPSOID))
-    return new EllipsoidLoop<Model>(lmp, pair, hash);
-  else if constexpr (!cohesive && int(Style::SURFACE) == int(SURFACE_DEFAULT))
-    return new SphereLoop<Model>(lmp, pair, hash);
-  else return new LIGGGHTS::PairStyles::Granular<Model>(lmp, pair, hash);
+  if (!cohesive(hash)) {
+    if constexpr (int(Style::SURFACE) == int(SURFACE_ELLIPSOID)) return new EllipsoidLoop<Model>(lmp, pair, hash);
+    else if constexpr (int(Style::SURFACE) == int(SURFACE_DEFAULT)) return new SphereLoop<Model>(lmp, pair, hash);
+  }
+  return new LIGGGHTS::PairStyles::Granular<Model>(lmp, pair, hash);
 }
 
 std::unordered_map<int64_t, Creator> compiled_loops() {
