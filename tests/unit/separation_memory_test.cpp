@@ -183,3 +183,61 @@ TEST(separation_memory, what_touches_is_always_looked_at) {
   g.memory.set_apart(0, 1e-12, g.motion(0));  // as good as touching
   EXPECT_TRUE(g.may_touch(0));
 }
+
+/** Any number of grains, side by side or not: each has moved by its displacement against the flow and its turn, and
+ *  hardly more. */
+TEST(separation_memory, motion_is_at_least_the_true_one_of_every_grain) {
+  for (int count = 1; count < 12; count++) {
+    Random random(count);
+    Grains g;
+    g.edges = 10.0 * Matrix3d::Identity();
+    for (int i = 0; i < count; i++) {
+      g.x.push_back(random.vector(4.0));
+      g.q.push_back(random.turn(random.uniform(0.0, 6.0)));
+      g.shape.push_back({1.0, 1.0, i % 3 ? random.uniform(0.1, 4.0) : 1.0});
+    }
+    g.list(10.0);
+    EXPECT_EQ(g.memory.most_moved(), 0.0);
+    std::vector<double> displaced(count), turned(count);
+    double strained = 0.0;
+    for (int step = 0; step < 5; step++) {
+      Matrix3d f = Matrix3d::Identity();
+      for (int k = 0; k < 3; k++) f.row(k) += random.vector(0.02);
+      const Vector3d shift = random.vector(0.3);
+      strained += 0.75 * g.reach * (f - Matrix3d::Identity()).norm();
+      double most = 0.0;
+      for (int i = 0; i < count; i++) {
+        const Vector3d flown = g.origin + shift + f * (g.x[i] - g.origin), drift = random.vector(0.2);
+        const double angle = random.uniform(0.0, 1.0);
+        g.x[i] = flown + drift;
+        g.q[i] = random.turn(angle) * g.q[i];
+        displaced[i] += drift.norm();
+        turned[i] += std::abs(g.shape[i][2] - 1.0) * angle;
+      }
+      g.edges = f * g.edges;
+      g.origin += shift;
+      g.move();
+      for (int i = 0; i < count; i++) {
+        const double least = strained + displaced[i] + turned[i];
+        EXPECT_GE(g.memory.moved(i), least * (1.0 - 1e-12)) << count << " grains, " << i;
+        EXPECT_LE(g.memory.moved(i), least + 0.2 * turned[i] + 1e-12) << count << " grains, " << i;
+        most = std::max(most, g.memory.moved(i));
+      }
+      EXPECT_EQ(g.memory.most_moved(), most);
+    }
+  }
+}
+
+/** may_touch() asks about now, may_touch_before() about all motions up to one that is still to come. */
+TEST(separation_memory, tells_until_when_a_pair_is_apart) {
+  Grains g = rods(0.5);
+  for (double motion : {0.0, 0.2, 0.4999}) {
+    EXPECT_FALSE(g.memory.may_touch(0, motion));
+    EXPECT_FALSE(g.memory.may_touch_before(0, motion));
+  }
+  EXPECT_TRUE(g.memory.may_touch(0, 0.5));
+  EXPECT_TRUE(g.memory.may_touch_before(0, 0.5));
+  g.memory.set_touching(0);
+  EXPECT_TRUE(g.memory.may_touch(0, 0.0));
+  EXPECT_TRUE(g.memory.may_touch_before(0, 0.0));
+}
