@@ -31,15 +31,6 @@ constexpr int LANES = 4;
 typedef double Lanes __attribute__((vector_size(8 * LANES)));
 typedef decltype(Lanes{} < Lanes{}) LaneMask;
 
-/** The numbers from `from` on, wherever that is. */
-GRAINSCOPE_INLINE Lanes load(const double *from) {
-  typedef double Loose __attribute__((vector_size(8 * LANES), aligned(8), may_alias));
-  return *reinterpret_cast<const Loose *>(from);
-}
-GRAINSCOPE_INLINE void store(const Lanes &x, double *to) {
-  for (int k = 0; k < LANES; k++) to[k] = x[k];
-}
-
 GRAINSCOPE_INLINE double root(double x) { return std::sqrt(x); }
 GRAINSCOPE_INLINE Lanes root(Lanes x) {
   Lanes r;
