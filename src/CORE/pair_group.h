@@ -4,6 +4,7 @@
 
 #include "packed_grain.h"
 #include "pair_law.h"
+#include <cstdint>
 
 namespace grainscope {
 
@@ -59,6 +60,8 @@ void meet_spheroids(const PackedGrains &grains, const PairGroup &group, GroupGeo
 /** Which of the pairs of meet_spheroids() are surely `apart`, found without a start and with a margin against rounding;
  *  of others nothing is known. Fills in `gap` and `reachable` beside. */
 void part_spheroids(const PackedGrains &grains, const PairGroup &group, GroupGeometry &geometry);
+/** Which of at most 64 grains have a bounding sphere that overlaps that of grain i: a bit for each. */
+std::uint64_t within_reach(const PackedGrain *grains, int i, const int *others, int count);
 /** sphere_contact(), of grains that have the radius of the contact in axis[0]. */
 void meet_round(const PackedGrains &grains, const PairGroup &group, GroupGeometry &geometry, SolverTally &tally);
 /** Spheres that touch where their bounding spheres do: fills in d, square, reachable, touching and gap. */

@@ -96,7 +96,7 @@ void EllipsoidLoop<Model>::follow_motion() {
   }
   scene_.load(&bodies_);
   const BoxState box(lmp_);
-  apart_.move(box.edges, Eigen::Map<const Eigen::Vector3d>(lmp_->domain->boxlo), scene_.grains().grains,
+  apart_.move(box.edges, Eigen::Map<const Eigen::Vector3d>(lmp_->domain->boxlo), scene_.packed(),
               n ? atom->quaternion[0] : nullptr);
   near_.choose(*list, pair_->listgranhistory, pair_->dnum(), apart_);
 }
@@ -108,7 +108,7 @@ void EllipsoidLoop<Model>::gather(std::size_t first, std::size_t last) {
   candidates_.resize(CHUNK + LANES);
   strangers_.resize(CHUNK + LANES);
   const Pair *pairs = near_.pairs();
-  const PackedGrain *grains = scene_.grains().grains;
+  const PackedGrain *grains = scene_.packed();
   for (std::size_t k = first; k < last; k++) {  // without a branch: no processor could guess it
     const Pair &coming = pairs[k + AHEAD];
     __builtin_prefetch(coming.history + surface_.lambda);

@@ -10,6 +10,8 @@ namespace grainscope {
  *  list. */
 struct ResetsOpenedSprings {
   virtual ~ResetsOpenedSprings() {}
+  /** Of the grains that there are: others are left to the host's loop. */
+  virtual bool resets_springs() const = 0;
 };
 
 /** The observed pair loop for the contact-model combination `hash`: compiled for every combination of the whitelist,

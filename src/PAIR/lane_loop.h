@@ -35,6 +35,8 @@ class LaneLoop : public LIGGGHTS::PairStyles::Granular<Model>, public ResetsOpen
         reader_(style_.reader()), observer_(style_.observer()), model_(static_cast<Model &>(*reader_.model())),
         law_(style_.lane_law()), scene_(lmp) {}
 
+  bool resets_springs() const override { return serves(); }
+
   void compute_force(PairGran *pair, int eflag, int vflag, int addflag) override {
     const bool rare = pair->storeSumDelta() || pair->storeContactForces() || pair->storeContactForcesStress() ||
                       pair->store_sum_normal_force() || pair->fr_pair() || (pair->cpl() && addflag) ||

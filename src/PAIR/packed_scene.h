@@ -24,6 +24,7 @@ class PackedScene : private LAMMPS_NS::Pointers {
   void hand_back_forces() const;
 
   PackedGrains grains() { return {grains_.data(), shapes_.data(), shapes_.size() == 1, forces_.data(), atom->nlocal}; }
+  const PackedGrain *packed() const { return grains_.data(); }
   /** On one of them; of ghosts all in one place, which nobody reads. */
   PackedForce &force_on(int grain) { return forces_[std::min<std::size_t>(grain, forces_.size() - 1)]; }
 

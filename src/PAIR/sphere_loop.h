@@ -4,7 +4,9 @@
 
 #include "lane_loop.h"
 #include "neigh_list.h"
+#include <algorithm>
 #include <array>
+#include <cstdint>
 
 namespace grainscope {
 
@@ -24,6 +26,7 @@ class SphereLoop : public LaneLoop<Model> {
   using Loop::scene_;
   using typename Loop::Pair;
 
+  static constexpr int MANY = 64;  // neighbours of a grain at a time
   std::array<Pair, LANES> members_;
   int many_ = 0;
 
@@ -33,36 +36,55 @@ class SphereLoop : public LaneLoop<Model> {
   }
   void evaluate() override;
   void approach(int k) override;
+  void fetch(int i) const;
+  void visit(int i, int first, int count);
   void work();
 };
 
 template <class Model>
 void SphereLoop<Model>::evaluate() {
   scene_.load(nullptr);
-  const LAMMPS_NS::NeighList *list = pair_->list, *history = pair_->listgranhistory;
-  const int columns = pair_->dnum();
-  const PackedGrain *grains = scene_.grains().grains;
+  const LAMMPS_NS::NeighList *list = pair_->list;
   for (int ii = 0; ii < list->inum; ii++) {
+    if (ii + 1 < list->inum) fetch(list->ilist[ii + 1]);
     const int i = list->ilist[ii], neighbours = list->numneigh[i];
-    const int *partners = list->firstneigh[i];
-    int *flags = history ? history->firstneigh[i] : nullptr;
-    double *rows = history ? history->firstdouble[i] : nullptr;
-    const PackedGrain &grain = grains[i];
-    for (int jj = 0; jj < neighbours; jj++) {
-      const int j = partners[jj] & NEIGHMASK;
-      const PackedGrain &other = grains[j];
-      const double dx = grain.x[0] - other.x[0], dy = grain.x[1] - other.x[1], dz = grain.x[2] - other.x[2],
-                   reach = grain.reach + other.reach;
-      const Pair pair{i, j, 0, flags ? flags + jj : nullptr, rows ? rows + columns * jj : nullptr};
-      if (dx * dx + dy * dy + dz * dz < reach * reach) {
-        members_[many_++] = pair;
-        if (many_ == LANES) work();
-      } else if (flags && flags[jj]) {
-        this->close(pair);
-      }
-    }
+    for (int first = 0; first < neighbours; first += MANY) visit(i, first, std::min(MANY, neighbours - first));
   }
   if (many_) work();
+}
+
+/** The next grain's neighbours, as far as the test of their distance asks for them. */
+template <class Model>
+inline void SphereLoop<Model>::fetch(int i) const {
+  const PackedGrain *grains = scene_.packed();
+  const int *partners = pair_->list->firstneigh[i];
+  for (int jj = 0; jj < pair_->list->numneigh[i]; jj++) __builtin_prefetch(grains[partners[jj] & NEIGHMASK].x);
+}
+
+/** Grain i and some of its neighbours, at most 64, from place `first` of its list on. */
+template <class Model>
+inline void SphereLoop<Model>::visit(int i, int first, int count) {
+  const LAMMPS_NS::NeighList *history = pair_->listgranhistory;
+  const int *partners = pair_->list->firstneigh[i] + first;
+  int *flags = history ? history->firstneigh[i] + first : nullptr;
+  double *rows = history ? history->firstdouble[i] + pair_->dnum() * first : nullptr;
+  std::array<int, MANY> others;
+  std::uint64_t flagged = 0;
+  for (int k = 0; k < count; k++) {
+    others[k] = partners[k] & NEIGHMASK;
+    if (history) flagged |= std::uint64_t(flags[k] != 0) << k;
+  }
+  const std::uint64_t touching = within_reach(scene_.packed(), i, others.data(), count);
+  const auto pair = [&](int k) -> Pair {
+    if (!history) return {i, others[k], 0, nullptr, nullptr};
+    return {i, others[k], 0, flags + k, rows + pair_->dnum() * k};
+  };
+  for (std::uint64_t parted = flagged & ~touching; parted; parted &= parted - 1)
+    this->close(pair(__builtin_ctzll(parted)));
+  for (std::uint64_t left = touching; left; left &= left - 1) {
+    members_[many_++] = pair(__builtin_ctzll(left));
+    if (many_ == LANES) work();
+  }
 }
 
 template <class Model>
