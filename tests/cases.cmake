@@ -5,6 +5,14 @@ add_cases(gran/insitu-bitwise-equal cases/pair_bitwise.py LABEL case STYLES gran
 add_cases(gran/insitu-bitwise-equal cases/pair_bitwise.py LABEL case STYLES gran/insitu CASES
   tangential-off tangential-no-history rolling-cdt hooke tangential-damping-off gaussian-curvature limit-force
   uncompiled-combination boxy-grains)
+add_cases(gran/insitu-spheres cases/sphere_bitwise.py LABEL case STYLES gran/insitu RANKS 1 2 LONG_RANKS 4 CASES hertz)
+add_cases(gran/insitu-spheres cases/sphere_bitwise.py LABEL case STYLES gran/insitu RANKS 1 LONG_RANKS 2 4 CASES
+  hooke tangential-no-history frozen-of-two-types polydisperse settling-between-walls bridges-washino
+  narrow-contact-distance)
+add_cases(gran/insitu-spheres cases/sphere_bitwise.py LABEL case STYLES gran/insitu CASES
+  hooke-two-sevenths hertz-stiffness hooke-stiffness hooke-stiffness-absolute tangential-off
+  tangential-no-history-of-hooke tangential-damping-off limit-force two-types frozen rolling-cdt rolling-epsd2
+  cohesion-sjkr ledger bridges-easo)
 add_cases(gran/insitu-host cases/pair_host.py LABEL case STYLES gran/insitu RANKS 1 LONG_RANKS 2 CASES
   pair-local-output-does-not-disturb restart-of-spheres-continues clear-and-begin-again pair-style-again
   sinks-come-and-go virial-of-spheroids)
@@ -45,6 +53,18 @@ add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYL
   RANKS 2 LONG_RANKS 4 CASES ellipsoids-1.5)
 add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures} surface/ellipsoid
   LONG_RANKS 2 4 CASES ellipsoids-3)
+# measures of contacts that are worked out four at a time, against one by one
+add_cases(stress/contact+dissipation-lanes cases/lane_measures.py LABEL case
+  STYLES ${first_measures} gran/insitu RANKS 1 LONG_RANKS 2 CASES spheres)
+add_cases(stress/contact+dissipation-lanes cases/lane_measures.py LABEL case
+  STYLES ${first_measures} gran/insitu surface/ellipsoid RANKS 1 LONG_RANKS 2 CASES spheroid-1.5 mixed-shapes)
+add_cases(stress/contact+dissipation-lanes cases/lane_measures.py LABEL case STYLES ${first_measures} gran/insitu CASES
+  spheres-of-five-sizes spheres-of-two-types spheres-hooke spheres-no-history spheres-without-friction
+  spheres-limit-force)
+add_cases(stress/contact+dissipation-lanes cases/lane_measures.py LABEL case
+  STYLES ${first_measures} gran/insitu surface/ellipsoid CASES
+  round-ellipsoids spheroid-0.5 spheroid-1.5-of-two-types spheroid-1.5-hooke spheroid-1.5-no-history
+  spheroid-1.5-without-friction spheroid-1.5-limit-force)
 add_cases(stress/contact-range cases/ranges.py LABEL case STYLES stress/contact RANKS 1 LONG_RANKS 2 CASES kappa)
 add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation CASES
   history-undamped no-history frictionless slippery limit-force)
