@@ -10,7 +10,7 @@
 #include "domain.h"
 #include "neighbor.h"
 #include <algorithm>
-#include <vector>
+#include <array>
 
 namespace grainscope {
 
@@ -38,28 +38,30 @@ class EllipsoidLoop : public LaneLoop<Model> {
     double motion;  // of its two grains, so far
   };
   static constexpr std::size_t CHUNK = 128;  // near pairs at a time: what they ask for stays in the cache
-  static constexpr std::size_t AHEAD = NearPairs::AHEAD;  // near pairs, of which is asked for what decides whether they are looked at
+  static constexpr std::size_t AHEAD =
+      NearPairs::AHEAD;  // near pairs, of which is asked for what decides whether they are looked at
 
   EllipsoidBodies &bodies_;
   const EllipsoidSurface &surface_;
   SeparationMemory apart_;
   NearPairs near_;
   NeighbourListWatch lists_;
-  std::vector<Candidate> candidates_;
-  std::size_t many_ = 0;                // of them
-  std::vector<std::size_t> strangers_;  // of them, those that did not touch when they were looked at last
-  bool lanes_solve_all_ = false;        // there are no pairs for which that is known not to be
+  std::array<Candidate, CHUNK + 1> candidates_;
+  std::size_t many_ = 0;                          // of them
+  std::array<std::size_t, CHUNK + 1> strangers_;  // of them, those that did not touch when they were looked at last
+  bool lanes_solve_all_ = false;                  // there are no pairs for which that is known not to be
   SolverTally tally_;
 
   void prepare(bool hosts) override { bodies_.set_wants_axes(hosts); }
   void evaluate() override;
   void approach(int k) override;
+  typename NearPairs::Lists lists() const { return {pair_->list, pair_->listgranhistory, pair_->dnum()}; }
   void follow_motion();
-  void gather(std::size_t first, std::size_t last);
+  void gather(const Pair *pairs, std::size_t count);
   template <class Candidates>
   void fill(Candidates candidate, int n);
   void part_strangers(std::size_t many);
-  void work_on(bool all);
+  void work_on();
   void work(const Candidate *candidates, int n);
   void meet(const Candidate *candidates, int n);
   void meet_alone(const Pair &pair, int k);
@@ -72,11 +74,10 @@ void EllipsoidLoop<Model>::evaluate() {
   follow_motion();
   lanes_solve_all_ = bodies_.only_spheres() || (!bodies_.some_spheres() && !bodies_.some_triaxial());
   bodies_.counts.listed += near_.listed();
-  const std::size_t near = near_.size();
-  for (std::size_t first = 0; first < near; first += CHUNK) {
-    gather(first, std::min(first + CHUNK, near));
-    work_on(first + CHUNK >= near);
-  }
+  near_.go_through(lists(), CHUNK, [this](const Pair *pairs, std::size_t n) {
+    gather(pairs, n);
+    work_on();
+  });
   bodies_.count(tally_);
   tally_ = SolverTally();
 }
@@ -85,31 +86,26 @@ void EllipsoidLoop<Model>::evaluate() {
 template <class Model>
 void EllipsoidLoop<Model>::follow_motion() {
   const LAMMPS_NS::Atom *atom = lmp_->atom;
-  const LAMMPS_NS::NeighList *list = pair_->list;
   const int n = atom->nlocal + atom->nghost;
-  if (lists_.renewed(*lmp_->neighbor, *lmp_->update)) {
-    int pairs = 0;
-    for (int ii = 0; ii < list->inum; ii++) pairs += list->numneigh[list->ilist[ii]];
-    apart_.restart(n, pairs, lmp_->neighbor->cutneighmax, [this](int i) { return bodies_.elongation(i); });
-    near_.restart();
+  const bool renewed = lists_.renewed(*lmp_->neighbor, *lmp_->update);
+  if (renewed) {
+    near_.restart(lists());
+    apart_.restart(n, near_.listed(), lmp_->neighbor->cutneighmax, [this](int i) { return bodies_.elongation(i); });
     scene_.restart(bodies_);
   }
   scene_.load(&bodies_);
   const BoxState box(lmp_);
   apart_.move(box.edges, Eigen::Map<const Eigen::Vector3d>(lmp_->domain->boxlo), scene_.packed(),
               n ? atom->quaternion[0] : nullptr);
-  near_.choose(*list, pair_->listgranhistory, pair_->dnum(), apart_);
+  if (!renewed) near_.choose(lists(), apart_);
 }
 
-/** The candidates among some near pairs, behind those that are left. */
+/** The candidates among some near pairs. */
 template <class Model>
-void EllipsoidLoop<Model>::gather(std::size_t first, std::size_t last) {
-  std::size_t n = many_, strange = 0;
-  candidates_.resize(CHUNK + LANES);
-  strangers_.resize(CHUNK + LANES);
-  const Pair *pairs = near_.pairs();
+void EllipsoidLoop<Model>::gather(const Pair *pairs, std::size_t count) {
+  std::size_t n = 0, strange = 0;
   const PackedGrain *grains = scene_.packed();
-  for (std::size_t k = first; k < last; k++) {  // without a branch: no processor could guess it
+  for (std::size_t k = 0; k < count; k++) {  // without a branch: no processor could guess it
     const Pair &coming = pairs[k + AHEAD];
     __builtin_prefetch(coming.history + surface_.lambda);
     apart_.prefetch(coming.j, coming.number);
@@ -165,14 +161,11 @@ void EllipsoidLoop<Model>::part_strangers(std::size_t many) {
   many_ = left;
 }
 
-/** Groups of candidates, in the order of the neighbour list; the last is worked on only if all are to be. */
+/** Groups of candidates, in the order of the neighbour list. */
 template <class Model>
-void EllipsoidLoop<Model>::work_on(bool all) {
-  const std::size_t whole = all ? many_ : many_ - many_ % LANES;
-  for (std::size_t first = 0; first < whole; first += LANES)
+void EllipsoidLoop<Model>::work_on() {
+  for (std::size_t first = 0; first < many_; first += LANES)
     work(&candidates_[first], static_cast<int>(std::min<std::size_t>(LANES, many_ - first)));
-  std::copy(candidates_.begin() + whole, candidates_.begin() + many_, candidates_.begin());
-  many_ -= whole;
 }
 
 template <class Model>
@@ -267,7 +260,7 @@ inline void EllipsoidLoop<Model>::leave(const Candidate &candidate, int k) {
   const Pair &pair = *candidate.pair;
   apart_.set_apart(pair.number, geometry_.gap[k], candidate.motion);
   if (geometry_.reachable[k]) surface_.forget(pair.history);
-  if (*pair.flags) this->close(pair);
+  if (*this->flags_of(pair)) this->close(pair);
 }
 
 }

@@ -65,6 +65,10 @@ class LaneLoop : public LIGGGHTS::PairStyles::Granular<Model>, public ResetsOpen
   /** What follows from the forces of a group: those that touched. pair(k): pair k of the group. */
   template <class PairOf>
   void follow_up(PairOf pair, int n);
+  /** Of the contact history; null without one. */
+  int *flags_of(const Pair &pair) const {
+    return pair_->listgranhistory ? pair_->listgranhistory->firstneigh[pair.i] + pair.place : nullptr;
+  }
   void enter(const Pair &pair, int k);
   void close(const Pair &pair);
 
@@ -147,7 +151,7 @@ template <class PairOf>
 inline void LaneLoop<Model>::follow_up(PairOf pair, int n) {
   if (pair_->listgranhistory)
     for (int k = 0; k < n; k++)
-      if (geometry_.touching[k]) *pair(k).flags |= touched_flags_;
+      if (geometry_.touching[k]) *flags_of(pair(k)) |= touched_flags_;
   if (!kept_) return;
   if (observed() && observer_.takes_lanes()) observer_.take({group_, geometry_, forces_, reader_.law()});
   const bool records = observed() && observer_.needs_records();
@@ -189,7 +193,7 @@ void LaneLoop<Model>::enter(const Pair &pair, int k) {
   s_.rsq = geometry_.square[k];
   s_.r = std::sqrt(s_.rsq);
   s_.rinv = 1.0 / s_.r;
-  s_.contact_flags = pair.flags;
+  s_.contact_flags = flags_of(pair);
   s_.has_force_update = true;
   approach(k);
   on_i_.reset();
@@ -220,7 +224,7 @@ inline void LaneLoop<Model>::close(const Pair &pair) {
   s_.j = pair.j;
   s_.itype = lmp_->atom->type[pair.i];
   s_.jtype = lmp_->atom->type[pair.j];
-  s_.contact_flags = pair.flags;
+  s_.contact_flags = flags_of(pair);
   s_.contact_history = pair.history;
   s_.has_force_update = false;
   model_.surfacesClose(s_, on_i_, on_j_);

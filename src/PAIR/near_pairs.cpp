@@ -3,28 +3,39 @@
 
 namespace grainscope {
 
-void NearPairs::choose(const LAMMPS_NS::NeighList &list, const LAMMPS_NS::NeighList *history, int columns,
-                       const SeparationMemory &apart) {
-  const double most = 2.0 * apart.most_moved();
-  const double growth = most - most_;
+void NearPairs::restart(const Lists &lists) {
+  listed_ = 0;
+  for (int ii = 0; ii < lists.list->inum; ii++) listed_ += lists.list->numneigh[lists.list->ilist[ii]];
+  good_until_ = most_ = 0.0;
+  chosen_ = false;
+}
+
+/** After the first `pairs`: repeats of the last, which may be looked at. */
+void NearPairs::end_with(std::size_t pairs) {
+  pairs_.resize(pairs);
+  pairs_.resize(pairs + AHEAD, pairs ? pairs_.back() : Pair{});
+}
+
+void NearPairs::choose(const Lists &lists, const SeparationMemory &apart) {
+  const double most = 2.0 * apart.most_moved(), growth = most - most_;
   most_ = most;
   if (chosen_ && most < good_until_) return;
-  // In the first evaluation nothing is known: all are near, for once.
-  good_until_ = chosen_ || most > 0.0 ? most + STEPS * growth : 0.0;
+  good_until_ = most + STEPS * growth;
   chosen_ = true;
+  std::size_t near = 0;
+  for (int number = 0; number < listed_; number++) near += apart.may_touch_before(number, good_until_);
+  if (pairs_.capacity() < near + AHEAD || pairs_.capacity() > 2 * (near + AHEAD)) {
+    std::vector<Pair>().swap(pairs_);
+    pairs_.reserve(near + near / 8 + AHEAD);
+  }
   pairs_.clear();
   int number = 0;
-  for (int ii = 0; ii < list.inum; ii++) {
-    const int i = list.ilist[ii], neighbours = list.numneigh[i];
-    const int *partners = list.firstneigh[i];
-    for (int jj = 0; jj < neighbours; jj++, number++) {
-      if (!apart.may_touch_before(number, good_until_)) continue;
-      pairs_.push_back({i, partners[jj] & NEIGHMASK, number, history ? history->firstneigh[i] + jj : nullptr,
-                        history ? history->firstdouble[i] + columns * jj : nullptr});
-    }
+  for (int ii = 0; ii < lists.list->inum; ii++) {
+    const int i = lists.list->ilist[ii], neighbours = lists.list->numneigh[i];
+    for (int place = 0; place < neighbours; place++, number++)
+      if (apart.may_touch_before(number, good_until_)) pairs_.push_back(lists.pair(i, place, number));
   }
-  pairs_.resize(pairs_.size() + AHEAD, pairs_.empty() ? Pair{} : pairs_.back());
-  listed_ = number;
+  end_with(pairs_.size());
 }
 
 }

@@ -66,8 +66,7 @@ template <class Model>
 inline void SphereLoop<Model>::visit(int i, int first, int count) {
   const LAMMPS_NS::NeighList *history = pair_->listgranhistory;
   const int *partners = pair_->list->firstneigh[i] + first;
-  int *flags = history ? history->firstneigh[i] + first : nullptr;
-  double *rows = history ? history->firstdouble[i] + pair_->dnum() * first : nullptr;
+  const int *flags = history ? history->firstneigh[i] + first : nullptr;
   std::array<int, MANY> others;
   std::uint64_t flagged = 0;
   for (int k = 0; k < count; k++) {
@@ -75,10 +74,8 @@ inline void SphereLoop<Model>::visit(int i, int first, int count) {
     if (history) flagged |= std::uint64_t(flags[k] != 0) << k;
   }
   const std::uint64_t touching = within_reach(scene_.packed(), i, others.data(), count);
-  const auto pair = [&](int k) -> Pair {
-    if (!history) return {i, others[k], 0, nullptr, nullptr};
-    return {i, others[k], 0, flags + k, rows + pair_->dnum() * k};
-  };
+  const NearPairs::Lists lists{pair_->list, history, pair_->dnum()};
+  const auto pair = [&](int k) { return lists.pair(i, first + k, 0); };
   for (std::uint64_t parted = flagged & ~touching; parted; parted &= parted - 1)
     this->close(pair(__builtin_ctzll(parted)));
   for (std::uint64_t left = touching; left; left &= left - 1) {
