@@ -432,12 +432,12 @@ GRAINSCOPE_INLINE void push_spheres_of(const PackedGrains &grains, const PairGro
 }
 
 GRAINSCOPE_CLONES
-std::uint64_t within_reach(const PackedGrain *grains, int i, const int *others, int count) {
+std::uint64_t within_reach(const PackedGrain *grains, int i, const int *others, int mask, int count) {
   const PackedGrain &grain = grains[i];
   std::uint64_t bits = 0;
   for (int first = 0; first < count; first += LANES) {
     Lanes x[4];
-    load_rows([&](int k) { return grains[others[std::min(first + k, count - 1)]].x; }, x);
+    load_rows([&](int k) { return grains[others[std::min(first + k, count - 1)] & mask].x; }, x);
     const Lanes dx = grain.x[0] - x[0], dy = grain.x[1] - x[1], dz = grain.x[2] - x[2], reach = grain.reach + x[3];
     const LaneMask within = dx * dx + dy * dy + dz * dz < reach * reach;
     const std::uint64_t four = (within[0] & 1) | (within[1] & 2) | (within[2] & 4) | (within[3] & 8);

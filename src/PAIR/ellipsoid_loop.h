@@ -55,7 +55,6 @@ class EllipsoidLoop : public LaneLoop<Model> {
   void prepare(bool hosts) override { bodies_.set_wants_axes(hosts); }
   void evaluate() override;
   void approach(int k) override;
-  typename NearPairs::Lists lists() const { return {pair_->list, pair_->listgranhistory, pair_->dnum()}; }
   void follow_motion();
   void gather(const Pair *pairs, std::size_t count);
   template <class Candidates>
@@ -74,7 +73,7 @@ void EllipsoidLoop<Model>::evaluate() {
   follow_motion();
   lanes_solve_all_ = bodies_.only_spheres() || (!bodies_.some_spheres() && !bodies_.some_triaxial());
   bodies_.counts.listed += near_.listed();
-  near_.go_through(lists(), CHUNK, [this](const Pair *pairs, std::size_t n) {
+  near_.go_through(this->lists(), CHUNK, [this](const Pair *pairs, std::size_t n) {
     gather(pairs, n);
     work_on();
   });
@@ -89,7 +88,7 @@ void EllipsoidLoop<Model>::follow_motion() {
   const int n = atom->nlocal + atom->nghost;
   const bool renewed = lists_.renewed(*lmp_->neighbor, *lmp_->update);
   if (renewed) {
-    near_.restart(lists());
+    near_.restart(this->lists());
     apart_.restart(n, near_.listed(), lmp_->neighbor->cutneighmax, [this](int i) { return bodies_.elongation(i); });
     scene_.restart(bodies_);
   }
@@ -97,7 +96,7 @@ void EllipsoidLoop<Model>::follow_motion() {
   const BoxState box(lmp_);
   apart_.move(box.edges, Eigen::Map<const Eigen::Vector3d>(lmp_->domain->boxlo), scene_.packed(),
               n ? atom->quaternion[0] : nullptr);
-  if (!renewed) near_.choose(lists(), apart_);
+  if (!renewed) near_.choose(this->lists(), apart_);
 }
 
 /** The candidates among some near pairs. */

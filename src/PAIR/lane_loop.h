@@ -65,6 +65,7 @@ class LaneLoop : public LIGGGHTS::PairStyles::Granular<Model>, public ResetsOpen
   /** What follows from the forces of a group: those that touched. pair(k): pair k of the group. */
   template <class PairOf>
   void follow_up(PairOf pair, int n);
+  NearPairs::Lists lists() const { return {pair_->list, pair_->listgranhistory, pair_->dnum()}; }
   /** Of the contact history; null without one. */
   int *flags_of(const Pair &pair) const {
     return pair_->listgranhistory ? pair_->listgranhistory->firstneigh[pair.i] + pair.place : nullptr;

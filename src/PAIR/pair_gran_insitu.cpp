@@ -183,7 +183,8 @@ void PairGranInsitu::init_style() {
   grainscope::run_fixes::make_guard(lmp, impl_->models + (impl_->ledger ? " ledger on" : ""));
   if (impl_->neutral) impl_->memory = grainscope::run_fixes::make_setup_memory(lmp);
   const auto *loop = dynamic_cast<grainscope::ResetsOpenedSprings *>(impl_->loop.get());
-  if (law().tangential == TangentialLaw::spring && !(loop && loop->resets_springs())) impl_->checks.warn_of_stale_springs();
+  if (law().tangential == TangentialLaw::spring && !(loop && loop->resets_springs()))
+    impl_->checks.warn_of_stale_springs();
   impl_->checks.warn_of_unseen_walls();
   watch_time_step();
 }

@@ -27,8 +27,7 @@ class SphereLoop : public LaneLoop<Model> {
   using typename Loop::Pair;
 
   static constexpr int MANY = 64;  // neighbours of a grain at a time
-  std::array<Pair, LANES> members_;
-  int many_ = 0;
+  std::array<int, LANES> places_;  // of the j of group_ in the list of i
 
   bool serves() const override {
     const LAMMPS_NS::Atom *atom = lmp_->atom;
@@ -44,13 +43,14 @@ class SphereLoop : public LaneLoop<Model> {
 template <class Model>
 void SphereLoop<Model>::evaluate() {
   scene_.load(nullptr);
+  group_.size = 0;
   const LAMMPS_NS::NeighList *list = pair_->list;
   for (int ii = 0; ii < list->inum; ii++) {
     if (ii + 1 < list->inum) fetch(list->ilist[ii + 1]);
     const int i = list->ilist[ii], neighbours = list->numneigh[i];
     for (int first = 0; first < neighbours; first += MANY) visit(i, first, std::min(MANY, neighbours - first));
   }
-  if (many_) work();
+  if (group_.size) work();
 }
 
 /** The next grain's neighbours, as far as the test of their distance asks for them. */
@@ -64,45 +64,44 @@ inline void SphereLoop<Model>::fetch(int i) const {
 /** Grain i and some of its neighbours, at most 64, from place `first` of its list on. */
 template <class Model>
 inline void SphereLoop<Model>::visit(int i, int first, int count) {
-  const LAMMPS_NS::NeighList *history = pair_->listgranhistory;
-  const int *partners = pair_->list->firstneigh[i] + first;
-  const int *flags = history ? history->firstneigh[i] + first : nullptr;
-  std::array<int, MANY> others;
-  std::uint64_t flagged = 0;
-  for (int k = 0; k < count; k++) {
-    others[k] = partners[k] & NEIGHMASK;
-    if (history) flagged |= std::uint64_t(flags[k] != 0) << k;
+  const NearPairs::Lists lists = this->lists();
+  const int *others = lists.list->firstneigh[i] + first;
+  const std::uint64_t touching = within_reach(scene_.packed(), i, others, NEIGHMASK, count);
+  if (lists.history) {
+    const int *flags = lists.history->firstneigh[i] + first;
+    std::uint64_t flagged = 0;
+    for (int k = 0; k < count; k++) flagged |= std::uint64_t(flags[k] != 0) << k;
+    for (std::uint64_t parted = flagged & ~touching; parted; parted &= parted - 1)
+      this->close(lists.pair(i, first + __builtin_ctzll(parted), 0));
   }
-  const std::uint64_t touching = within_reach(scene_.packed(), i, others.data(), count);
-  const NearPairs::Lists lists{pair_->list, history, pair_->dnum()};
-  const auto pair = [&](int k) { return lists.pair(i, first + k, 0); };
-  for (std::uint64_t parted = flagged & ~touching; parted; parted &= parted - 1)
-    this->close(pair(__builtin_ctzll(parted)));
   for (std::uint64_t left = touching; left; left &= left - 1) {
-    members_[many_++] = pair(__builtin_ctzll(left));
-    if (many_ == LANES) work();
+    const int place = first + __builtin_ctzll(left), k = group_.size++;
+    places_[k] = place;
+    group_.i[k] = i;
+    group_.j[k] = lists.list->firstneigh[i][place] & NEIGHMASK;
+    group_.history[k] = lists.history ? lists.history->firstdouble[i] + lists.columns * place : nullptr;
+    if (group_.size == LANES) work();
   }
 }
 
 template <class Model>
 void SphereLoop<Model>::work() {
-  const int n = many_;
-  many_ = 0;
-  group_.size = n;
-  for (int k = 0; k < LANES; k++) {
-    const Pair &pair = members_[std::min(k, n - 1)];
-    group_.i[k] = pair.i;
-    group_.j[k] = pair.j;
-    group_.history[k] = pair.history;
+  const int n = group_.size;
+  for (int k = n; k < LANES; k++) {
+    group_.i[k] = group_.i[n - 1];
+    group_.j[k] = group_.j[n - 1];
+    group_.history[k] = group_.history[n - 1];
   }
+  const auto pair = [this](int k) -> Pair { return {group_.i[k], group_.j[k], 0, places_[k], group_.history[k]}; };
   meet_spheres(scene_.grains(), group_, geometry_);
   if (this->in_lanes()) {
     this->set_law_of_pairs();
     push_spheres(scene_.grains(), group_, geometry_, this->group_law_, this->kept_);
-    this->follow_up([this](int k) -> const Pair & { return members_[k]; }, n);
+    this->follow_up(pair, n);
   } else {
-    for (int k = 0; k < n; k++) this->enter(members_[k], k);
+    for (int k = 0; k < n; k++) this->enter(pair(k), k);
   }
+  group_.size = 0;
 }
 
 template <class Model>
