@@ -45,8 +45,10 @@ void SphereLoop<Model>::evaluate() {
   scene_.load(nullptr);
   group_.size = 0;
   const LAMMPS_NS::NeighList *list = pair_->list;
+  // More grains than the second cache holds.
+  const bool far = (lmp_->atom->nlocal + lmp_->atom->nghost) * sizeof(PackedGrain) > 512 * 1024;
   for (int ii = 0; ii < list->inum; ii++) {
-    if (ii + 1 < list->inum) fetch(list->ilist[ii + 1]);
+    if (far && ii + 1 < list->inum) fetch(list->ilist[ii + 1]);
     const int i = list->ilist[ii], neighbours = list->numneigh[i];
     for (int first = 0; first < neighbours; first += MANY) visit(i, first, std::min(MANY, neighbours - first));
   }
