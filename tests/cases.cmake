@@ -263,6 +263,13 @@ add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case 
   tumbling-rods-shrink-wrapped pushed-rods shapes-set-between-runs)
 add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case STYLES surface/ellipsoid RANKS 1 2 CASES
   spheroid-1.5 tumbling-rods-in-a-deforming-box)
+add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case STYLES surface/ellipsoid CASES
+  observed-spheres observed-tangential-off observed-tangential-no-history observed-undamped observed-limit-force
+  observed-hooke observed-hooke-two-sevenths observed-gaussian-curvature observed-rolling observed-with-ledger
+  observed-stiffness)
+add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case STYLES surface/ellipsoid
+  RANKS 1 LONG_RANKS 2 4 CASES
+  observed-spheroids observed-mixed-shapes-and-types observed-spheres-and-spheroids observed-frozen)
 add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case STYLES surface/ellipsoid
   RANKS 1 LONG_RANKS 2 CASES spheres-here-spheroids-there tumbling-rods tumbling-rods-between-walls between-runs)
 add_cases(surface/ellipsoid-host cases/pair_host.py LABEL case STYLES surface/ellipsoid gran/insitu

@@ -9,9 +9,11 @@ import numpy as np
 
 from case import main, require, require_same_snapshots
 from columns import outputs
-from deck import Deck, Material, dump_grains, shear, thermo
+from deck import Deck, dump_grains, shear, thermo
 from packing import Grain, Packing, dense_packing
 from run import run
+from sphere_bitwise import FROZEN, STIFFNESS, TYPES
+import sphere_bitwise
 
 C_SOLVER = outputs("contact/solver").of("solver")
 
@@ -53,6 +55,13 @@ def sheared(packing, steps=2000, strain=0.7, lists=10, skipped=0.3, contacts=1.0
     return lambda ranks: same_as_gran(deck, ranks, lists, skipped, contacts)
 
 
+def observed(packing, steps=400, strain=0.3, before=(), properties=None, own="", **choices):
+    """Also while contacts are measured in every step."""
+    deck = Deck(packing, surface="ellipsoid", **choices)
+    deck.body = [*before, shear(strain / (steps * deck.dt()))]
+    return sphere_bitwise.same_as_gran(deck, steps, properties, own)
+
+
 SIZES = (0.8, 0.9, 1.0, 1.1, 1.2)
 
 
@@ -72,7 +81,6 @@ def half_spheres():
     return replace(packing, grains=grains)
 
 
-TYPES = Material(young=(5e6, 2e7), restitution=(0.3, 0.5, 0.5, 0.8), friction=(0.1, 0.4, 0.4, 0.9))
 CURVED = "curvatureLimitFactor 2"
 
 
@@ -157,14 +165,14 @@ CASES = {
     "spheroid-3": sheared(dense_packing(3.0), 800),
     "spheres": sheared(dense_packing(), 1200, skipped=0.0),
     "spheres-of-five-sizes": sheared(dense_packing(sizes=SIZES), 600, 0.6, 3, 0.0),
-    "frozen-spheres": sheared(dense_packing(), 600, 0.2, 3, 0.0, before=["group cold id 1:20", "fix cold cold freeze"]),
+    "frozen-spheres": sheared(dense_packing(), 600, 0.2, 3, 0.0, before=FROZEN),
     "softened-spheres": sheared(
         dense_packing(), 600, 0.6, 3, 0.0, extra="gaussianCurvature yes curvatureLimitFactor 0.5"
     ),
     "spheres-here-spheroids-there": sheared(half_spheres(), 600, 0.6, 3, 0.0, processors="* 1 1"),
     "polydisperse": sheared(dense_packing(1.5, sizes=SIZES), 1200),
     "mixed-shapes-and-types": sheared(mixed(), 1200, material=TYPES),
-    "frozen-grains": sheared(dense_packing(1.5), 600, 0.2, 3, before=["group cold id 1:20", "fix cold cold freeze"]),
+    "frozen-grains": sheared(dense_packing(1.5), 600, 0.2, 3, before=FROZEN),
     "narrow-contact-distance": sheared(dense_packing(1.5), 600, 0.6, 3, 0.25, contact_distance_factor=1.0),
     "gaussian-curvature": sheared(dense_packing(1.5), 600, 0.6, 3, extra=f"gaussianCurvature yes {CURVED}"),
     "mean-curvature": sheared(dense_packing(0.5), 600, 0.6, 3, extra=f"meanCurvature yes {CURVED}"),
@@ -180,6 +188,21 @@ CASES = {
         dense_packing(0.5), 600, 0.6, 3, before=["unfix integrate", "fix integrate all nve/spheroid"]
     ),
     "cohesion": cohesive,
+    "observed-spheroids": observed(dense_packing(1.5), steps=1200, strain=0.7),
+    "observed-mixed-shapes-and-types": observed(mixed(), material=TYPES),
+    "observed-spheres": observed(dense_packing(sizes=SIZES)),
+    "observed-spheres-and-spheroids": observed(half_spheres(), processors="* 1 1"),
+    "observed-frozen": observed(mixed(), strain=0.2, before=FROZEN, material=TYPES),
+    "observed-tangential-off": observed(dense_packing(1.5), tangential="off"),
+    "observed-tangential-no-history": observed(dense_packing(0.5), tangential="no_history"),
+    "observed-undamped": observed(dense_packing(0.5), extra="tangential_damping off"),
+    "observed-limit-force": observed(dense_packing(1.5), extra="limitForce on"),
+    "observed-hooke": observed(dense_packing(0.5), normal="hooke", tangential="no_history"),
+    "observed-hooke-two-sevenths": observed(dense_packing(1.5), normal="hooke", extra="ktToKnUser on"),
+    "observed-gaussian-curvature": observed(dense_packing(1.5, sizes=SIZES), extra=f"gaussianCurvature yes {CURVED}"),
+    "observed-rolling": observed(dense_packing(1.5), rolling="epsd2"),
+    "observed-with-ledger": observed(dense_packing(1.5), own="ledger on"),
+    "observed-stiffness": observed(dense_packing(1.5), normal="hertz/stiffness", properties=STIFFNESS),
     "tumbling-rods": rods(["run 1200"]),
     "tumbling-rods-with-jumps": rods(JUMPS),
     "tumbling-rods-in-a-deforming-box": rods(
