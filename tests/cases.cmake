@@ -19,7 +19,7 @@ add_cases(gran/insitu-host cases/pair_host.py LABEL case STYLES gran/insitu RANK
 add_cases(gran/insitu-host cases/pair_host.py LABEL case STYLES gran/insitu RANKS 1 2 CASES
   restart-continues stale-springs-warned-once host-deck-with-walls)
 add_cases(gran/insitu-host cases/pair_host.py LABEL case STYLES gran/insitu CASES
-  stale-springs-cured-no-warning stale-springs-of-round-superquadrics no-stale-springs-of-spheroids
+  stale-springs-cured-no-warning no-stale-springs-of-spheres no-stale-springs-of-spheroids
   no-stale-springs-of-ellipsoids every-way-to-ask spin-of-frictionless-spheres no-springs-no-warning
   check-timestep-gran virial-of-plain-gran-is-wrong)
 add_cases(contact/local+gran/insitu-host cases/pair_host.py LABEL case STYLES contact/local gran/insitu
