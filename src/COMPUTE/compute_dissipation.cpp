@@ -6,7 +6,7 @@
 #include "fix_ledger_record.h"
 #include "ledger_account.h"
 #include "grain_power.h"
-#include "loss_sums.h"
+#include "loss_lanes.h"
 #include "requirements.h"
 #include "atom.h"
 #include "domain.h"
@@ -16,6 +16,7 @@ using namespace LAMMPS_NS;
 using Eigen::Map;
 using Eigen::Vector3d;
 using grainscope::Contact;
+using grainscope::Lanes;
 using grainscope::LossSums;
 
 namespace {
@@ -66,6 +67,23 @@ struct DampingForces : grainscope::ContactCompute::Accumulator {
   void add(grainscope::ContactSpan contacts, const grainscope::ContactCompute &of) override {
     grainscope::for_each_contact(contacts, of.selection(), [this](const Contact &c) { add(c); });
   }
+  bool takes_lanes() const override { return true; }
+  void add(const grainscope::ContactLanes &c) override {
+    const Lanes normal = c.normal_damping(), tangential = -c.tangential_damping();
+    add(c, normal, c.forces.normal, grains.normal);
+    if (grainscope::any(tangential < 0.0)) add(c, tangential, c.forces.tangential_velocity, grains.tangential);
+  }
+  /** Forces that are `size` times `along`. */
+  void add(const grainscope::ContactLanes &c, const Lanes &size, const Lanes *along, grainscope::GrainPower &to) {
+    const Lanes force[3] = {size * along[0], size * along[1], size * along[2]};
+    to.add(c, force);
+    if (!domain->deform_vremap || !grainscope::any(c.forces.weight == 0.5)) return;
+    for (int k = 0; k < c.group.size; k++) {
+      const int j = c.group.j[k];
+      if (c.forces.weight[k] == 0.5 && (atom->mask[j] & domain->deform_groupbit))
+        to.add_image(0.5, {force[0][k], force[1][k], force[2][k]}, observer->image_velocity(j));
+    }
+  }
   void add(const Contact &c) {
     const grainscope::ContactMotion &m = *c.motion;
     const Vector3d lever_i = m.point - Map<const Vector3d>(atom->x[c.i]), lever_j = lever_i + c.branch;
@@ -80,9 +98,9 @@ struct DampingForces : grainscope::ContactCompute::Accumulator {
   /** Makes powers of sums of this rank whose friction is an energy. */
   void to_powers(LossSums &sums) const {
     for (auto one : {std::make_pair(&grains, sums.of_grains()), std::make_pair(&walls, sums.of_walls())}) {
-      one.second[LossSums::normal_damping] = -one.first->normal.power(atom->v, atom->omega);
+      one.second[LossSums::normal_damping] = -one.first->normal.power(atom->v[0], atom->omega[0]);
       one.second[LossSums::friction] /= observer->time_step();
-      one.second[LossSums::tangential_damping] = -one.first->tangential.power(atom->v, atom->omega);
+      one.second[LossSums::tangential_damping] = -one.first->tangential.power(atom->v[0], atom->omega[0]);
     }
   }
 };
@@ -119,7 +137,7 @@ struct LossesOfTypes : grainscope::ContactCompute::Accumulator {
 
 struct ComputeDissipation::Impl {
   Mode mode = Mode::step;
-  grainscope::ContactSums<LossSums> sums;
+  grainscope::ContactSums<LossSums, grainscope::WholeContacts, grainscope::LossLanes> sums;
   DampingForces damping;
   std::unique_ptr<LossesOfTypes> of_types;  // of 'rows types'
 };

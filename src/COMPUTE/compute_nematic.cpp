@@ -3,7 +3,6 @@
 #include "arguments.h"
 #include "bodies.h"
 #include "chosen_axis.h"
-#include "grain_shape.h"
 #include "nematic.h"
 #include "scope.h"
 #include "requirements.h"
@@ -26,6 +25,10 @@ using grainscope::Shape;
 using grainscope::SymmetryAxis;
 
 constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
+
+bool alike(const Atom &atom, int i, int j) {
+  return !atom.superquadric_flag || std::equal(atom.shape[i], atom.shape[i] + 3, atom.shape[j]);
+}
 
 grainscope::Outputs declared() {
   grainscope::Outputs outputs;
@@ -74,13 +77,16 @@ void ComputeNematic::compute_vector() {
   invoked_vector = update->ntimestep;
   impl_->scope.update(grainscope::BoxState(lmp));
   grainscope::NematicSums sums(impl_->scope.shear_plane().flow, impl_->scope.shear_plane().gradient);
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit) || !impl_->scope.has_place(Eigen::Map<const Vector3d>(atom->x[i]))) continue;
-    sums.add_spin(Eigen::Map<const Vector3d>(atom->omega[i]));
-    if (!atom->superquadric_flag) continue;
-    const grainscope::SymmetryAxis axis = grainscope::chosen_axis(atom->shape[i], impl_->scope.axis_choice());
-    if (axis.index < 0) continue;
-    sums.add_axis(grainscope::orientation(*atom, i) * Vector3d::Unit(axis.index), axis.shape);
+  const auto counts = [this](int i) {
+    return (atom->mask[i] & groupbit) && impl_->scope.has_place(Eigen::Map<const Vector3d>(atom->x[i]));
+  };
+  for (int i = 0, next; i < atom->nlocal; i = next) {
+    next = i + 1;
+    if (!counts(i)) continue;
+    while (next < atom->nlocal && alike(*atom, i, next) && counts(next)) next++;
+    SymmetryAxis axis{Shape::sphere, -1};
+    if (atom->superquadric_flag) axis = grainscope::chosen_axis(atom->shape[i], impl_->scope.axis_choice());
+    sums.add_alike(next - i, axis, atom->superquadric_flag ? atom->quaternion[i] : nullptr, atom->omega[i]);
   }
   MPI_Allreduce(MPI_IN_PLACE, sums.sums.data(), sums.sums.size(), MPI_DOUBLE, MPI_SUM, world);
 

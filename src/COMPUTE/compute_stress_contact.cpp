@@ -6,7 +6,7 @@
 #include "contact_observer.h"
 #include "contact_sums.h"
 #include "fluctuations.h"
-#include "stress.h"
+#include "stress_lanes.h"
 #include "symmetric_tensor.h"
 #include "atom.h"
 #include "comm.h"
@@ -71,7 +71,7 @@ grainscope::Outputs declared(const grainscope::TypePairs *pairs) {
 }
 
 struct ComputeStressContact::Impl {
-  grainscope::ContactSums<StressSums, grainscope::Branches> sums;
+  grainscope::ContactSums<StressSums, grainscope::Branches, grainscope::StressLanes> sums;
   std::unique_ptr<grainscope::TypePairSums<StressSums, grainscope::Branches>> of_types;  // of 'rows types'
 };
 
@@ -157,12 +157,12 @@ void ComputeStressContact::answer() {
   MPI_Allreduce(MPI_IN_PLACE, &largest_overlap, 1, MPI_DOUBLE, MPI_MAX, world);
 
   const grainscope::BoxState &box = observer_->box();
-  const grainscope::Fluctuations motion(lmp, {name_, groupbit, scope_.within()}, box);
+  const auto motion = grainscope::MomentumFlux::of(lmp, {name_, groupbit, scope_.within()}, box);
   // Forces over areas are in pressure units only where force->nktv2p is 1; cgs and si both are.
   const double unit = force->nktv2p / scope_.volume_now(box);
   const Eigen::Matrix3d total = all.total(1.0) * unit;
   const Eigen::Matrix3d tangential = all.tangential(1.0) * unit;
-  const Eigen::Matrix3d kinetic = -motion.momentum_flux() * force->mvv2e * unit;
+  const Eigen::Matrix3d kinetic = -motion.sum * force->mvv2e * unit;
   const Eigen::Matrix3d normal = total - tangential;
 
   double *out = grainscope::write_components(total, vector);
@@ -179,7 +179,7 @@ void ComputeStressContact::answer() {
   *out++ = (total(a, a) - total(b, b)) * per_pressure;
   *out++ = box.dimension == 2 ? 0.0 : (total(b, b) - total(v, v)) * per_pressure;
   *out++ = of_grains;
-  *out++ = motion.grains() > 0.0 ? (2.0 * of_grains + with_walls) / motion.grains() : 0.0;
+  *out++ = motion.grains > 0.0 ? (2.0 * of_grains + with_walls) / motion.grains : 0.0;
   *out++ = all.sliding() * per_contact;
   *out++ = all.overlaps() * per_contact;
   *out++ = largest_overlap;

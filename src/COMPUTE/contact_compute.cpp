@@ -9,6 +9,7 @@
 #include "atom.h"
 #include "error.h"
 #include "update.h"
+#include <algorithm>
 
 namespace grainscope {
 
@@ -46,6 +47,21 @@ void ContactCompute::begin_contacts() {
 
 void ContactCompute::add_contacts(ContactSpan contacts) {
   for (Accumulator *one : sums_) one->add(contacts, *this);
+}
+
+bool ContactCompute::takes_lanes() const {
+  constexpr int all = 1;
+  if (sums_.empty() || groupbit != all || selection().narrow || scope_.chosen_walls() == Walls::only) return false;
+  if (bodies_ && bodies_->any()) return false;
+  return std::all_of(sums_.begin(), sums_.end(), [](const Accumulator *one) { return one->takes_lanes(); });
+}
+
+void ContactCompute::add_lanes(const ContactLanes &contacts) {
+  for (Accumulator *one : sums_) one->add(contacts);
+}
+
+bool ContactCompute::lanes_need_motion() const {
+  return std::any_of(sums_.begin(), sums_.end(), [](const Accumulator *one) { return one->lanes_need_motion(); });
 }
 
 /** An answer that was kept when the run ended stays: what moves grains since then is not of the contacts. */

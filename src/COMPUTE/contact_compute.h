@@ -32,6 +32,10 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
     virtual ~Accumulator() {}
     virtual void reset() = 0;
     virtual void add(ContactSpan contacts, const ContactCompute &of) = 0;
+    /** True if all contacts between grains may also come side by side. */
+    virtual bool takes_lanes() const { return false; }
+    virtual void add(const ContactLanes &) {}
+    virtual bool lanes_need_motion() const { return true; }
   };
 
   /** `keywords`: those of Scope that the measure understands. `walls`: what it takes of walls where nothing is said. */
@@ -44,6 +48,10 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
   bool wants_contacts() override;
   void begin_contacts() override;
   void add_contacts(ContactSpan contacts) override;
+  /** Where all contacts between grains belong to the measure, and all its sums take them so. */
+  bool takes_lanes() const override;
+  void add_lanes(const ContactLanes &contacts) override;
+  bool lanes_need_motion() const override;
   void end_run() override;
   bool needs_motion() const override { return reads_motion() || scope_.within(); }
 

@@ -6,6 +6,7 @@
 #include "contact_compute.h"
 #include "type_pairs.h"
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -48,28 +49,50 @@ struct WholeContacts {
   }
 };
 
+/** Of a kernel that takes contacts one by one only. */
+struct NoLanes {
+  template <class Kernel>
+  static bool need_motion(const Kernel &) {
+    return false;
+  }
+  template <class Kernel>
+  void add(const ContactLanes &, const Kernel &) {}
+  template <class Kernel>
+  void move_to(Kernel &) {}
+};
+
 /** Sums over the contacts of a compute's group. The kernel has
  *    reset()                 forget everything
  *    add(const Contact &)    one contact; its weight makes sums over ranks count it once
- *    numbers()               what ranks add up: doubles, with data() and size(). */
-template <class Kernel, class Way = WholeContacts>
+ *    numbers()               what ranks add up: doubles, with data() and size().
+ *  InLanes adds up contacts that come side by side:
+ *    need_motion(kernel)           whether it reads the motion of GroupForces
+ *    add(ContactLanes, kernel)
+ *    move_to(kernel)               adds its sums to those of the kernel, and forgets them. */
+template <class Kernel, class Way = WholeContacts, class InLanes = NoLanes>
 class ContactSums : public ContactCompute::Accumulator {
  public:
   explicit ContactSums(Kernel kernel = Kernel()) : mine_(std::move(kernel)) {}
 
   void reset() override {
-    mine_.reset();
+    mine().reset();
     reduced_ = false;
   }
   void add(ContactSpan contacts, const ContactCompute &of) override {
     Way::add(contacts, of, [this](const Contact &) -> Kernel & { return mine_; });
   }
+  bool takes_lanes() const override { return !std::is_same<InLanes, NoLanes>::value; }
+  void add(const ContactLanes &contacts) override { lanes_.add(contacts, mine_); }
+  bool lanes_need_motion() const override { return InLanes::need_motion(mine_); }
   /** Of this rank. */
-  Kernel &mine() { return mine_; }
+  Kernel &mine() {
+    lanes_.move_to(mine_);
+    return mine_;
+  }
   /** Of all ranks. Collective, at the first call after an evaluation. */
   const Kernel &total(const ContactCompute &of) {
     if (!reduced_) {
-      all_ = mine_;
+      all_ = mine();
       of.sum_over_ranks(all_.numbers().data(), static_cast<int>(all_.numbers().size()));
       reduced_ = true;
     }
@@ -78,6 +101,7 @@ class ContactSums : public ContactCompute::Accumulator {
 
  private:
   Kernel mine_, all_;
+  InLanes lanes_;
   bool reduced_ = false;
 };
 

@@ -14,13 +14,33 @@ struct ContactLanes {
   const GroupGeometry &geometry;
   const GroupForces &forces;
   const ContactLaw &law;
+  double dt;  // the time step
 
-  /** Component k of Contact::branch. */
-  Lanes branch(int k) const { return -geometry.d[k]; }
+  // As in Contact and ContactMotion, k a component:
+  GRAINSCOPE_INLINE Lanes branch(int k) const { return -geometry.d[k]; }
+  /** The part of the force along the normal, and the rest. */
+  GRAINSCOPE_INLINE Lanes normal_force() const {
+    return forces.force[0] * forces.normal[0] + forces.force[1] * forces.normal[1] + forces.force[2] * forces.normal[2];
+  }
+  GRAINSCOPE_INLINE Lanes tangential_force(int k, const Lanes &normal_force) const {
+    return forces.force[k] - normal_force * forces.normal[k];
+  }
+  GRAINSCOPE_INLINE Lanes slip() const {
+    const Lanes slip = law.tangential == TangentialLaw::spring ? forces.length - forces.limit / forces.kt
+                                                               : forces.length * dt;
+    return pick(forces.cut, slip, Lanes{});
+  }
+  GRAINSCOPE_INLINE Lanes normal_damping() const {
+    const Lanes damping = -forces.gamma_n * forces.normal_velocity;
+    if (!law.elastic || !law.limits_force) return damping;
+    const Lanes elastic = forces.kn * forces.overlap;
+    return pick(damping + elastic < 0.0, -elastic, damping);
+  }
+  /** 0 where it does not act. */
+  GRAINSCOPE_INLINE Lanes tangential_damping() const {
+    return law.tangential == TangentialLaw::none ? Lanes{} : pick(forces.cut, Lanes{}, forces.gamma_t);
+  }
 };
-
-/** The sum of all lanes, always in the same order. */
-inline double sum_of(const Lanes &x) { return (x[0] + x[1]) + (x[2] + x[3]); }
 
 }
 

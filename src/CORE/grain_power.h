@@ -3,10 +3,14 @@
 #define GRAINSCOPE_GRAIN_POWER_H
 
 #include "contact.h"
+#include "lanes.h"
+#include "packed_grain.h"
 #include <Eigen/Geometry>
 #include <vector>
 
 namespace grainscope {
+
+struct ContactLanes;
 
 /** Collects one kind of contact force per grain (force and torque), to be paired later with velocities that the contact
  *  loop does not know: those at the END of the step. A ghost partner's velocity differs from its owner's by the
@@ -15,7 +19,8 @@ namespace grainscope {
 class GrainPower {
  public:
   void reset(int n_local) {
-    if (used_ || wrenches_.size() != 6 * static_cast<std::size_t>(n_local)) wrenches_.assign(6 * n_local, 0.0);
+    if (used_ || wrenches_.size() != static_cast<std::size_t>(n_local) + 1)
+      wrenches_.assign(n_local + 1, PackedForce());  // the last takes what is for ghosts
     image_power_ = 0.0;
     used_ = false;
   }
@@ -29,26 +34,25 @@ class GrainPower {
     if (c.with_own_grain()) add_wrench(c.j(), -force, lever_j);
     else image_power_ += c.weight * force.dot(image_velocity);
   }
-
-  /** Power of the collected forces with these velocities, over this rank's grains; the sum over ranks is sum F . (v_i -
-   *  v_j). */
-  double power(const double *const *v, const double *const *omega) const {
-    if (!used_) return 0.0;
-    double sum = -image_power_;
-    for (std::size_t i = 0; 6 * i < wrenches_.size(); i++)
-      for (int k = 0; k < 3; k++) sum += wrenches_[6 * i + k] * v[i][k] + wrenches_[6 * i + 3 + k] * omega[i][k];
-    return sum;
+  /** The same side by side, with ContactMotion::arm for a lever: three Lanes of force, 0 where there is no contact. */
+  void add(const ContactLanes &contacts, const Lanes *force);
+  /** What one of these adds that is with a ghost. */
+  void add_image(double weight, const Eigen::Vector3d &force, const Eigen::Vector3d &image_velocity) {
+    image_power_ += weight * force.dot(image_velocity);
   }
 
+  /** Power of the collected forces with these velocities, rows of three numbers, over this rank's grains; the sum over
+   *  ranks is sum F . (v_i - v_j). */
+  double power(const double *v, const double *omega) const;
+
  private:
-  std::vector<double> wrenches_;  // force, torque per local grain
+  std::vector<PackedForce> wrenches_;  // of each local grain
   double image_power_ = 0.0;
   bool used_ = false;
 
   void add_wrench(int i, const Eigen::Vector3d &force, const Eigen::Vector3d &lever) {
-    Eigen::Matrix<double, 6, 1> wrench;
-    wrench << force, lever.cross(force);
-    Eigen::Map<Eigen::Matrix<double, 6, 1>>(&wrenches_[6 * i]) += wrench;
+    Eigen::Map<Eigen::Vector3d>(wrenches_[i].force) += force;
+    Eigen::Map<Eigen::Vector3d>(wrenches_[i].torque) += lever.cross(force);
   }
 };
 

@@ -47,6 +47,9 @@ GRAINSCOPE_INLINE LaneMask pick(LaneMask condition, LaneMask yes, LaneMask no) {
 GRAINSCOPE_INLINE double absolute(double x) { return std::fabs(x); }
 GRAINSCOPE_INLINE Lanes absolute(Lanes x) { return (Lanes)((LaneMask)x & 0x7fffffffffffffffL); }
 
+/** The sum of all lanes, always in the same order. */
+inline double sum_of(const Lanes &x) { return (x[0] + x[1]) + (x[2] + x[3]); }
+
 GRAINSCOPE_INLINE bool all(bool condition) { return condition; }
 GRAINSCOPE_INLINE bool all(LaneMask condition) {
   return (condition[0] & condition[1] & condition[2] & condition[3]) != 0;

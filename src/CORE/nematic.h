@@ -19,6 +19,9 @@ struct NematicSums {
 
   void add_axis(const Eigen::Vector3d &axis, Shape shape);
   void add_spin(const Eigen::Vector3d &omega);
+  /** Grains that have one axis, or none, with index < 0; their quaternions and angular velocities one after the
+   *  other. */
+  void add_alike(int count, const SymmetryAxis &axis, const double *quaternion, const double *omega);
   /** Grains whose axis is their shortest. */
   double oblate() const { return sums[10]; }
   Eigen::Vector3d in_plane(const Eigen::Vector3d &v) const {

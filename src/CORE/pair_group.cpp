@@ -2,6 +2,7 @@
 #include "pair_group.h"
 #include "concentric.h"
 #include "ellipsoid_solver.h"
+#include "group_wrenches.h"
 #include <algorithm>
 
 namespace grainscope {
@@ -207,26 +208,6 @@ GRAINSCOPE_INLINE void cross(const Lanes *a, const Lanes *b, Lanes *c) {
   c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/** Forces and torques to the grains, pair after pair; lambda and springs to the history. */
-GRAINSCOPE_INLINE void hand_out(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
-                                const Lanes *force, const Lanes *torque_i, const Lanes *torque_j) {
-  Lanes f[LANES], ti[LANES], tj[LANES];
-  const Lanes columns[3][4] = {{force[0], force[1], force[2], force[2]},
-                               {torque_i[0], torque_i[1], torque_i[2], torque_i[2]},
-                               {torque_j[0], torque_j[1], torque_j[2], torque_j[2]}};
-  transpose(columns[0], f);
-  transpose(columns[1], ti);
-  transpose(columns[2], tj);
-  for (int k = 0; k < LANES; k++) {
-    if (!g.touching[k]) continue;
-    PackedForce &on_i = grains.forces[group.i[k]], &on_j = grains.forces[std::min(group.j[k], grains.own)];
-    store(load(on_i.force) + f[k], on_i.force);
-    store(load(on_i.torque) + ti[k], on_i.torque);
-    store(load(on_j.force) - f[k], on_j.force);
-    store(load(on_j.torque) + tj[k], on_j.torque);
-  }
-}
-
 /** The columns of the history: lambda - 1/2 and a spring. */
 struct LambdaAndSpring {
   static constexpr bool lambda = true;
@@ -257,9 +238,18 @@ GRAINSCOPE_INLINE Lanes weight_of(const PackedGrains &grains, const PairGroup &g
   return pick(touching, pick(j < (long)grains.own + LaneMask{}, 1.0 + Lanes{}, 0.5 + Lanes{}), Lanes{});
 }
 
+/** A contact point, and what leads to it from the centre of i. */
+struct Place {
+  Lanes point[3], arm[3];
+  GRAINSCOPE_INLINE void set(const Lanes *x_i, int k, Lanes at) {
+    point[k] = at;
+    arm[k] = at - x_i[k];
+  }
+};
+
 GRAINSCOPE_INLINE void keep_forces(LaneMask touching, const Approach<Lanes> &a, const Normal<Lanes> &n,
                                    const Friction<Lanes> &f, Lanes friction, Lanes limit, const Lanes *force,
-                                   const Lanes *point, const Lanes *before, GroupForces &kept) {
+                                   const Place &place, const Lanes *before, GroupForces &kept) {
   const auto touched = [touching](Lanes x) { return pick(touching, x, Lanes{}); };
   for (int k = 0; k < 3; k++) {
     kept.normal[k] = touched(a.normal[k]);
@@ -279,7 +269,11 @@ GRAINSCOPE_INLINE void keep_forces(LaneMask touching, const Approach<Lanes> &a, 
   kept.normal_velocity = touched(a.normal_velocity);
   for (int k = 0; k < 3; k++) {
     kept.tangential_velocity[k] = touched(a.tangential_velocity[k]);
-    kept.point[k] = touched(point[k]);
+    kept.arm[k] = touched(place.arm[k]);
+  }
+  if (!kept.springs) return;
+  for (int k = 0; k < 3; k++) {
+    kept.point[k] = touched(place.point[k]);
     kept.before[k] = touched(before[k]);
     kept.uncut[k] = touched(f.uncut[k]);
     kept.after[k] = touched(f.spring[k]);
@@ -322,7 +316,7 @@ struct LeverTorques {
 /** Everything from the approach on. `lambda`: of the history from now on; what it was where null. */
 template <class History, class Torques>
 GRAINSCOPE_INLINE void push(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
-                            const GroupLaw &law, const Approach<Lanes> &a, const Lanes *point, const Lanes *lambda,
+                            const GroupLaw &law, const Approach<Lanes> &a, const Place &place, const Lanes *lambda,
                             Torques torques, GroupForces *kept) {
   Coefficients<Lanes> c;
   coefficients(law, c);
@@ -342,10 +336,10 @@ GRAINSCOPE_INLINE void push(const PackedGrains &grains, const PairGroup &group, 
     force[k] = 0.0 + normal[k] + f.force[k];
   }
   torques(normal, f.force, torque_i, torque_j);
-  hand_out(grains, group, g, force, torque_i, torque_j);
+  add_wrenches(group, g.touching, force, torque_i, torque_j, grains.own, grains.forces);
   if (kept) {
     kept->weight = weight_of(grains, group, g.touching);
-    keep_forces(g.touching, a, n, f, c.friction, limit, force, point, before, *kept);
+    keep_forces(g.touching, a, n, f, c.friction, limit, force, place, before, *kept);
   }
   if (law.law->tangential == PairLaw::Tangential::history) {
     Lanes columns[4], rows[LANES];
@@ -374,16 +368,16 @@ GRAINSCOPE_INLINE void push_ellipsoids_of(const PackedGrains &grains, const Pair
   a.overlap = g.depth[0] + g.depth[1];
   a.mass = effective_mass(s, law);
 
-  Lanes xi[4], xj[4], point[3], arm_i[3], arm_j[3];
+  Lanes xi[4], xj[4], arm_j[3];
+  Place place;
   load_places(grains, group, xi, xj);
   for (int k = 0; k < 3; k++) {
     a.normal[k] = -g.normal[k];
-    point[k] = xi[k] + g.point[k];
-    arm_i[k] = point[k] - xi[k];
-    arm_j[k] = point[k] - xj[k];
+    place.set(xi, k, xi[k] + g.point[k]);
+    arm_j[k] = place.point[k] - xj[k];
   }
   Lanes turn_i[3], turn_j[3], v[3];
-  cross(s.spin[0], arm_i, turn_i);
+  cross(s.spin[0], place.arm, turn_i);
   cross(s.spin[1], arm_j, turn_j);
   for (int k = 0; k < 3; k++) v[k] = s.velocity[0][k] - s.velocity[1][k] + turn_i[k] - turn_j[k];
   a.normal_velocity = v[0] * a.normal[0] + v[1] * a.normal[1] + v[2] * a.normal[2];
@@ -391,12 +385,12 @@ GRAINSCOPE_INLINE void push_ellipsoids_of(const PackedGrains &grains, const Pair
 
   if (round) {
     const Lanes lever[2] = {size_i - g.depth[0], size_j - g.depth[1]};
-    for (int k = 0; k < 3; k++) point[k] = xi[k] - lever[0] * a.normal[k];
-    push<LambdaAndSpring>(grains, group, g, law, a, point, nullptr, LeverTorques{a.normal, lever}, kept);
+    for (int k = 0; k < 3; k++) place.set(xi, k, xi[k] - lever[0] * a.normal[k]);
+    push<LambdaAndSpring>(grains, group, g, law, a, place, nullptr, LeverTorques{a.normal, lever}, kept);
   } else {
     const bool friction = law.law->tangential != PairLaw::Tangential::off;
     const Lanes lambda = g.lambda - 0.5;
-    push<LambdaAndSpring>(grains, group, g, law, a, point, &lambda, ArmTorques{arm_i, arm_j, friction}, kept);
+    push<LambdaAndSpring>(grains, group, g, law, a, place, &lambda, ArmTorques{place.arm, arm_j, friction}, kept);
   }
 }
 
@@ -410,14 +404,15 @@ GRAINSCOPE_INLINE void push_spheres_of(const PackedGrains &grains, const PairGro
   a.overlap = radius_i + radius_j - r;
   a.mass = effective_mass(s, law);
   const Lanes half = 0.5 * a.overlap, lever_i = radius_i - half, lever_j = radius_j - half;
-  Lanes xi[4], d[3], v[3], w[3], point[3];
+  Lanes xi[4], d[3], v[3], w[3];
+  Place place;
   load_rows([&](int k) { return grains.grains[group.i[k]].x; }, xi);
   for (int k = 0; k < 3; k++) {
     d[k] = -g.d[k];
     a.normal[k] = d[k] * inverse;
     v[k] = s.velocity[0][k] - s.velocity[1][k];
     w[k] = (lever_i * s.spin[0][k] + lever_j * s.spin[1][k]) * inverse;
-    point[k] = xi[k] - lever_i * a.normal[k];
+    place.set(xi, k, xi[k] - lever_i * a.normal[k]);
   }
   a.normal_velocity = v[0] * a.normal[0] + v[1] * a.normal[1] + v[2] * a.normal[2];
   for (int k = 0; k < 3; k++) {
@@ -426,7 +421,7 @@ GRAINSCOPE_INLINE void push_spheres_of(const PackedGrains &grains, const PairGro
     a.tangential_velocity[k] = (v[k] - along) - (d[m] * w[l] - d[l] * w[m]);
   }
   const Lanes lever[2] = {lever_i, lever_j};
-  push<SpringAlone>(grains, group, g, law, a, point, nullptr, LeverTorques{a.normal, lever}, kept);
+  push<SpringAlone>(grains, group, g, law, a, place, nullptr, LeverTorques{a.normal, lever}, kept);
 }
 
 }

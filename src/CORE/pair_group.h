@@ -37,8 +37,11 @@ struct GroupForces {
   LaneMask cut;
   // How they move; left out where nobody asks for it.
   bool motion = true;
-  Lanes normal_velocity, tangential_velocity[3], point[3];
-  Lanes before[3], uncut[3], after[3];  // of the spring (Friction)
+  Lanes normal_velocity, tangential_velocity[3];
+  Lanes arm[3];  // from the centre of i to the contact point
+  // The contact point, and the spring (Friction): what Contacts are made of.
+  bool springs = true;
+  Lanes point[3], before[3], uncut[3], after[3];
 };
 
 struct PackedGrains {

@@ -20,9 +20,9 @@ using grainscope::BoxJump;
 using grainscope::BoxMotion;
 using grainscope::BoxRates;
 using grainscope::BoxState;
-using grainscope::Fluctuations;
 using grainscope::loops;
 using grainscope::mean_loop;
+using grainscope::MomentumFlux;
 using grainscope::NetworkResponse;
 using grainscope::number_of_box_modes;
 using grainscope::press_strain_error;
@@ -188,7 +188,7 @@ double FixPressStrain::time_between_inputs() const {
 void FixPressStrain::add_kinetic_part(std::array<double, number_of_box_modes> &pressures, double factor) const {
   if (!impl_->settings.kinetic) return;
   const BoxState &box = impl_->observer->box();
-  const Eigen::Matrix3d flux = Fluctuations(lmp, {"fix press/strain", groupbit}, box).momentum_flux();
+  const Eigen::Matrix3d flux = MomentumFlux::of(lmp, {"fix press/strain", groupbit}, box).sum;
   for (int k = 0; k < number_of_box_modes; k++)
     pressures[k] += flux(box_modes[k].flow, box_modes[k].gradient) * force->mvv2e * force->nktv2p / box.volume * factor;
 }

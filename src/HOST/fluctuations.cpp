@@ -2,6 +2,7 @@
 #include "fluctuations.h"
 #include "arguments.h"
 #include "grain_shape.h"
+#include "momentum_flux.h"
 #include "region_solid.h"
 #include "require_finite.h"
 #include "symmetric_tensor.h"
@@ -204,6 +205,24 @@ Eigen::Matrix3d Fluctuations::momentum_flux() const {
   }
   sum_over_ranks(lmp_, sums, 6);
   return symmetric_tensor(sums);
+}
+
+MomentumFlux MomentumFlux::of(LAMMPS_NS::LAMMPS *lmp, const ChosenGrains &chosen, const BoxState &box) {
+  const LAMMPS_NS::Atom &atom = *lmp->atom;
+  constexpr int all = 1;
+  if (chosen.groupbit != all || chosen.region || !atom.rmass || has_bodies(lmp)) {
+    const Fluctuations motion(lmp, chosen, box);
+    return {motion.momentum_flux(), motion.grains()};
+  }
+  const MovingGrains grains{atom.nlocal, atom.x[0], atom.v[0], atom.rmass};
+  const std::array<double, 4> momentum = momentum_of(grains, box);
+  double sums[5] = {momentum[0], momentum[1], momentum[2], momentum[3], static_cast<double>(atom.nlocal)};
+  sum_over_ranks(lmp, sums, 5);
+  Vector3d mean = Vector3d::Zero();
+  if (sums[3] > 0.0) mean = Map<const Vector3d>(sums) / sums[3];
+  SixComponents flux = momentum_flux_of(grains, box, mean);
+  sum_over_ranks(lmp, flux.data(), 6);
+  return {symmetric_tensor(flux.data()), sums[4]};
 }
 
 /** Takes the gradient out that fits best: v = u + L (x - <x>), least squares by mass. Where grains do not spread along

@@ -123,7 +123,8 @@ void LaneLoop<Model>::set_law() {
       !s_.shearupdate || TangentialBound::get().mode() != TangentialBound::Mode::off || observer_.repeats();
   in_lanes_ = !first && law_.covers();
   kept_ = observed() || pair_->evflag ? &forces_ : nullptr;
-  forces_.motion = observed() && (observer_.needs_records() || observer_.lanes_need_motion());
+  forces_.springs = observed() && observer_.needs_records();
+  forces_.motion = forces_.springs || (observed() && observer_.lanes_need_motion());
   if (!in_lanes_) return;
   law_.refresh();
   group_law_.law = &law_.law();
@@ -154,7 +155,7 @@ inline void LaneLoop<Model>::follow_up(PairOf pair, int n) {
     for (int k = 0; k < n; k++)
       if (geometry_.touching[k]) *flags_of(pair(k)) |= touched_flags_;
   if (!kept_) return;
-  if (observed() && observer_.takes_lanes()) observer_.take({group_, geometry_, forces_, reader_.law()});
+  if (observed() && observer_.takes_lanes()) observer_.take({group_, geometry_, forces_, reader_.law(), observer_.time_step()});
   const bool records = observed() && observer_.needs_records();
   for (int k = 0; k < n && (records || pair_->evflag); k++) {
     if (!geometry_.touching[k]) continue;
