@@ -16,7 +16,6 @@ using namespace LAMMPS_NS;
 using Eigen::Map;
 using Eigen::Vector3d;
 using grainscope::Contact;
-using grainscope::Lanes;
 using grainscope::LossSums;
 
 namespace {
@@ -69,20 +68,10 @@ struct DampingForces : grainscope::ContactCompute::Accumulator {
   }
   bool takes_lanes() const override { return true; }
   void add(const grainscope::ContactLanes &c) override {
-    const Lanes normal = c.normal_damping(), tangential = -c.tangential_damping();
-    add(c, normal, c.forces.normal, grains.normal);
-    if (grainscope::any(tangential < 0.0)) add(c, tangential, c.forces.tangential_velocity, grains.tangential);
-  }
-  /** Forces that are `size` times `along`. */
-  void add(const grainscope::ContactLanes &c, const Lanes &size, const Lanes *along, grainscope::GrainPower &to) {
-    const Lanes force[3] = {size * along[0], size * along[1], size * along[2]};
-    to.add(c, force);
-    if (!domain->deform_vremap || !grainscope::any(c.forces.weight == 0.5)) return;
-    for (int k = 0; k < c.group.size; k++) {
-      const int j = c.group.j[k];
-      if (c.forces.weight[k] == 0.5 && (atom->mask[j] & domain->deform_groupbit))
-        to.add_image(0.5, {force[0][k], force[1][k], force[2][k]}, observer->image_velocity(j));
-    }
+    const int deformed = domain->deform_vremap ? domain->deform_groupbit : 0;
+    const grainscope::GrainPower::Images images{observer->box().edge_velocities, observer->image_shift(0), atom->mask,
+                                                deformed};
+    grainscope::GrainPower::add_damping(c, images, grains.normal, grains.tangential);
   }
   void add(const Contact &c) {
     const grainscope::ContactMotion &m = *c.motion;

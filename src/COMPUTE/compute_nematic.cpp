@@ -26,10 +26,6 @@ using grainscope::SymmetryAxis;
 
 constexpr auto intensive = grainscope::Extent::intensive, whole = grainscope::Extent::whole;
 
-bool alike(const Atom &atom, int i, int j) {
-  return !atom.superquadric_flag || std::equal(atom.shape[i], atom.shape[i] + 3, atom.shape[j]);
-}
-
 grainscope::Outputs declared() {
   grainscope::Outputs outputs;
   outputs.scalar = {{"S2", "-", intensive, "nematic order, 3/2 of the largest eigenvalue of Q"}};
@@ -80,13 +76,16 @@ void ComputeNematic::compute_vector() {
   const auto counts = [this](int i) {
     return (atom->mask[i] & groupbit) && impl_->scope.has_place(Eigen::Map<const Vector3d>(atom->x[i]));
   };
-  for (int i = 0, next; i < atom->nlocal; i = next) {
-    next = i + 1;
-    if (!counts(i)) continue;
-    while (next < atom->nlocal && alike(*atom, i, next) && counts(next)) next++;
+  constexpr int all = 1;
+  const bool counts_all = groupbit == all && !impl_->scope.within();
+  for (int i = 0, n = 0; i < atom->nlocal; i += n) {
+    n = 1;
+    if (!counts_all && !counts(i)) continue;
+    const bool spheres = !atom->superquadric_flag;
+    if (counts_all) n = spheres ? atom->nlocal : grainscope::NematicSums::alike(atom->nlocal - i, atom->shape[i]);
     SymmetryAxis axis{Shape::sphere, -1};
-    if (atom->superquadric_flag) axis = grainscope::chosen_axis(atom->shape[i], impl_->scope.axis_choice());
-    sums.add_alike(next - i, axis, atom->superquadric_flag ? atom->quaternion[i] : nullptr, atom->omega[i]);
+    if (!spheres) axis = grainscope::chosen_axis(atom->shape[i], impl_->scope.axis_choice());
+    sums.add_alike(n, axis, spheres ? nullptr : atom->quaternion[i], atom->omega[i]);
   }
   MPI_Allreduce(MPI_IN_PLACE, sums.sums.data(), sums.sums.size(), MPI_DOUBLE, MPI_SUM, world);
 

@@ -26,8 +26,8 @@ struct ContactLanes {
     return forces.force[k] - normal_force * forces.normal[k];
   }
   GRAINSCOPE_INLINE Lanes slip() const {
-    const Lanes slip = law.tangential == TangentialLaw::spring ? forces.length - forces.limit / forces.kt
-                                                               : forces.length * dt;
+    const Lanes slip =
+        law.tangential == TangentialLaw::spring ? forces.length - forces.limit / forces.kt : forces.length * dt;
     return pick(forces.cut, slip, Lanes{});
   }
   GRAINSCOPE_INLINE Lanes normal_damping() const {

@@ -16,8 +16,7 @@ GRAINSCOPE_INLINE void torque_of(const Lanes *arm, const Lanes *force, Lanes *to
 
 }
 
-GRAINSCOPE_CLONES
-void GrainPower::add(const ContactLanes &c, const Lanes *force) {
+GRAINSCOPE_INLINE void GrainPower::add(const ContactLanes &c, const Lanes *force, const Images &images) {
   used_ = true;
   Lanes arm_j[3], back[3], torque_i[3], torque_j[3];
   for (int k = 0; k < 3; k++) {
@@ -28,6 +27,28 @@ void GrainPower::add(const ContactLanes &c, const Lanes *force) {
   torque_of(arm_j, back, torque_j);
   add_wrenches(c.group, c.geometry.touching, force, torque_i, torque_j, static_cast<int>(wrenches_.size()) - 1,
                wrenches_.data());
+  const LaneMask ghost = c.forces.weight == 0.5;
+  if (!images.bit || !any(ghost)) return;
+  const Eigen::Matrix3d &h = images.edge_velocities;
+  const Lanes along[3] = {h(0, 0) * force[0], h(0, 1) * force[0] + h(1, 1) * force[1],
+                          h(0, 2) * force[0] + h(1, 2) * force[1] + h(2, 2) * force[2]};
+  for (int k = 0; k < LANES; k++) {
+    const int j = c.group.j[k];
+    if (!ghost[k] || !(images.mask[j] & images.bit)) continue;
+    const double *shift = images.shifts + 3 * j;
+    image_power_ += 0.5 * (along[0][k] * shift[0] + along[1][k] * shift[1] + along[2][k] * shift[2]);
+  }
+}
+
+GRAINSCOPE_CLONES
+void GrainPower::add_damping(const ContactLanes &c, const Images &images, GrainPower &normal, GrainPower &tangential) {
+  Lanes force[3];
+  const Lanes size = c.normal_damping(), against = c.tangential_damping();
+  for (int k = 0; k < 3; k++) force[k] = size * c.forces.normal[k];
+  normal.add(c, force, images);
+  if (!any(against > 0.0)) return;
+  for (int k = 0; k < 3; k++) force[k] = -against * c.forces.tangential_velocity[k];
+  tangential.add(c, force, images);
 }
 
 GRAINSCOPE_CLONES

@@ -34,12 +34,16 @@ class GrainPower {
     if (c.with_own_grain()) add_wrench(c.j(), -force, lever_j);
     else image_power_ += c.weight * force.dot(image_velocity);
   }
-  /** The same side by side, with ContactMotion::arm for a lever: three Lanes of force, 0 where there is no contact. */
-  void add(const ContactLanes &contacts, const Lanes *force);
-  /** What one of these adds that is with a ghost. */
-  void add_image(double weight, const Eigen::Vector3d &force, const Eigen::Vector3d &image_velocity) {
-    image_power_ += weight * force.dot(image_velocity);
-  }
+  /** Velocities of ghosts against their owners: dH/dt . shift, of grains whose mask has the bit. */
+  struct Images {
+    const Eigen::Matrix3d &edge_velocities;  // upper triangular
+    const double *shifts;                    // three numbers for each grain or ghost
+    const int *mask;
+    int bit;  // 0: none have one
+  };
+  /** The damping forces of contacts side by side. */
+  static void add_damping(const ContactLanes &contacts, const Images &images, GrainPower &normal,
+                          GrainPower &tangential);
 
   /** Power of the collected forces with these velocities, rows of three numbers, over this rank's grains; the sum over
    *  ranks is sum F . (v_i - v_j). */
@@ -50,6 +54,7 @@ class GrainPower {
   double image_power_ = 0.0;
   bool used_ = false;
 
+  void add(const ContactLanes &contacts, const Lanes *force, const Images &images);
   void add_wrench(int i, const Eigen::Vector3d &force, const Eigen::Vector3d &lever) {
     Eigen::Map<Eigen::Vector3d>(wrenches_[i].force) += force;
     Eigen::Map<Eigen::Vector3d>(wrenches_[i].torque) += lever.cross(force);

@@ -66,6 +66,20 @@ GRAINSCOPE_INLINE void write_fours(const Lanes columns[4], double *rows) {
   store(written[3], rows + 12);
 }
 
+/** How many of `n` rows of three numbers, from the first on, are as the first; at least 1. */
+GRAINSCOPE_INLINE int threes_alike(const double *rows, int n) {
+  const double x = rows[0], y = rows[1], z = rows[2];
+  const Lanes a = {x, y, z, x}, b = {y, z, x, y}, c = {z, x, y, z};
+  int same = 0;
+  while (same + LANES <= n) {
+    const double *at = rows + 3 * same;
+    if (!all((load(at) == a) & (load(at + 4) == b) & (load(at + 8) == c))) break;
+    same += LANES;
+  }
+  while (same < n && rows[3 * same] == x && rows[3 * same + 1] == y && rows[3 * same + 2] == z) same++;
+  return same > 0 ? same : 1;  // of what is no number
+}
+
 /** rows += factor more. */
 template <class Real>
 GRAINSCOPE_INLINE void add_threes(double factor, const double *more, double *rows) {

@@ -7,20 +7,6 @@
 
 namespace grainscope {
 
-void NematicSums::add_axis(const Eigen::Vector3d &axis, Shape shape) {
-  add_components(sums.data(), dyad(axis, axis));
-  const Eigen::Vector3d p = in_plane(axis);
-  sums[6] += 1.0;
-  if (shape == Shape::oblate) sums[10] += 1.0;
-  const double square = p[0] * p[0] + p[1] * p[1];
-  if (square < 1e-18) return;
-  // the major axis lies at right angles to p: 2 theta turns by pi
-  const double sign = shape == Shape::oblate ? -1.0 : 1.0;
-  sums[7] += sign * (p[0] * p[0] - p[1] * p[1]) / square;
-  sums[8] += sign * 2.0 * p[0] * p[1] / square;
-  sums[9] += 1.0;
-}
-
 namespace {
 
 /** Sums in the order of NematicSums, of one grain or four. */
@@ -46,6 +32,7 @@ struct Part {
     sums[3] += p[0] * p[1];
     sums[4] += p[0] * p[2];
     sums[5] += p[1] * p[2];
+    // the major axis of an oblate grain lies at right angles to p: 2 theta turns by pi
     const Real x = p[flow], y = p[gradient], square = x * x + y * y;
     const auto lies = square >= 1e-18;
     sums[7] += pick(lies, sign * (x * x - y * y) / square, Real{});
@@ -56,14 +43,12 @@ struct Part {
 
 }
 
-void NematicSums::add_spin(const Eigen::Vector3d &omega) {
-  for (int k = 0; k < 3; k++) sums[11 + k] += omega[k];
-  sums[14] += 1.0;
-}
+GRAINSCOPE_CLONES
+int NematicSums::alike(int count, const double *semi_axes) { return threes_alike(semi_axes, count); }
 
 GRAINSCOPE_CLONES
 void NematicSums::add_alike(int count, const SymmetryAxis &axis, const double *quaternion, const double *omega) {
-  const double sign = axis.shape == Shape::oblate ? -1.0 : 1.0;  // as in add_axis()
+  const double sign = axis.shape == Shape::oblate ? -1.0 : 1.0;
   Part<Lanes> fours;
   Part<double> ones;
   int i = 0;

@@ -17,11 +17,11 @@ struct NematicSums {
   /** `flow`, `gradient`: the axes of the plane that theta is in; measured from the first towards the second. */
   explicit NematicSums(int flow = 0, int gradient = 1) : flow_(flow), gradient_(gradient) {}
 
-  void add_axis(const Eigen::Vector3d &axis, Shape shape);
-  void add_spin(const Eigen::Vector3d &omega);
   /** Grains that have one axis, or none, with index < 0; their quaternions and angular velocities one after the
    *  other. */
   void add_alike(int count, const SymmetryAxis &axis, const double *quaternion, const double *omega);
+  /** How many of `count` grains, from the first on, have its semi-axes. */
+  static int alike(int count, const double *semi_axes);
   /** Grains whose axis is their shortest. */
   double oblate() const { return sums[10]; }
   Eigen::Vector3d in_plane(const Eigen::Vector3d &v) const {

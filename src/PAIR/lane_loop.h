@@ -155,9 +155,11 @@ inline void LaneLoop<Model>::follow_up(PairOf pair, int n) {
     for (int k = 0; k < n; k++)
       if (geometry_.touching[k]) *flags_of(pair(k)) |= touched_flags_;
   if (!kept_) return;
-  if (observed() && observer_.takes_lanes()) observer_.take({group_, geometry_, forces_, reader_.law(), observer_.time_step()});
+  if (observed() && observer_.takes_lanes())
+    observer_.take({group_, geometry_, forces_, reader_.law(), observer_.time_step()});
   const bool records = observed() && observer_.needs_records();
-  for (int k = 0; k < n && (records || pair_->evflag); k++) {
+  if (!records && !pair_->evflag) return;
+  for (int k = 0; k < n; k++) {
     if (!geometry_.touching[k]) continue;
     if (records) {
       const int types[2] = {lmp_->atom->type[group_.i[k]], lmp_->atom->type[group_.j[k]]};
