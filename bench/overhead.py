@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """What pair_style gran/insitu costs, idle, with each measurement in every step, and with all of them at the paper's
-sampling rate, over pair_style gran.
+sampling rate, over pair_style gran; with --surface ellipsoid, over gran/insitu without measurements, as pair_style gran
+has no such loop.
 
 On one dense sheared packing (N = 2000, alpha = 1.5, mu_p = 0.4, I = 0.1), in LIGGGHTS's time loop only, as a Markdown
 table: instructions per step counted by callgrind (repeatable, whatever else the machine does; needs valgrind), or with
@@ -98,7 +99,11 @@ PATHS = {
     "three edges by targets, two shears": "fix path all press/strain x target 50 y target 50 z target 50 "
     "shear xy rate 0.00977 shear xz rate 0.005 every 4.6e-4\n",
 }
-PATHS_SET_UP = {"surface": "ellipsoid", "move": "nve/spheroid"}
+# of --surface: variables of the decks, and the pair style that others are compared with
+SURFACES = {
+    "superquadric": ({}, "gran"),
+    "ellipsoid": ({"surface": "ellipsoid", "move": "nve/spheroid"}, "gran/insitu"),
+}
 SETTINGS = "tangential_damping off gaussianCurvature yes curvatureLimitFactor 100"
 LEDGER = {  # with `ledger on`, which wants a restart file of its own
     "ledger on, idle": "",
@@ -118,7 +123,8 @@ class Bench:
     def with_ledger(self):
         """The same packing, prepared with `ledger on`."""
         settings = "ledger on " + SETTINGS
-        return Bench(self.binary, prepare(self.binary, self.folder, settings), self.folder, settings)
+        state = prepare(self.binary, self.folder, settings, **self.variables)
+        return Bench(self.binary, state, self.folder, settings, **self.variables)
 
     def run(self, pair, observers, steps, prefix=()):
         deck = self.folder / "observers"
@@ -205,11 +211,17 @@ def prepare(binary, folder, settings=SETTINGS, **variables):
     return state
 
 
-def count_instructions(bench, steps):
-    base = bench.instructions("gran", "", steps)
+def begin_table(base, pair):
     print(
-        f"| case | instructions per step | over gran |\n|---|---|---|\n| pair_style gran | {base:.4g} | |", flush=True
+        f"| case | instructions per step | over {pair} |\n|---|---|---|\n| pair_style {pair} | {base:.5g} | |",
+        flush=True,
     )
+
+
+def count_instructions(bench, steps, pair):
+    """Over `pair` without measurements."""
+    base = bench.instructions(pair, "", steps)
+    begin_table(base, pair)
     ledger = bench.with_ledger()
     for label, observers in {**OBSERVERS, **LEDGER}.items():
         count = (ledger if label in LEDGER else bench).instructions("gran/insitu", observers, steps)
@@ -218,8 +230,9 @@ def count_instructions(bench, steps):
 
 def count_paths(binary, state, folder, steps):
     """On 600 grains, surface ellipsoid. A binary that knows one edge only ends at the third path."""
-    state = state or prepare(binary, folder, N=600, **PATHS_SET_UP)
-    bench = Bench(binary, state, folder, **PATHS_SET_UP)
+    variables, _ = SURFACES["ellipsoid"]
+    state = state or prepare(binary, folder, N=600, **variables)
+    bench = Bench(binary, state, folder, **variables)
     print("| case | instructions per step | over fix deform |\n|---|---|---|")
     base = None
     for label, motions in PATHS.items():
@@ -228,16 +241,14 @@ def count_paths(binary, state, folder, steps):
         print(f"| {label} | {count:.5g} | {100 * (count / base - 1):+.2f} % |", flush=True)
 
 
-def count_whole_set(bench):
+def count_whole_set(bench, pair):
     """Over two intervals, with one sample in each."""
     steps = 2 * PAPER_INTERVAL
-    base, all_of_it = bench.instructions("gran", "", steps), bench.instructions("gran/insitu", PAPER, steps)
-    idle = bench.instructions("gran/insitu", "", steps)
-    print(
-        f"| case | instructions per step | over gran |\n|---|---|---|\n| pair_style gran | {base:.5g} | |\n"
-        f"| gran/insitu, idle | {idle:.5g} | {100 * (idle / base - 1):+.2f} % |\n"
-        f"| the whole set, once in {PAPER_INTERVAL} steps | {all_of_it:.5g} | {100 * (all_of_it / base - 1):+.2f} % |"
-    )
+    base = bench.instructions(pair, "", steps)
+    begin_table(base, pair)
+    for label, observers in {"gran/insitu, idle": "", f"the whole set, once in {PAPER_INTERVAL} steps": PAPER}.items():
+        count = bench.instructions("gran/insitu", observers, steps)
+        print(f"| {label} | {count:.5g} | {100 * (count / base - 1):+.2f} % |", flush=True)
 
 
 def take_time(bench, steps, repeats):
@@ -271,6 +282,12 @@ def main():
         help="instructions of all measurements together at the paper's sampling rate (10 minutes)",
     )
     parser.add_argument("--paths", action="store_true", help="instructions of fix press/strain along stress paths")
+    parser.add_argument(
+        "--surface",
+        choices=SURFACES,
+        default="superquadric",
+        help="surface model, of ellipsoid under fix nve/spheroid (default %(default)s; not with --time)",
+    )
     parser.add_argument("--repeats", type=int, default=9, help="runs per case with --time (default %(default)s)")
     parser.add_argument(
         "--state", type=pathlib.Path, help="restart file of bench/in.dense (made when not given: a minute)"
@@ -282,13 +299,14 @@ def main():
         if arguments.paths:
             count_paths(binary, state, folder, 40)
             return
-        bench = Bench(binary, state or prepare(binary, folder), folder)
+        variables, pair = SURFACES[arguments.surface]
+        bench = Bench(binary, state or prepare(binary, folder, **variables), folder, **variables)
         if arguments.paper:
-            count_whole_set(bench)
+            count_whole_set(bench, pair)
         elif arguments.time:
             take_time(bench, 100, arguments.repeats)
         else:
-            count_instructions(bench, 20)
+            count_instructions(bench, 20, pair)
 
 
 if __name__ == "__main__":

@@ -8,8 +8,8 @@ using Eigen::Vector3d;
 namespace {
 
 const Vector3d force(4.0, 0.0, 1.0), lever_i(-1.0, 0.2, 0.0), lever_j(1.0, 0.2, 0.0);
-double v0[3] = {0.3, -0.1, 0.2}, v1[3] = {-0.4, 0.5, 0.1}, w0[3] = {0.1, 0.2, 0.3}, w1[3] = {-0.6, 0.4, 0.2};
-const double *v[2] = {v0, v1}, *omega[2] = {w0, w1};
+const double v[6] = {0.3, -0.1, 0.2, -0.4, 0.5, 0.1}, omega[6] = {0.1, 0.2, 0.3, -0.6, 0.4, 0.2};
+const double *const v0 = v, *const v1 = v + 3, *const w0 = omega, *const w1 = omega + 3;
 
 double relative_power(const Vector3d &image_velocity) {
   const Vector3d u =

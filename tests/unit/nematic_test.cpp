@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "nematic.h"
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 #include <cmath>
+#include <vector>
 
 using Eigen::Vector3d;
 using grainscope::Nematic;
@@ -12,7 +14,12 @@ namespace {
 
 NematicSums axes(std::initializer_list<Vector3d> list, Shape shape = Shape::prolate) {
   NematicSums sums;
-  for (const Vector3d &p : list) sums.add_axis(p.normalized(), shape);
+  const double still[3] = {0.0, 0.0, 0.0};
+  for (const Vector3d &p : list) {
+    const auto turn = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), p);
+    const double quaternion[4] = {turn.w(), turn.x(), turn.y(), turn.z()};
+    sums.add_alike(1, {shape, 2}, quaternion, still);
+  }
   return sums;
 }
 
@@ -74,4 +81,39 @@ TEST(line_angle, is_in_the_half_open_interval) {
 
 TEST(nematic, a_line_across_is_at_plus_half_pi_whatever_its_rounding) {
   for (double off : {-1e-17, 0.0, 1e-17}) EXPECT_NEAR(Nematic(axes({{off, 1, 0}})).theta, M_PI_2, 1e-15);
+}
+
+/** However many are shown at once, about each of the axes; by Eigen's rotation. */
+TEST(nematic, grains_that_are_alike_are_summed_as_one_by_one) {
+  for (int n : {1, 4, 11})
+    for (int index = -1; index < 3; index++) {
+      const grainscope::SymmetryAxis axis{index == 1 ? Shape::oblate : Shape::prolate, index};
+      std::vector<double> quaternions, spins;
+      NematicSums one_by_one(1, 2), at_once(1, 2);
+      Eigen::Matrix3d pp = Eigen::Matrix3d::Zero();
+      for (int i = 0; i < n; i++) {
+        const Eigen::Quaterniond q =
+            Eigen::Quaterniond(std::sin(i + 0.3), std::cos(2.0 * i), std::sin(3.0 * i + 1.0), 0.4).normalized();
+        quaternions.insert(quaternions.end(), {q.w(), q.x(), q.y(), q.z()});
+        spins.insert(spins.end(), {0.1 * i, -0.2, 0.3 + i});
+        one_by_one.add_alike(1, axis, &quaternions[4 * i], &spins[3 * i]);
+        if (index < 0) continue;
+        const Vector3d p = q * Vector3d::Unit(index);
+        pp += p * p.transpose();
+      }
+      at_once.add_alike(n, axis, quaternions.data(), spins.data());
+      for (std::size_t k = 0; k < at_once.sums.size(); k++) EXPECT_NEAR(at_once.sums[k], one_by_one.sums[k], 1e-13);
+      EXPECT_NEAR(at_once.sums[0], pp(0, 0), 1e-14);
+      EXPECT_NEAR(at_once.sums[4], pp(0, 2), 1e-14);
+      EXPECT_NEAR(at_once.sums[5], pp(1, 2), 1e-14);
+    }
+}
+
+TEST(nematic, grains_are_alike_up_to_the_first_that_is_not) {
+  for (int same = 1; same <= 9; same++) {
+    std::vector<double> axes;
+    for (int i = 0; i < 12; i++) axes.insert(axes.end(), {1.0, 1.0, i < same ? 2.0 : 2.5});
+    EXPECT_EQ(NematicSums::alike(12, axes.data()), same);
+    EXPECT_EQ(NematicSums::alike(same, axes.data()), same);
+  }
 }
