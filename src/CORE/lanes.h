@@ -50,6 +50,11 @@ GRAINSCOPE_INLINE Lanes absolute(Lanes x) { return (Lanes)((LaneMask)x & 0x7ffff
 /** The sum of all lanes, always in the same order. */
 inline double sum_of(const Lanes &x) { return (x[0] + x[1]) + (x[2] + x[3]); }
 
+template <class Real>
+GRAINSCOPE_INLINE Real least(Real a, Real b) {
+  return pick(a < b, a, b);
+}
+
 GRAINSCOPE_INLINE bool all(bool condition) { return condition; }
 GRAINSCOPE_INLINE bool all(LaneMask condition) {
   return (condition[0] & condition[1] & condition[2] & condition[3]) != 0;

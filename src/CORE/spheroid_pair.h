@@ -12,11 +12,6 @@ template <class Real>
 GRAINSCOPE_INLINE Real dot(const Real *a, const Real *b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-template <class Real>
-GRAINSCOPE_INLINE Real least(Real a, Real b) {
-  return pick(a < b, a, b);
-}
-
 /** |v - (u.v) u|^2: not v.v - (u.v)^2, which cancels. */
 template <class Real>
 GRAINSCOPE_INLINE Real across(const Real *v, const Real *u, Real along) {

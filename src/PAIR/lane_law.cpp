@@ -3,6 +3,7 @@
 #include "atom.h"
 #include "force.h"
 #include "global_properties.h"
+#include "properties.h"
 #include "update.h"
 #include <algorithm>
 #include <cstdlib>
@@ -57,8 +58,9 @@ bool LaneLaw::read(const std::string &models) {
   return true;
 }
 
-void LaneLaw::connect(const std::string &models) {
+void LaneLaw::connect(const std::string &models, bool spring_in_place) {
   covers_ = read(models) && force->nktv2p == 1.0 && atom->rmass;
+  if (law_.tangential == PairLaw::Tangential::history) covers_ = covers_ && spring_in_place;
   if (!covers_) return;
   PropertyRegistry &registry = force->registry;
   const char *who = "pair_style gran/insitu";
@@ -93,7 +95,7 @@ void LaneLaw::connect(const std::string &models) {
       }
   }
   if (law_.tangential != PairLaw::Tangential::off) matrix("coeffFrict", &MODEL_PARAMS::createCoeffFrict, friction_);
-  law_.types = atom->ntypes;
+  law_.types = atom->get_properties()->max_type();  // of those in use: the host's matrices know no others
   law_.terms.resize(law_.types * law_.types);
 }
 

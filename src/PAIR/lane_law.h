@@ -14,8 +14,9 @@ class LaneLaw : private LAMMPS_NS::Pointers {
  public:
   explicit LaneLaw(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
 
-  /** Before a run. `models`: the words of the command. */
-  void connect(const std::string &models);
+  /** Before a run; all ranks together. `models`: the words of the command. `spring_in_place`: in the contact history the
+   *  tangential spring is where the lanes look for it, behind lambda or, without one, in the first columns. */
+  void connect(const std::string &models, bool spring_in_place);
   bool covers() const { return covers_; }
   /** Material properties and time step as they are now. */
   void refresh();

@@ -35,12 +35,10 @@ class LaneLoop : public LIGGGHTS::PairStyles::Granular<Model>, public ResetsOpen
         reader_(style_.reader()), observer_(style_.observer()), model_(static_cast<Model &>(*reader_.model())),
         law_(style_.lane_law()), scene_(lmp) {}
 
-  bool resets_springs() const override { return serves(); }
+  bool resets_springs() const override { return !asks_for_hosts_loop(); }
 
   void compute_force(PairGran *pair, int eflag, int vflag, int addflag) override {
-    const bool rare = pair->storeSumDelta() || pair->storeContactForces() || pair->storeContactForcesStress() ||
-                      pair->store_sum_normal_force() || pair->fr_pair() || (pair->cpl() && addflag) ||
-                      lmp_->modify->n_fixes_style("insert/stream/predefined") || !serves();
+    const bool rare = asks_for_hosts_loop() || (pair->cpl() && addflag);
     prepare(rare);
     if (rare) Host::compute_force(pair, eflag, vflag, addflag);
     else own_compute_force(eflag, vflag);
@@ -93,6 +91,13 @@ class LaneLoop : public LIGGGHTS::PairStyles::Granular<Model>, public ResetsOpen
   GroupForces *kept_ = nullptr;  // forces_ where somebody asks for them
 
  private:
+  /** For the whole of a run. */
+  bool asks_for_hosts_loop() const {
+    return pair_->storeSumDelta() || pair_->storeContactForces() || pair_->storeContactForcesStress() ||
+           pair_->store_sum_normal_force() || pair_->fr_pair() ||
+           lmp_->modify->n_fixes_style("insert/stream/predefined") || !serves();
+  }
+
   bool in_lanes_ = false;  // contacts of this evaluation; else they go the host's way
   int touched_flags_ = 0;  // that the models set
 
@@ -130,8 +135,9 @@ void LaneLoop<Model>::set_law() {
   group_law_.law = &law_.law();
   group_law_.terms[0] = &law_.terms(1, 1);
   group_law_.frozen = pair_->freeze_group_bit() != 0;
-  const bool friction = law_.law().tangential != PairLaw::Tangential::off;
-  touched_flags_ = CONTACT_NORMAL_MODEL | (friction ? CONTACT_TANGENTIAL_MODEL : 0);
+  // as the models set them
+  touched_flags_ = law_.law().normal == PairLaw::Normal::hertz_stiffness ? 0 : CONTACT_NORMAL_MODEL;
+  if (law_.law().tangential != PairLaw::Tangential::off) touched_flags_ |= CONTACT_TANGENTIAL_MODEL;
 }
 
 /** What is not the same for all pairs. */

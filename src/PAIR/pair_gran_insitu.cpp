@@ -191,12 +191,13 @@ void PairGranInsitu::init_style() {
 
 void PairGranInsitu::init_granular() {
   impl_->loop->init_granular();
-  impl_->lane_law.connect(impl_->models);
   ContactLaw law = grainscope::law_of_models(
       impl_->models, [this](const char *kind, const char *name) { return contact_match(kind, name); });
   law.exponent = stressStrainExponent();
   law.past_column = impl_->past_column;
   if (law.tangential == TangentialLaw::spring) law.spring_column = column_of("shearx");
+  const int place = contact_match("surface", "ellipsoid") ? impl_->surface.lambda + 1 : 0;
+  impl_->lane_law.connect(impl_->models, law.spring_column == place);
   impl_->friction = nullptr;
   if (law.tangential == TangentialLaw::viscous || law.tangential == TangentialLaw::spring) {
     force->registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
