@@ -12,12 +12,14 @@ add_cases(gran/insitu-spheres cases/sphere_bitwise.py LABEL case STYLES gran/ins
 add_cases(gran/insitu-spheres cases/sphere_bitwise.py LABEL case STYLES gran/insitu CASES
   hooke-two-sevenths hertz-stiffness hooke-stiffness hooke-stiffness-absolute tangential-off
   tangential-no-history-of-hooke tangential-damping-off limit-force two-types frozen rolling-cdt rolling-epsd2
-  cohesion-sjkr ledger bridges-easo)
+  cohesion-sjkr ledger bridges-easo types-that-no-grain-has types-that-no-spheroid-has spheroids-of-hertz-stiffness
+  spheroids-of-hertz-stiffness-without-friction spheroids-of-hooke-stiffness)
 add_cases(gran/insitu-host cases/pair_host.py LABEL case STYLES gran/insitu RANKS 1 LONG_RANKS 2 CASES
   pair-local-output-does-not-disturb restart-of-spheres-continues clear-and-begin-again pair-style-again
   sinks-come-and-go virial-of-spheroids)
 add_cases(gran/insitu-host cases/pair_host.py LABEL case STYLES gran/insitu RANKS 1 2 CASES
   restart-continues stale-springs-warned-once host-deck-with-walls)
+add_cases(gran/insitu-host cases/pair_host.py LABEL case STYLES gran/insitu CASES stale-springs-beside-rigid-bodies)
 add_cases(gran/insitu-host cases/pair_host.py LABEL case STYLES gran/insitu CASES
   stale-springs-cured-no-warning no-stale-springs-of-spheres no-stale-springs-of-spheroids
   no-stale-springs-of-ellipsoids every-way-to-ask spin-of-frictionless-spheres no-springs-no-warning

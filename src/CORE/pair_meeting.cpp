@@ -3,7 +3,6 @@
 #include "concentric.h"
 #include "ellipsoid_solver.h"
 #include "pair_places.h"
-#include "group_wrenches.h"
 #include <algorithm>
 
 namespace grainscope {

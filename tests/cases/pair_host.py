@@ -87,10 +87,25 @@ def pair_style_again(ranks):
     require_same_snapshots(twice.dump("grains.dump"), once.dump("grains.dump"), "issued twice against once")
 
 
-def stale_springs(factor, model, expected, packing=dense_packing(1.0, atom_style="sphere"), surface="superquadric"):
+BODIES = [  # rigid bodies have LIGGGHTS's loop for all contacts
+    "group one id 1 2",
+    "group free subtract all one",
+    "unfix integrate",
+    "fix integrate free nve/sphere",
+    "fix bodies one rigid group 1 one",
+]
+
+
+def stale_springs(
+    factor, model, expected, packing=dense_packing(1.0, atom_style="sphere"), surface="superquadric", before=()
+):
     def case(ranks):
         deck = Deck(
-            packing, contact_distance_factor=factor, tangential=model, surface=surface, body=["run 20", "run 20"]
+            packing,
+            contact_distance_factor=factor,
+            tangential=model,
+            surface=surface,
+            body=[*before, "run 20", "run 20"],
         )
         found = run(deck, ranks).output.count(WARNING)
         require(found == expected, f"factor {factor}, tangential {model}: {found} warnings, expected {expected}")
@@ -251,6 +266,9 @@ CASES = {
     "clear-and-begin-again": clear_and_begin_again,
     "pair-style-again": pair_style_again,
     "no-stale-springs-of-spheres": stale_springs(1.0, "history", 0),
+    "stale-springs-beside-rigid-bodies": stale_springs(
+        1.0, "history", 1, dense_packing(1.0, atom_style="sphere"), before=BODIES
+    ),
     "stale-springs-warned-once": stale_springs(1.0, "history", 1, dense_packing(1.0)),
     "stale-springs-cured-no-warning": stale_springs(1.05, "history", 0, dense_packing(1.0)),
     "no-springs-no-warning": stale_springs(1.0, "off", 0, dense_packing(1.0)),

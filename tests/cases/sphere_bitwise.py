@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Spheres under gran/insitu, whose own loop works on four contacts at a time or hands them to the models one by one,
-move exactly as under pair_style gran, watched or not."""
+move exactly as under pair_style gran, watched or not; and spheroids of models that are not compiled."""
 from dataclasses import replace
 
 from case import main, require, require_same_snapshots
@@ -129,6 +129,17 @@ CASES = {
     "bridges-washino": lambda ranks: parting(ranks, "washino/capillary/viscous"),
     "bridges-easo": lambda ranks: parting(ranks, "easo/capillary/viscous"),
     "narrow-contact-distance": narrow,
+    "types-that-no-grain-has": sheared(replace(dense_packing(atom_style="sphere"), types=9)),
+    "types-that-no-spheroid-has": sheared(replace(dense_packing(1.5), types=9), surface="ellipsoid"),
+    "spheroids-of-hertz-stiffness": sheared(
+        dense_packing(1.5), surface="ellipsoid", normal="hertz/stiffness", properties=STIFFNESS
+    ),
+    "spheroids-of-hertz-stiffness-without-friction": sheared(
+        dense_packing(1.5), surface="ellipsoid", normal="hertz/stiffness", tangential="off", properties=STIFFNESS
+    ),
+    "spheroids-of-hooke-stiffness": sheared(
+        dense_packing(1.5), surface="ellipsoid", normal="hooke/stiffness", properties=STIFFNESS
+    ),
 }
 
 if __name__ == "__main__":
