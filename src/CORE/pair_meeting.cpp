@@ -59,16 +59,24 @@ GRAINSCOPE_INLINE void load_spheroids(const PackedGrains &grains, const int *num
   body = {{axis[0], axis[1], axis[2]}, shape[0], shape[1], shape[2], shape[3], axis[3]};
 }
 
+/** Both grains of each pair, and their distance; the lanes that hold pairs. */
+GRAINSCOPE_INLINE LaneMask load_pairs(const PackedGrains &grains, const PairGroup &group, GroupGeometry &g, Lanes *xi,
+                                      Lanes *xj, Lanes *d, Lanes &square, LaneMask &reachable, SpheroidOf<Lanes> &one,
+                                      SpheroidOf<Lanes> &two) {
+  const LaneMask there = filled(group);
+  load_places(grains, group, xi, xj);
+  distance(xi, xj, there, d, square, reachable, g);
+  load_spheroids(grains, group.i, one);
+  load_spheroids(grains, group.j, two);
+  return there;
+}
+
 GRAINSCOPE_INLINE void part_spheroids_of(const PackedGrains &grains, const PairGroup &group, GroupGeometry &g) {
   constexpr double MARGIN = 1e-12;
   Lanes xi[4], xj[4], d[3], square;
   LaneMask reachable;
-  const LaneMask there = filled(group);
-  load_places(grains, group, xi, xj);
-  distance(xi, xj, there, d, square, reachable, g);
   SpheroidOf<Lanes> one, two;
-  load_spheroids(grains, group.i, one);
-  load_spheroids(grains, group.j, two);
+  const LaneMask there = load_pairs(grains, group, g, xi, xj, d, square, reachable, one, two);
   SpheroidPair<Lanes> pair(one, two, d);
   const Lanes h1 = root(support(one, d)), h2 = root(support(two, d));
   typename SpheroidPair<Lanes>::State s;
@@ -82,12 +90,8 @@ GRAINSCOPE_INLINE void meet_spheroids_of(const PackedGrains &grains, const PairG
                                          SolverTally &tally) {
   Lanes xi[4], xj[4], d[3], square;
   LaneMask reachable;
-  const LaneMask there = filled(group);
-  load_places(grains, group, xi, xj);
-  distance(xi, xj, there, d, square, reachable, g);
   SpheroidOf<Lanes> one, two;
-  load_spheroids(grains, group.i, one);
-  load_spheroids(grains, group.j, two);
+  const LaneMask there = load_pairs(grains, group, g, xi, xj, d, square, reachable, one, two);
   Lanes start;
   for (int k = 0; k < LANES; k++) start[k] = *group.history[k];
   const LaneMask stranger = start == 0.0;
