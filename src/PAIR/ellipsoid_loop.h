@@ -37,9 +37,8 @@ class EllipsoidLoop : public LaneLoop<Model> {
     const Pair *pair;
     double motion;  // of its two grains, so far
   };
-  static constexpr std::size_t CHUNK = 128;  // near pairs at a time: what they ask for stays in the cache
-  static constexpr std::size_t AHEAD =
-      NearPairs::AHEAD;  // near pairs, of which is asked for what decides whether they are looked at
+  static constexpr std::size_t CHUNK = 128;               // near pairs at a time: what they ask for stays in the cache
+  static constexpr std::size_t AHEAD = NearPairs::AHEAD;  // how many near pairs ahead is prefetched
 
   EllipsoidBodies &bodies_;
   const EllipsoidSurface &surface_;

@@ -10,7 +10,7 @@
 namespace grainscope {
 
 /** Of the pairs of a neighbour list, in its order, those that touch or may soon: the others are surely apart for some
- *  steps, and are not even visited. They are chosen anew when the grains have moved as far as the choice allows for. */
+ *  steps, and are not even visited. They are chosen again when the grains have moved as far as the choice allows for. */
 class NearPairs {
  public:
   static constexpr std::size_t AHEAD = 16;  // how far one may look beyond the last
