@@ -17,6 +17,7 @@
 // Functions that pass vectors are inlined: no matter how a processor without such vectors would pass them.
 #ifdef __GNUC__
 #pragma GCC diagnostic ignored "-Wpsabi"
+#pragma GCC diagnostic ignored "-Wignored-attributes"  // templates of Lanes, which no processor keeps in memory
 #endif
 
 #define GRAINSCOPE_INLINE inline __attribute__((always_inline))
@@ -28,8 +29,10 @@ namespace grainscope {
  *  the processor has. Four, and not eight: comparisons of vectors that are wider than a register of AVX2 are taken
  *  apart by compilers, also where AVX-512 has wider ones. */
 constexpr int LANES = 4;
-typedef double Lanes __attribute__((vector_size(8 * LANES)));
-typedef decltype(Lanes{} < Lanes{}) LaneMask;
+// They may lie at any address that a double may have: gcc aligns vectors to 16 bytes where functions for any processor
+// are compiled, and memory of `new` to no more, but clones for AVX2 would then expect 32.
+typedef double Lanes __attribute__((vector_size(8 * LANES), aligned(8)));
+typedef long LaneMask __attribute__((vector_size(8 * LANES), aligned(8)));
 
 GRAINSCOPE_INLINE double root(double x) { return std::sqrt(x); }
 GRAINSCOPE_INLINE Lanes root(Lanes x) {

@@ -2,6 +2,7 @@
 /** Sums over contacts that come four at a time, against those of the same contacts one by one. */
 #include "grain_power.h"
 #include "loss_lanes.h"
+#include "off_place.h"
 #include "stress_lanes.h"
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
@@ -35,8 +36,8 @@ class RandomContacts {
       for (int touching = 0; touching < 1 << size; touching++)
         for (int turn = 0; turn < 20; turn++) {
           group_ = PairGroup();
-          geometry_ = GroupGeometry();
-          forces_ = GroupForces();
+          geometry_.here = GroupGeometry();
+          forces_.here = GroupForces();
           group_.size = size;
           std::vector<Contact> contacts;
           for (int k = 0; k < LANES; k++) {
@@ -45,7 +46,7 @@ class RandomContacts {
             while (group_.j[k] == group_.i[k]);
             if (touching >> k & 1) contacts.push_back(touch(k));
           }
-          lanes(ContactLanes{group_, geometry_, forces_, law_, DT});
+          lanes(ContactLanes{group_, geometry_.here, forces_.here, law_, DT});
           for (const Contact &c : contacts) contact(c);
         }
   }
@@ -61,8 +62,8 @@ class RandomContacts {
   ContactLaw law_;
   double friction_;
   PairGroup group_;
-  GroupGeometry geometry_;
-  GroupForces forces_;
+  OffPlace<GroupGeometry> geometry_;
+  OffPlace<GroupForces> forces_;
 
   int whole(int end) { return std::uniform_int_distribution<int>(0, end - 1)(engine_); }
 
@@ -109,8 +110,8 @@ class RandomContacts {
     c.normal_force = c.force.dot(c.normal);
     c.tangential_force = c.friction_force = c.force - c.normal_force * c.normal;
 
-    geometry_.touching[k] = -1;
-    GroupForces &f = forces_;
+    geometry_.here.touching[k] = -1;
+    GroupForces &f = forces_.here;
     f.weight[k] = c.weight;
     f.overlap[k] = c.overlap;
     f.law_force[k] = force;
@@ -123,7 +124,7 @@ class RandomContacts {
     f.cut[k] = c.sliding ? -1 : 0;
     f.normal_velocity[k] = m.normal_velocity;
     for (int l = 0; l < 3; l++) {
-      geometry_.d[l][k] = -c.branch[l];
+      geometry_.here.d[l][k] = -c.branch[l];
       f.normal[l][k] = c.normal[l];
       f.force[l][k] = c.force[l];
       f.tangential_velocity[l][k] = m.tangential_velocity[l];
@@ -152,13 +153,13 @@ void expect_near(const Numbers &a, const Numbers &b) {
 TEST(contact_lanes, stress_is_that_of_single_contacts) {
   for (RandomContacts &random : cases()) {
     StressSums single, sums;
-    StressLanes lanes;
-    random.many([&](const ContactLanes &c) { lanes.add(c, sums); }, [&](const Contact &c) { single.add(c); });
-    lanes.move_to(sums);
+    OffPlace<StressLanes> lanes;
+    random.many([&](const ContactLanes &c) { lanes.here.add(c, sums); }, [&](const Contact &c) { single.add(c); });
+    lanes.here.move_to(sums);
     expect_near(sums.sums, single.sums);
     EXPECT_EQ(sums.largest_overlap, single.largest_overlap);
     for (int k = 18; k < 21; k++) EXPECT_EQ(sums.sums[k], single.sums[k]);
-    lanes.move_to(sums);  // what was moved is gone
+    lanes.here.move_to(sums);  // what was moved is gone
     expect_near(sums.sums, single.sums);
   }
 }
@@ -167,10 +168,10 @@ TEST(contact_lanes, losses_are_those_of_single_contacts) {
   for (LossSums::Of of : {LossSums::Of::powers, LossSums::Of::slip, LossSums::Of::contacts})
     for (RandomContacts &random : cases()) {
       LossSums single, sums;
-      LossLanes lanes;
+      OffPlace<LossLanes> lanes;
       single.of = sums.of = of;
-      random.many([&](const ContactLanes &c) { lanes.add(c, sums); }, [&](const Contact &c) { single.add(c); });
-      lanes.move_to(sums);
+      random.many([&](const ContactLanes &c) { lanes.here.add(c, sums); }, [&](const Contact &c) { single.add(c); });
+      lanes.here.move_to(sums);
       expect_near(sums.all, single.all);
     }
 }

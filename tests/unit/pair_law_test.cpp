@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "off_place.h"
 #include "packed_pairs.h"
 #include "sphere_contact.h"
 #include <gtest/gtest.h>
@@ -302,8 +303,10 @@ struct Bench {
     const PairGroup group = scene.group(size, history);
     std::vector<double> alone = history;
     std::vector<PackedForce> sum = scene.forces;
-    GroupGeometry g;
-    GroupForces kept;
+    OffPlace<GroupGeometry> geometry;
+    OffPlace<GroupForces> forces;
+    GroupGeometry &g = geometry.here;
+    GroupForces &kept = forces.here;
     meet(group, g);
     push(group, g, keeps ? &kept : nullptr);
     for (int k = 0; k < size; k++) {

@@ -4,6 +4,7 @@
 
 #include "concentric.h"
 #include "ellipsoid_contact.h"
+#include "off_place.h"
 #include "pair_group.h"
 #include <algorithm>
 #include <cmath>
@@ -49,10 +50,10 @@ class SideBySide {
   template <class Use>
   void meet(Use use) {
     const grainscope::PackedGrains grains = {grains_.data(), shapes_.data(), false, nullptr, 0};
-    grainscope::GroupGeometry geometry;
+    OffPlace<grainscope::GroupGeometry> geometry;
     for (const grainscope::PairGroup &group : groups_) {
-      meet_spheroids(grains, group, geometry, tally_);
-      use(group, geometry);
+      meet_spheroids(grains, group, geometry.here, tally_.here);
+      use(group, geometry.here);
     }
   }
 
@@ -76,7 +77,7 @@ class SideBySide {
   std::vector<grainscope::PackedGrain> grains_;
   std::vector<grainscope::PackedShape> shapes_;
   std::vector<grainscope::PairGroup> groups_;
-  grainscope::SolverTally tally_;
+  OffPlace<grainscope::SolverTally> tally_;
 
   static bool is_sphere(const grainscope::Spheroid &body) { return grainscope::contact_solver::is_sphere(body); }
 
