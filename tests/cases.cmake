@@ -180,7 +180,7 @@ add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case S
 add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation
   LONG_RANKS 1 CASES spheroid-3)
 add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation
-  RANKS 1 2 CASES through-a-flip plane-wave-on-a-mesh)
+  RANKS 1 2 CASES through-a-flip plane-wave-on-a-mesh one-search asked-beside)
 add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation
   RANKS 1 LONG_RANKS 2 CASES spheres under-pressure-control subgroup running plane-wave)
 

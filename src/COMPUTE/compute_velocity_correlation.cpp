@@ -14,6 +14,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "group.h"
+#include "modify.h"
 #include "update.h"
 #include <algorithm>
 #include <cmath>
@@ -68,7 +69,7 @@ struct ComputeVelocityCorrelation::Impl {
 
     void add(const Totals &other) {
       for (std::size_t k = 0; k < sums.pairs.size(); k++) {
-        sums.products[k] += other.sums.products[k];
+        sums.products[0][k] += other.sums.products[0][k];
         sums.pairs[k] += other.sums.pairs[k];
       }
       squares += other.squares;
@@ -76,6 +77,14 @@ struct ComputeVelocityCorrelation::Impl {
       range += other.range;
       calls += other.calls;
     }
+  };
+
+  /** What the search of another compute found for this one, should it be asked of the same. */
+  struct Foreseen {
+    bigint step = -1;
+    PeriodicCell cell;
+    PointValues points;
+    PairSums share{0};  // of this rank
   };
 
   explicit Impl(LAMMPS *lmp) : scope(lmp, name, grainscope::Scope::region) {}
@@ -91,6 +100,7 @@ struct ComputeVelocityCorrelation::Impl {
   Totals totals;
   FixGrainRecord *record = nullptr;  // of `average running`: the totals, which restart files hold
   double bytes = 0.0;
+  Foreseen foreseen;
 
   /** The numbers that the ranks share in the record: the step of the last call, four sums, then products and pairs of
    *  each bin. */
@@ -100,7 +110,10 @@ struct ComputeVelocityCorrelation::Impl {
   Totals recorded() const;
   void add_to_record(const Totals &now, bigint step);
 
-  Totals measure(LAMMPS *lmp, int groupbit);
+  bool looks_for_the_pairs_of(const Impl &other) const;
+  std::vector<Impl *> asked_with(const ComputeVelocityCorrelation &one) const;
+  Totals measure(const ComputeVelocityCorrelation &one);
+  bool foresaw(LAMMPS *lmp, const PeriodicCell &cell, const PointValues &points) const;
   void require_finite(LAMMPS *lmp, const PointValues &points) const;
   PairSums share_of_pairs(LAMMPS *lmp, const PeriodicCell &cell, const PointValues &points,
                           const DistanceBins &distances);
@@ -108,6 +121,7 @@ struct ComputeVelocityCorrelation::Impl {
 
 ComputeVelocityCorrelation::ComputeVelocityCorrelation(LAMMPS *lmp, int &iarg, int narg, char **arg)
     : Compute(lmp, iarg, narg, arg), impl_(new Impl(lmp)) {
+  timeflag = 1;  // steps on which it will be asked are announced
   Arguments arguments(lmp, name, iarg, narg, arg);
   bool mesh_given = false;
   while (!arguments.done()) {
@@ -163,7 +177,7 @@ ComputeVelocityCorrelation::Impl::Totals ComputeVelocityCorrelation::Impl::recor
   before.grains = shared[GRAINS];
   before.range = shared[RANGE];
   before.calls = shared[CALLS];
-  std::copy_n(shared.begin() + SUMS, bins, before.sums.products.begin());
+  std::copy_n(shared.begin() + SUMS, bins, before.sums.products[0].begin());
   std::copy_n(shared.begin() + SUMS + bins, bins, before.sums.pairs.begin());
   return before;
 }
@@ -175,7 +189,7 @@ void ComputeVelocityCorrelation::Impl::add_to_record(const Totals &now, bigint s
   totals.add(now);
   const double numbers[SUMS] = {static_cast<double>(step), totals.squares, totals.grains, totals.range, totals.calls};
   std::copy(numbers, numbers + SUMS, shared.begin());
-  std::copy_n(totals.sums.products.begin(), bins, shared.begin() + SUMS);
+  std::copy_n(totals.sums.products[0].begin(), bins, shared.begin() + SUMS);
   std::copy_n(totals.sums.pairs.begin(), bins, shared.begin() + SUMS + bins);
 }
 
@@ -195,7 +209,7 @@ PairSums ComputeVelocityCorrelation::Impl::share_of_pairs(LAMMPS *lmp, const Per
                                                           const PointValues &points, const DistanceBins &distances) {
   if (!mesh) {
     const PointValues all = grainscope::gathered(points, lmp->world);
-    bytes = 11.0 * sizeof(double) * all.size();  // with a copy in the order of cells, and these
+    bytes = (11.0 + all.sets()) * sizeof(double) * all.size();  // these, and a copy in the order of cells
     return grainscope::direct_pair_sums(cell, all, distances, lmp->comm->me, lmp->comm->nprocs);
   }
   std::array<int, 3> size;
@@ -221,12 +235,44 @@ void ComputeVelocityCorrelation::Impl::require_finite(LAMMPS *lmp, const PointVa
                              "grains are not finite: look at what moves or pushes them");
 }
 
-ComputeVelocityCorrelation::Impl::Totals ComputeVelocityCorrelation::Impl::measure(LAMMPS *lmp, int groupbit) {
+/** Of the same group, but maybe of other components. */
+bool ComputeVelocityCorrelation::Impl::looks_for_the_pairs_of(const Impl &other) const {
+  return !mesh && !other.mesh && bins == other.bins && range == other.range && flow.text() == other.flow.text() &&
+         scope.within() == other.scope.within();
+}
+
+/** Of other computes, those that are asked in this step too and can be answered by the same search. */
+std::vector<ComputeVelocityCorrelation::Impl *> ComputeVelocityCorrelation::Impl::asked_with(
+    const ComputeVelocityCorrelation &one) const {
+  std::vector<Impl *> found;
+  const Modify &modify = *one.modify;
+  for (int k = 0; k < modify.ncompute && found.size() + 1 < PointValues::MOST_SETS; k++) {
+    auto *const other = dynamic_cast<ComputeVelocityCorrelation *>(modify.compute[k]);
+    if (!other || other == &one || other->igroup != one.igroup || !looks_for_the_pairs_of(*other->impl_)) continue;
+    if (other->impl_->measured != one.update->ntimestep && other->matchstep(one.update->ntimestep))
+      found.push_back(other->impl_.get());
+  }
+  return found;
+}
+
+/** Whether these are, on all ranks, the points whose sums are there. */
+bool ComputeVelocityCorrelation::Impl::foresaw(LAMMPS *lmp, const PeriodicCell &cell, const PointValues &points) const {
+  if (foreseen.step != lmp->update->ntimestep) return false;
+  int same = foreseen.cell.edges == cell.edges && foreseen.cell.periodic == cell.periodic &&
+             foreseen.points.values == points.values;
+  for (int k = 0; k < 3; k++) same = same && foreseen.points.s[k] == points.s[k];
+  MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_MIN, lmp->world);
+  return same;
+}
+
+ComputeVelocityCorrelation::Impl::Totals ComputeVelocityCorrelation::Impl::measure(
+    const ComputeVelocityCorrelation &one) {
+  LAMMPS *const lmp = one.lmp;
   const grainscope::BoxState box(lmp);
   const PeriodicCell cell = grainscope::periodic_cell(box);
   const DistanceBins distances{range > 0.0 ? range : half_smallest_height(cell), bins};
   scope.update(box);
-  const Fluctuations motion(lmp, {name, groupbit, scope.within()}, box, flow);
+  const Fluctuations motion(lmp, {name, one.groupbit, scope.within()}, box, flow);
   PointValues points;
   double smallest = std::numeric_limits<double>::infinity();
   Totals now;
@@ -237,17 +283,35 @@ ComputeVelocityCorrelation::Impl::Totals ComputeVelocityCorrelation::Impl::measu
     now.squares += value * value;
   }
   require_finite(lmp, points);
-  try {
-    now.sums = share_of_pairs(lmp, cell, points, distances);
-  } catch (const std::length_error &reason) {
-    Arguments(lmp, name).fail(reason.what());
+  if (foresaw(lmp, cell, points)) {
+    now.sums = std::move(foreseen.share);
+  } else {
+    const std::vector<Impl *> others = asked_with(one);
+    for (const Impl *other : others) {
+      points.values.emplace_back();
+      for (const Fluctuations::Grain &g : motion.local())
+        points.values.back().push_back(other->component.of(motion, g));
+    }
+    try {
+      now.sums = share_of_pairs(lmp, cell, points, distances);
+    } catch (const std::length_error &reason) {
+      Arguments(lmp, name).fail(reason.what());
+    }
+    for (std::size_t n = 1; n <= others.size(); n++) {
+      Foreseen &theirs = others[n - 1]->foreseen;
+      theirs = {lmp->update->ntimestep, cell, points, now.sums};
+      theirs.points.values = {points.values[n]};
+      theirs.share.products = {now.sums.products[n]};
+    }
   }
+  foreseen = Foreseen();
   MPI_Allreduce(MPI_IN_PLACE, &smallest, 1, MPI_DOUBLE, MPI_MIN, lmp->world);
   MPI_Allreduce(MPI_IN_PLACE, &now.squares, 1, MPI_DOUBLE, MPI_SUM, lmp->world);
-  MPI_Allreduce(MPI_IN_PLACE, now.sums.products.data(), bins, MPI_DOUBLE, MPI_SUM, lmp->world);
+  now.sums.products.resize(1);
+  MPI_Allreduce(MPI_IN_PLACE, now.sums.products[0].data(), bins, MPI_DOUBLE, MPI_SUM, lmp->world);
   MPI_Allreduce(MPI_IN_PLACE, now.sums.pairs.data(), bins, MPI_DOUBLE, MPI_SUM, lmp->world);
   for (int k = 0; k < bins && (k + 1) * distances.width() <= smallest; k++)
-    now.sums.products[k] = now.sums.pairs[k] = 0.0;
+    now.sums.products[0][k] = now.sums.pairs[k] = 0.0;
   now.grains = motion.grains();
   now.range = distances.range;
   now.calls = 1.0;
@@ -258,9 +322,9 @@ void ComputeVelocityCorrelation::measure() {
   Impl &all = *impl_;
   if (all.measured == update->ntimestep) return;
   all.measured = update->ntimestep;
-  if (!all.running) all.totals = all.measure(lmp, groupbit);
+  if (!all.running) all.totals = all.measure(*this);
   else if (all.counted(update->ntimestep)) all.totals = all.recorded();
-  else all.add_to_record(all.measure(lmp, groupbit), update->ntimestep);
+  else all.add_to_record(all.measure(*this), update->ntimestep);
   report();
 }
 
@@ -273,8 +337,8 @@ void ComputeVelocityCorrelation::report() {
   std::vector<double> r(all.bins), c(all.bins, 0.0);
   for (int k = 0; k < all.bins; k++) {
     r[k] = distances.middle(k);
-    if (t.sums.pairs[k] > 0.0 && mean_square > 0.0) c[k] = t.sums.products[k] / t.sums.pairs[k] / mean_square;
-    put_row(k, {r[k], c[k], t.sums.products[k], t.sums.pairs[k]});
+    if (t.sums.pairs[k] > 0.0 && mean_square > 0.0) c[k] = t.sums.products[0][k] / t.sums.pairs[k] / mean_square;
+    put_row(k, {r[k], c[k], t.sums.products[0][k], t.sums.pairs[k]});
   }
   const grainscope::DecayFit fit = grainscope::fit_decay(r, c);
   put_vector({fit.length, fit.error, mean_square, t.grains, static_cast<double>(fit.points)});

@@ -14,94 +14,99 @@ using Eigen::Vector3d;
 // All lengths in this file are in widths of a bin, so that the whole part of a distance is its bin.
 namespace {
 
-constexpr int batch = 512;  // pairs at a time, a multiple of LANES
-constexpr int tables = 4;   // sums side by side: one that waits for the last to be stored takes half as long again
+constexpr int batch = 512;  // points at a time, a multiple of LANES
+// Sums side by side, two for each lane in turn: one that waits for the last to be stored takes half as long again.
+constexpr int tables = 2 * LANES;
 constexpr double slack = 1.0 + 1e-9;     // of lengths that say where to look, beyond rounding
 constexpr double outward = 1.0 + 1e-12;  // two images that are both at the end of the range are both out of it
 
-/** Positions x of a group of points, or x in units of the edges, and their values; with room for a load of LANES from
- *  any point on. */
-struct Columns {
-  std::vector<double> x[3], value;
+constexpr int SETS = PointValues::MOST_SETS;
+static_assert(SETS + 1 == LANES, "a row of the table is products of all sets and the number of pairs");
 
-  explicit Columns(std::size_t points) : value(points + LANES, 0.0) {
+/** Positions x of a group of points, or x in units of the edges, and their values, 0 of a set that is not there; with
+ *  room for a load of LANES from any point on. */
+struct Columns {
+  std::vector<double> x[3], values[SETS];
+
+  explicit Columns(std::size_t points) {
     for (auto &column : x) column.resize(points + LANES, 0.0);
+    for (auto &column : values) column.resize(points + LANES, 0.0);
   }
 
-  void set(std::size_t i, const Vector3d &at, double v) {
+  void set(std::size_t i, const Vector3d &at, const PointValues &from, std::size_t point) {
     for (int k = 0; k < 3; k++) x[k][i] = at[k];
-    value[i] = v;
+    for (int n = 0; n < from.sets(); n++) values[n][i] = from.values[n][point];
   }
 };
 
 Vector3d place_of(const PointValues &points, std::size_t i) { return {points.s[0][i], points.s[1][i], points.s[2][i]}; }
 
-/** Takes squared distances of pairs and products of their values, a batch at a time. */
+/** Takes squared distances of pairs and products of their values. */
 class PairTable {
  public:
-  explicit PairTable(int bins) : bins_(bins), products_(tables * (bins + 1)), pairs_(tables * (bins + 1)) {}
+  PairTable(int bins, int sets) : bins_(bins), rows_(row_of(bins + 1)), sums_(bins, sets) {}
 
-  /** Where the next `n` pairs belong, at most a batch; LANES may be written from each of them on. */
-  GRAINSCOPE_INLINE int room_for(int n) {
-    if (filled_ + n > batch) count();
-    const int at = filled_;
-    filled_ += n;
-    return at;
-  }
-
-  GRAINSCOPE_INLINE void count() {
-    const double out = static_cast<double>(bins_) * bins_;
-    for (int m = 0; m < batch; m++) {
-      const double r2 = squared[m] < out ? squared[m] : out;
-      place_[m] = tables * static_cast<int>(std::sqrt(r2));
+  /** Pairs of point i with `n` points from j on. set_squared(m, r2): the squared distances of four of these, from m on. */
+  template <class SetSquared>
+  GRAINSCOPE_INLINE void add(const Columns &points, std::size_t i, std::size_t j, int n, SetSquared set_squared) {
+    double mine[SETS];
+    const double *others[SETS];
+    for (int k = 0; k < SETS; k++) {
+      mine[k] = points.values[k][i];
+      others[k] = &points.values[k][j];
     }
-    double *const products = products_.data();
-    int *const pairs = pairs_.data();
-    int m = 0;
-    for (; m + tables <= filled_; m += tables)
-      for (int k = 0; k < tables; k++) {
-        double *const sum = products + place_[m + k];
-        int *const number = pairs + place_[m + k];
-        sum[k] += product[m + k];
-        number[k]++;
+    double *const table = rows_.data();
+    const Lanes out = Lanes{} + static_cast<double>(bins_) * bins_;
+    int turn = 0;
+    const auto add_four = [&](int m, const Lanes &r2) {
+      const Lanes columns[LANES] = {mine[0] * load(others[0] + m), mine[1] * load(others[1] + m),
+                                    mine[2] * load(others[2] + m), 1.0 + Lanes{}};
+      Lanes rows[LANES];
+      transpose(columns, rows);
+      const Bins bin = __builtin_convertvector(root(least(r2, out)), Bins) * row_of(1);
+      for (int k = 0; k < LANES; k++) {
+        double *const row = table + bin[k] + LANES * k + turn;
+        store(load(row) + rows[k], row);
       }
-    for (; m < filled_; m++) {
-      products[place_[m]] += product[m];
-      pairs[place_[m]]++;
+      turn ^= LANES * LANES;
+    };
+    int m = 0;
+    Lanes r2;
+    for (; m + LANES <= n; m += LANES) {
+      set_squared(m, r2);
+      add_four(m, r2);
     }
-    counted_ += filled_;
-    filled_ = 0;
+    if (m < n) {
+      set_squared(m, r2);
+      add_four(m, pick(Lanes{0, 1, 2, 3} < static_cast<double>(n - m), r2, out));
+    }
+    counted_ += n;
     if (counted_ > 1000 * bins_) total();  // sums of few terms are exact to more digits
   }
 
   PairSums sums() {
-    count();
     total();
     return sums_;
   }
 
-  double squared[batch + LANES] = {}, product[batch + LANES] = {};
-
  private:
-  int bins_, filled_ = 0, counted_ = 0;
-  // `tables` sums and numbers of each bin; the last bin holds what is out of range
-  std::vector<double> products_;
-  std::vector<int> pairs_;
-  PairSums sums_{bins_};
-  int place_[batch];
+  int bins_, counted_ = 0;
+  std::vector<double> rows_;  // of each bin `tables` rows; the last bin holds what is out of range
+  PairSums sums_;
+
+  typedef int Bins __attribute__((vector_size(4 * LANES)));
+  static constexpr int row_of(int bin) { return tables * LANES * bin; }
 
   void total() {
     for (int k = 0; k < bins_; k++)
-      for (int at = tables * k; at < tables * (k + 1); at++) {
-        sums_.products[k] += products_[at];
-        sums_.pairs[k] += pairs_[at];
+      for (int at = row_of(k); at < row_of(k + 1); at += LANES) {
+        for (std::size_t n = 0; n < sums_.products.size(); n++) sums_.products[n][k] += rows_[at + n];
+        sums_.pairs[k] += rows_[at + SETS];
       }
-    std::fill(products_.begin(), products_.end(), 0.0);
-    std::fill(pairs_.begin(), pairs_.end(), 0);
+    std::fill(rows_.begin(), rows_.end(), 0.0);
     counted_ = 0;
   }
 };
-
 /** Equal slabs across one edge of a brick. Those at the ends of an edge that does not repeat go on for ever. */
 struct Slabs {
   bool periodic = true;
@@ -232,7 +237,7 @@ class Brick {
     size_ = first_.back();
     std::vector<std::size_t> next(first_);
     for (std::size_t i = 0; i < given.size(); i++)
-      if (cells[i] != nowhere) points_.set(next[cells[i]]++, place(edges, place_of(given, i)), given.value[i]);
+      if (cells[i] != nowhere) points_.set(next[cells[i]]++, place(edges, place_of(given, i)), given, i);
   }
 
   /** Partners in a layer; in that of point i itself only those after it. */
@@ -261,21 +266,16 @@ class Brick {
       const double x = place.x - image * cells.length;
       const std::size_t begin = own && image == 0 ? i + 1 : first_[row + cells.of(x - reach)],
                         end = first_[row + cells.of(x + reach) + 1];
-      for (std::size_t j = begin; j < end; j += batch)
-        add_some(table, {x, place.y, place.z}, points_.value[i], j,
-                 static_cast<int>(std::min<std::size_t>(batch, end - j)));
+      if (begin < end) add_some(table, i, {x, place.y, place.z}, begin, static_cast<int>(end - begin));
     }
   }
 
-  GRAINSCOPE_INLINE void add_some(PairTable &table, const Place &at, double value, std::size_t j, int n) const {
-    const double *const x = &points_.x[0][j], *const y = &points_.x[1][j], *const z = &points_.x[2][j],
-                        *const values = &points_.value[j];
-    const int to = table.room_for(n);
-    for (int m = 0; m < n; m += LANES) {
+  GRAINSCOPE_INLINE void add_some(PairTable &table, std::size_t i, const Place &at, std::size_t j, int n) const {
+    const double *const x = &points_.x[0][j], *const y = &points_.x[1][j], *const z = &points_.x[2][j];
+    table.add(points_, i, j, n, [&](int m, Lanes &r2) {
       const Lanes a = load(x + m) - at.x, b = load(y + m) - at.y, c = load(z + m) - at.z;
-      store(a * a + b * b + c * c, table.squared + to + m);
-      store(value * load(values + m), table.product + to + m);
-    }
+      r2 = a * a + b * b + c * c;
+    });
   }
 };
 
@@ -298,7 +298,7 @@ class Queue {
     for (std::size_t i : order) {
       Vector3d at = place_of(given, i);
       at[along_] = s[i];
-      points_.set(size_++, at, given.value[i]);
+      points_.set(size_++, at, given, i);
     }
   }
 
@@ -318,7 +318,7 @@ class Queue {
   double reach_;
   std::size_t size_ = 0;
   Columns points_;
-  double x_[batch], y_[batch], z_[batch];
+  double x_[batch], y_[batch], z_[batch], squared_[batch];
 
   std::size_t first_after(double s) const {
     const auto begin = points_.x[along_].begin();
@@ -328,14 +328,13 @@ class Queue {
   GRAINSCOPE_INLINE void add_span(PairTable &table, std::size_t i, std::size_t begin, std::size_t end) {
     for (std::size_t j = begin; j < end; j += batch) {
       const int n = static_cast<int>(std::min<std::size_t>(batch, end - j));
-      const int to = table.room_for(n);
-      set_squared(i, j, n, table.squared + to);
-      images_.lower(n, x_, y_, z_, table.squared + to);
-      for (int m = 0; m < n; m++) table.product[to + m] = points_.value[i] * points_.value[j + m];
+      set_squared(i, j, n);
+      images_.lower(n, x_, y_, z_, squared_);
+      table.add(points_, i, j, n, [&](int m, Lanes &r2) { r2 = load(squared_ + m); });
     }
   }
 
-  GRAINSCOPE_INLINE void set_squared(std::size_t i, std::size_t j, int n, double *squared) {
+  GRAINSCOPE_INLINE void set_squared(std::size_t i, std::size_t j, int n) {
     const double *sx = &points_.x[0][j], *sy = &points_.x[1][j], *sz = &points_.x[2][j];
     const double x = points_.x[0][i], y = points_.x[1][i], z = points_.x[2][i];
     const Matrix3d &h = cell_.edges;
@@ -350,7 +349,7 @@ class Queue {
       x_[m] = xx * a + xy * b + xz * c;
       y_[m] = yy * b + yz * c;
       z_[m] = zz * c;
-      squared[m] = x_[m] * x_[m] + y_[m] * y_[m] + z_[m] * z_[m];
+      squared_[m] = x_[m] * x_[m] + y_[m] * y_[m] + z_[m] * z_[m];
     }
   }
 };
@@ -365,16 +364,16 @@ GRAINSCOPE_CLONES void add_pairs(Queue &points, PairTable &table, int rank, int 
 
 }
 
-void PointValues::add(const Vector3d &fraction, double v) {
+void PointValues::add(const Vector3d &fraction, const double *value) {
   for (int k = 0; k < 3; k++) s[k].push_back(fraction[k]);
-  value.push_back(v);
+  for (int n = 0; n < sets(); n++) values[n].push_back(value[n]);
 }
 
 PairSums direct_pair_sums(const PeriodicCell &cell, const PointValues &points, const DistanceBins &bins, int rank,
                           int ranks) {
-  if (points.size() < 2) return PairSums(bins.count);
+  if (points.size() < 2) return PairSums(bins.count, points.sets());
   const PeriodicCell scaled{cell.edges * (outward * bins.count / bins.range), cell.periodic};
-  PairTable table(bins.count);
+  PairTable table(bins.count, points.sets());
   if (bins.range <= cell.rounding_radius() && scaled.edges.allFinite()) {
     add_pairs(Brick(scaled.edges, scaled, points, slack * bins.count), table, rank, ranks);
   } else {

@@ -17,13 +17,13 @@ PointValues gathered(const PointValues &local, MPI_Comm world) {
   std::vector<int> counts(ranks), starts(ranks, 0);
   MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
   std::partial_sum(counts.begin(), counts.end() - 1, starts.begin() + 1);
-  PointValues all;
+  PointValues all(local.sets());
   const auto gather = [&](const std::vector<double> &from, std::vector<double> &to) {
     to.resize(starts.back() + counts.back());
     MPI_Allgatherv(from.data(), n, MPI_DOUBLE, to.data(), counts.data(), starts.data(), MPI_DOUBLE, world);
   };
   for (int k = 0; k < 3; k++) gather(local.s[k], all.s[k]);
-  gather(local.value, all.value);
+  for (int k = 0; k < local.sets(); k++) gather(local.values[k], all.values[k]);
   return all;
 }
 

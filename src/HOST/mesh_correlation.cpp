@@ -58,7 +58,7 @@ std::vector<MeshCorrelation::Deposit> MeshCorrelation::slab_deposits(const Point
     if (*std::min_element(cell.begin(), cell.end()) < 0) continue;
     const int rank = owner_[cell[0]];
     outgoing[rank].push_back(
-        {(cell[0] - first_[rank]) * mesh_.size[1] * mesh_.row + mesh_.in_plane(cell), points.value[i]});
+        {(cell[0] - first_[rank]) * mesh_.size[1] * mesh_.row + mesh_.in_plane(cell), points.values[0][i]});
   }
   std::vector<int> sent(ranks_), received(ranks_), sent_at(ranks_), received_at(ranks_);
   for (int rank = 0; rank < ranks_; rank++) sent[rank] = static_cast<int>(outgoing[rank].size() * sizeof(Deposit));
@@ -97,7 +97,7 @@ PairSums MeshCorrelation::pair_sums(const PeriodicCell &cell, const PointValues 
       itself += counting ? 1.0 : d.value * d.value;
     }
     autocorrelate();
-    std::vector<double> &bin = counting ? sums.pairs : sums.products;
+    std::vector<double> &bin = counting ? sums.pairs : sums.products[0];
     add_lags(cell, mesh_, field_, counting, bins, bin);
     bin[0] -= itself;
     for (double &sum : bin) sum *= 0.5;  // each pair was met at a lag and at its opposite

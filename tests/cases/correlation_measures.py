@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """velocity/correlation against all pairs in the oracle, directly and on a mesh, and where C(r) is known."""
+from dataclasses import replace
 import itertools
 import math
 
 import numpy as np
 
 from case import main, require, require_close
-from deck import Deck
+from deck import Deck, shear
 from oracle import comparison_motion as comparison
 from oracle import correlation
 from packing import Grain, Packing, dense_packing, tilted
+from run import run
 from watch import Flow, Watched, deforming, pressed, watch
 
 # Sums of thousands of terms of either sign, over the square root of their number.
@@ -94,6 +96,44 @@ def running(ranks):
             "running", moment.vector(watched), moment.array(watched), table, expected
         ):
             require_close(c.found, c.expected, 0.0 if c.counted else EXACT, f"step {moment.step}, {c.name}", c.scale)
+
+
+def one_search(ranks):
+    """Computes of several components, asked in one step: the pairs are found once for three of them, and again for
+    those that differ in something else."""
+    words = {f"all_{c}": (f"component {c}", {"name": c}) for c in ("vy", "wz", "vx", "wx")}
+    words["near"] = (f"component vz range {RANGE}", {"name": "vz", "reach": RANGE})
+    words["fitted"] = ("component vz flow fit", {"name": "vz", "flow": ("fit",)})
+    watched = {correlation_of(name, text): options for name, (text, options) in words.items()}
+    for moment in watch(
+        Deck(SPHERES), list(watched), deforming(0.05), ranks, settle=20, every=10, thermo_every=10, contacts=False
+    ):
+        for one, options in watched.items():
+            for c in comparison.of_correlation(moment.vector(one), moment.array(one), moment, **options):
+                what = f"step {moment.step}, {one.name}, {c.name}"
+                require_close(c.found, c.expected, 0.0 if c.counted else EXACT, what, c.scale)
+
+
+def asked_beside(ranks):
+    """Whatever is asked before it in the same step, a compute gives the same to the last bit: of the grains as they are
+    then, though another fix changed their velocities in between."""
+    answers = []
+    for before in ((), ("vy", "wx"), ("vx",)):
+        lines = [shear(0.05), "compute roll all velocity/correlation component vx"]
+        for c in before:
+            lines += [
+                f"compute {c} all velocity/correlation component {c}",
+                f"fix {c} all ave/time 5 1 5 c_{c}[2] mode vector file {c}.txt",
+            ]
+        lines += [
+            "fix turn all momentum 10 linear 0 0 0 angular",
+            "fix roll all ave/time 5 1 5 c_roll[1] c_roll[2] c_roll[3] c_roll[4] mode vector file roll.txt",
+            "run 20",
+        ]
+        answers.append(run(replace(Deck(SPHERES), body=lines), ranks).file("roll.txt").read_text())
+    require(answers[0].count("\n") > 60, f"20 steps gave\n{answers[0]}")
+    for answer in answers[1:]:
+        require(answer == answers[0], "what was asked before changed a correlation")
 
 
 def not_periodic(ranks):
@@ -181,6 +221,8 @@ CASES = {
     "subgroup": agrees(Deck(SPHERES), deforming(0.05), group="20:80"),
     "group-of-one": agrees(Deck(SPHERES), deforming(0.05), group="20:20"),
     "running": running,
+    "one-search": one_search,
+    "asked-beside": asked_beside,
     "not-periodic": not_periodic,
     "plane-wave": plane_wave("method direct"),
     "plane-wave-on-a-mesh": plane_wave("method mesh"),

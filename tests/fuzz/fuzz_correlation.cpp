@@ -59,7 +59,7 @@ void check_pairs(const PeriodicCell &cell, const PointValues &points, const Dist
   for (int k = 0; k < bins.count; k++) {
     nearer += sums.pairs[k];
     require(nearer >= surely[k] && nearer <= perhaps[k], "every pair is in its bin", nearer);
-    require_below(std::fabs(sums.products[k]), 4.0 * sums.pairs[k] + 1e-9, "products are as large as values are");
+    require_below(std::fabs(sums.products[0][k]), 4.0 * sums.pairs[k] + 1e-9, "products are as large as values are");
   }
 }
 
@@ -69,7 +69,7 @@ void check_shares(const PeriodicCell &cell, const PointValues &points, const Dis
                  second = direct_pair_sums(cell, points, bins, 1, 2);
   for (int k = 0; k < bins.count; k++) {
     require(first.pairs[k] + second.pairs[k] == sums.pairs[k], "ranks share all pairs", sums.pairs[k]);
-    require_below(std::fabs(first.products[k] + second.products[k] - sums.products[k]), 1e-10,
+    require_below(std::fabs(first.products[0][k] + second.products[0][k] - sums.products[0][k]), 1e-10,
                   "ranks share all products");
   }
 }

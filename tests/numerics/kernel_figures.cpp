@@ -143,7 +143,7 @@ void sums(Random &random) {
     points.add(s, random.uniform(-1.0, 1.0));
   }
   const PairSums pairs = direct_pair_sums(cell, points, {0.5, 10});
-  for (int k = 0; k < 10; k++) row("correlation", 1.0 + pairs.pairs[k], {pairs.products[k], pairs.pairs[k]});
+  for (int k = 0; k < 10; k++) row("correlation", 1.0 + pairs.pairs[k], {pairs.products[0][k], pairs.pairs[k]});
 }
 
 }

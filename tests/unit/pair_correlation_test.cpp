@@ -57,7 +57,7 @@ PairSums brute_force(const PeriodicCell &c, const PointValues &p, const Distance
     for (std::size_t j = 0; j < i; j++) {
       const double r = nearest(c, position(p, i) - position(p, j), reach);
       if (r >= bins.range) continue;
-      sums.products[static_cast<int>(r / bins.width())] += p.value[i] * p.value[j];
+      sums.products[0][static_cast<int>(r / bins.width())] += p.values[0][i] * p.values[0][j];
       sums.pairs[static_cast<int>(r / bins.width())] += 1.0;
     }
   return sums;
@@ -67,7 +67,7 @@ void expect_equal(const PairSums &found, const PairSums &expected, const std::st
   for (std::size_t k = 0; k < expected.pairs.size(); k++) {
     EXPECT_EQ(found.pairs[k], expected.pairs[k]) << what << ", bin " << k;
     // sums of some thousand terms below 1
-    EXPECT_NEAR(found.products[k], expected.products[k], 1e-11) << what << ", bin " << k;
+    EXPECT_NEAR(found.products[0][k], expected.products[0][k], 1e-11) << what << ", bin " << k;
   }
 }
 
@@ -110,7 +110,7 @@ TEST(direct_pair_sums, two_points_across_a_sheared_face) {
   const PairSums sums = direct_pair_sums(c, p, {1.0, 10});
   for (int k = 0; k < 10; k++) {
     EXPECT_EQ(sums.pairs[k], k == static_cast<int>(10.0 * r) ? 1.0 : 0.0);
-    EXPECT_NEAR(sums.products[k], k == static_cast<int>(10.0 * r) ? -6.0 : 0.0, 1e-15);
+    EXPECT_NEAR(sums.products[0][k], k == static_cast<int>(10.0 * r) ? -6.0 : 0.0, 1e-15);
   }
 }
 
@@ -213,11 +213,31 @@ TEST(direct_pair_sums, shares_of_the_ranks_add_up) {
     for (int rank = 0; rank < 4; rank++) {
       const PairSums share = direct_pair_sums(sheared, p, bins, rank, 4);
       for (int k = 0; k < bins.count; k++) {
-        sum.products[k] += share.products[k];
+        sum.products[0][k] += share.products[0][k];
         sum.pairs[k] += share.pairs[k];
       }
     }
     expect_equal(sum, direct_pair_sums(sheared, p, bins), "four ranks");
+  }
+}
+
+/** Within half the box, and beyond, where pairs are found in another way. */
+TEST(direct_pair_sums, sets_of_values_are_added_up_as_if_each_were_alone) {
+  const PointValues one = random_points(701), other = random_points(701 * 3);
+  PointValues all = one;
+  for (int n : {1, 2}) all.values.emplace_back(&other.values[0][701 * n], &other.values[0][701 * n] + 701);
+  for (double part : {0.3, 1.0, 1.6}) {
+    const DistanceBins bins{part * half_height(sheared), 9};
+    const PairSums together = direct_pair_sums(sheared, all, bins);
+    ASSERT_EQ(together.products.size(), 3u);
+    for (int n = 0; n < 3; n++) {
+      PointValues alone = one;
+      alone.values = {all.values[n]};
+      const PairSums sums = direct_pair_sums(sheared, alone, bins);
+      EXPECT_EQ(sums.products[0], together.products[n]) << part << ", set " << n;
+      EXPECT_EQ(sums.pairs, together.pairs);
+    }
+    EXPECT_NE(together.products[0], together.products[1]);
   }
 }
 
@@ -231,7 +251,7 @@ TEST(direct_pair_sums, nothing_and_one_point_have_no_pairs) {
   for (int n : {0, 1}) {
     const PairSums sums = direct_pair_sums(sheared, random_points(n), {2.0, 3});
     EXPECT_EQ(sums.pairs, std::vector<double>(3, 0.0));
-    EXPECT_EQ(sums.products, std::vector<double>(3, 0.0));
+    EXPECT_EQ(sums.products[0], std::vector<double>(3, 0.0));
   }
 }
 
