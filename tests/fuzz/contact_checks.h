@@ -11,9 +11,8 @@ namespace fuzz {
 
 using grainscope::EllipsoidContact;
 
-/** Whatever goes in, what comes out is a sound answer or says that it is none. `rounding` of the normal: of lengths
- *  whose squares are hardly numbers, what the kernel itself demands. */
-inline void require_sound(const EllipsoidContact &c, double rounding = 1e-9) {
+/** Whatever goes in, what comes out is a sound answer or says that it is none. `rounding`: of the normal. */
+inline void require_sound(const EllipsoidContact &c, double rounding = 1e-13) {
   require(c.steps >= 0 && c.steps <= grainscope::ELLIPSOID_STEPS, "the search ends", c.steps);
   if (c.fallback) return;
   if (!c.touching) return require(c.gap >= 0.0, "a gap is not negative", c.gap);
@@ -101,8 +100,8 @@ inline void require_alike(const GrainPair &pair, const EllipsoidContact &a, cons
 template <class Body>
 void check_pair(const GrainPair &pair, double start, const double *aside) {
   const EllipsoidContact c = kernel_contact<Body>(pair);
-  require_sound(c, 1e-13);
-  require_sound(kernel_contact<Body>(pair, start), 1e-13);
+  require_sound(c);
+  require_sound(kernel_contact<Body>(pair, start));
   require_alike(pair, c, kernel_contact<Body>(exchanged(pair)), true, "exchanged grains have the same contact");
   if (start > 0.0 && start < 1.0)
     require_alike(pair, c, kernel_contact<Body>(pair, start), false, "a start does not change the contact");
