@@ -32,7 +32,7 @@ constexpr int LANES = 4;
 // They may lie at any address that a double may have: gcc aligns vectors to 16 bytes where functions for any processor
 // are compiled, and memory of `new` to no more, but clones for AVX2 would then expect 32.
 typedef double Lanes __attribute__((vector_size(8 * LANES), aligned(8)));
-typedef long LaneMask __attribute__((vector_size(8 * LANES), aligned(8)));
+typedef decltype(Lanes{} < Lanes{}) LaneMask __attribute__((aligned(8)));
 
 GRAINSCOPE_INLINE double root(double x) { return std::sqrt(x); }
 GRAINSCOPE_INLINE Lanes root(Lanes x) {

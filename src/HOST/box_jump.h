@@ -3,6 +3,7 @@
 #define GRAINSCOPE_BOX_JUMP_H
 
 #include "box_state.h"
+#include "outside_cell.h"
 #include <Eigen/LU>
 #include <cmath>
 
@@ -16,16 +17,20 @@ class BoxJump {
  public:
   /** `before`: the box of the step that ends, and the velocities of its edges in it. */
   BoxJump(const BoxState &before, const Eigen::Matrix3d &edge_velocities_after)
-      : change_(edge_velocities_after - before.edge_velocities), inverse_(before.edges.inverse()),
-        centre_(before.cell_centre), periodic_(before.periodic) {}
+      : change_(edge_velocities_after - before.edge_velocities), periodic_(before.periodic) {
+    const Eigen::Matrix3d inverse = before.edges.inverse();
+    for (int k = 0; k < 3; k++) {
+      cell_.centre[k] = before.cell_centre[k];
+      for (int l = 0; l < 3; l++) cell_.inverse[k][l] = inverse(k, l);
+    }
+  }
 
   bool none() const { return change_.isZero(0.0); }
 
   /** Of a grain at x; false inside the box. */
   bool gives(const Eigen::Vector3d &x, Eigen::Vector3d &velocity) const {
-    const double dx = x[0] - centre_[0], dy = x[1] - centre_[1], dz = x[2] - centre_[2];
-    const double away[3] = {inverse_(0, 0) * dx + inverse_(0, 1) * dy + inverse_(0, 2) * dz,
-                            inverse_(1, 1) * dy + inverse_(1, 2) * dz, inverse_(2, 2) * dz};
+    double away[3];
+    cell_.place(x.data(), away);
     if (std::fabs(away[0]) <= 0.5 && std::fabs(away[1]) <= 0.5 && std::fabs(away[2]) <= 0.5) return false;
     Eigen::Vector3d edges = Eigen::Vector3d::Zero();
     for (int k = 0; k < 3; k++)
@@ -34,9 +39,17 @@ class BoxJump {
     return true;
   }
 
+  /** Adds it to the velocities of `n` grains, rows of three numbers. */
+  void give(const double *x, double *v, int n) const {
+    Eigen::Vector3d velocity;
+    for (int i = next_outside(cell_, x, 0, n); i < n; i = next_outside(cell_, x, i + 1, n))
+      if (gives(Eigen::Map<const Eigen::Vector3d>(x + 3 * i), velocity))
+        Eigen::Map<Eigen::Vector3d>(v + 3 * i) += velocity;
+  }
+
  private:
-  Eigen::Matrix3d change_, inverse_;
-  Eigen::Vector3d centre_;
+  Eigen::Matrix3d change_;
+  CellFrame cell_;
   std::array<bool, 3> periodic_;
 };
 
