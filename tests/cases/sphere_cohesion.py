@@ -172,7 +172,7 @@ def with_adhesion(deck):
 
 def as_spheres_of_equal_volume(**choices):
     """Pole to pole, head on: spheres under the host's own surface of that volume and overlap exert the same forces, in
-    every step."""
+    every step: as they come nearer, and as they part."""
 
     def case(ranks):
         radius = float(radius_of_volume(POLE))
@@ -182,11 +182,13 @@ def as_spheres_of_equal_volume(**choices):
             for grain, direction in zip(packing.grains, (1, -1)):
                 grain.velocity = (0.1 * direction, 0.0, 0.0)
             deck = at_rest(packing, tangential="off", timestep=1e-4, **choices)
-            deck.body[-1] = "run 400"
+            deck.body[-1] = "run 4000"
             result = run(with_adhesion(deck), ranks)
             forces.append(np.array([columns["fx"][-1] for _, columns in result.dump("grains.dump")]))
-        require(np.isfinite(forces[1]).all() and np.ptp(forces[1]) > 100.0, "nothing happened")
-        # 400 steps of rounding.
+        # They meet, are thrown back, and hold on to each other.
+        require(np.isfinite(forces[1]).all() and forces[1].max() > 1000.0, "the grains did not repel each other")
+        require(forces[1].min() < -100.0, "the grains did not attract each other")
+        # 4000 steps of rounding.
         require_close(forces[0], forces[1], 1e-8, "force")
 
     return case

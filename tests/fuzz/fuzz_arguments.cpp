@@ -2,6 +2,7 @@
 #include "arguments.h"
 #include "input.h"
 #include "plane.h"
+#include "two_dimensions.h"
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -73,6 +74,9 @@ void read_one(Arguments &arguments, unsigned how) {
 }
 
 void grainscope::end_run(LAMMPS_NS::LAMMPS *, const std::string &message) { throw Refused{message}; }
+/** As in three dimensions. */
+void grainscope::require_axes_of_plane(LAMMPS_NS::LAMMPS *, const Arguments &, const std::string &, const std::string &,
+                                       const std::string &) {}
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
   fuzz::Input input(data, size);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "ellipsoid_contact.h"
 #include "fabric.h"
 #include "input.h"
 #include "nematic.h"
 #include "principal_axes.h"
+#include <vector>
 
 using namespace grainscope;
 using Eigen::Matrix3d;
@@ -39,12 +41,17 @@ bool is_line_angle(double theta) { return theta > -M_PI_2 && theta <= M_PI_2; }
 
 void check_nematic(fuzz::Input &input) {
   NematicSums sums;
-  for (int n = input.whole(0, 12); n > 0; n--) {
-    Vector3d p;
-    input.direction(p.data(), 3);
+  for (int kinds = input.whole(0, 3); kinds > 0; kinds--) {
     const Shape shape = shape_of(input.byte());
-    sums.add_axis(p, shape);
-    sums.add_spin(Vector3d(input.small(), input.small(), input.small()));
+    const SymmetryAxis axis{shape, input.whole(0, 2)};
+    const int n = input.whole(0, 9);
+    std::vector<double> quaternions(4 * n), omega(3 * n);
+    for (int k = 0; k < n; k++) input.direction(&quaternions[4 * k], 4);
+    for (double &w : omega) w = input.small();
+    sums.add_alike(n, axis, quaternions.data(), omega.data());
+    if (n == 0) continue;
+    Vector3d p;
+    rotated_axis(quaternions.data(), axis.index, p.data());
     require(is_line_angle(major_axis_angle(p, shape)), "a grain's angle is in (-pi/2, pi/2]",
             major_axis_angle(p, shape));
     require_below(std::fabs(std::sin(major_axis_angle(p, shape) - major_axis_angle(-p, shape))), 1e-9,
