@@ -102,8 +102,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     const std::string got = arguments.done() && said.find("got the end of the command") != std::string::npos
                                 ? "the end of the command"
                                 : "'" + words[std::min(first + asked, all - 1)] + "'";
-    fuzz::require(said.size() >= got.size() && said.compare(said.size() - got.size(), got.size(), got) == 0,
-                  "a problem ends with what it got");
+    const std::size_t at = said.rfind(", got " + got);
+    fuzz::require(at != std::string::npos, "a problem says what it got");
+    const std::string after = said.substr(at + 6 + got.size());  // nothing, or the nearest choice
+    fuzz::require(after.empty() || after.compare(0, 15, ": did you mean ") == 0,
+                  "a problem ends with what it got, or what is near it");
   }
   return 0;
 }

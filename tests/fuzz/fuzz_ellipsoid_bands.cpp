@@ -16,14 +16,16 @@ void angle_of_anything(fuzz::Input &input, int bands) {
   const Vector3d x(input.any(), input.any(), input.any()),
       semi(std::fabs(input.any()), std::fabs(input.any()), std::fabs(input.any()));
   for (SurfaceAngle kind : {SurfaceAngle::polar, SurfaceAngle::parametric}) {
-    const int band = band_of(surface_angle(x, semi, kind), bands);
-    require(band >= 0 && band < bands, "a band is one of those there are", band);
+    const double psi = surface_angle(x, semi, kind);
+    const int band = band_of(psi, bands);
+    require(std::isnan(psi) ? band == -1 : band >= 0 && band < bands,
+            "a band is one of those there are, or none of what is no angle", band);
   }
 }
 
 }
 
-/** Every point is in a band; their areas add up to the area of the ellipsoid, however it is divided. */
+/** Every point that is one is in a band; their areas add up to the area of the ellipsoid, however it is divided. */
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
   fuzz::Input input(data, size);
   angle_of_anything(input, input.whole(1, 1000));
