@@ -60,9 +60,12 @@ void EnergyLedger::set_laws(const ContactLaw &between_grains, const std::vector<
 
 void EnergyLedger::begin_evaluation(int n_local, bool repeats) {
   if (!cleared_) wrenches_.clear();
-  wrenches_.resize(8 * static_cast<std::size_t>(n_local) * slots_, 0.0);
+  own_ = n_local;
+  wrenches_.resize(8 * (static_cast<std::size_t>(n_local) + 1) * slots_, 0.0);
+  std::fill_n(wrenches_of(own_), 8 * slots_, 0.0);
   cleared_ = true;
   now_.contacts[grains] = Contacts();
+  lanes_ = LaneContacts();
   if (kinds_ > 1) {
     now_.contacts[walls] = Contacts();
     now_.walls.clear();

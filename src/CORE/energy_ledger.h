@@ -3,7 +3,7 @@
 #define GRAINSCOPE_ENERGY_LEDGER_H
 
 #include "affine_flow.h"
-#include "contact_law.h"
+#include "contact_lanes.h"
 #include <Eigen/Geometry>
 #include <array>
 #include <vector>
@@ -105,9 +105,14 @@ class EnergyLedger {
     const int *mask;
     int bit;
     const int *ids;
+    /** The host's group all has bit 1. */
+    bool all() const { return bit == 1; }
   };
   /** Contacts of members with each other and with walls. `springs_move`: false in the first evaluation of a run. */
   void add(ContactSpan contacts, const Members &members, double dt, bool springs_move);
+  /** Contacts between grains side by side, with their past, in an evaluation that moves springs. */
+  void add(const ContactLanes &contacts, const Members &members);
+  void end_evaluation();
 
   /** After the forces of step n are complete, before the second kick: v = v^{n-1/2}, x = x^n; angular velocity and
    *  momentum likewise. */
@@ -175,6 +180,13 @@ class EnergyLedger {
     double kept_elastic = 0.0, kept_spring = 0.0, kept_energy = 0.0;  // of the past of those that did
     double friction = 0.0, stiffening = 0.0, travel = 0.0, revived = 0.0;
   };
+  /** Of contacts between grains that come side by side, lane by lane, until the evaluation ends. */
+  struct LaneContacts {
+    Lanes sums[parts][8]{};
+    Lanes normal_energy{}, spring_energy{}, elastic_path{}, new_elastic{}, kept_elastic{}, kept_spring{}, kept_energy{},
+        friction{}, stiffening{}, travel{}, revived{};
+    void move_to(Contacts &sums);
+  };
   /** What more is known of contacts with walls: sums, c the contact point, F_a c_b xx yy zz, F.V, F_a c_b yz xz xy, -;
    *  F; and each by itself. */
   struct Touch {
@@ -220,9 +232,11 @@ class EnergyLedger {
   Law law_;                       // between grains
   int slot_[partners][parts];     // of a part in a grain's wrenches, or -1
   int slots_ = 0, kinds_ = 1;     // kinds: of partners that there are
-  std::vector<double> wrenches_;  // eight numbers for each part on each local grain
+  int own_ = 0;                   // grains
+  std::vector<double> wrenches_;  // eight numbers for each part on each of them, and on one more, which is all ghosts
   bool cleared_ = false;          // and all are 0
   Evaluation now_, before_;
+  LaneContacts lanes_;
   Ends ends_;
   Starts starts_;
   LedgerFrame frame_, next_, carried_;
@@ -240,6 +254,12 @@ class EnergyLedger {
   static double half_work(const Contacts &contacts, int part, double dt);
   static double wall_power(const WallContacts &sums, int part, const LedgerFrame &frame);
   struct Unit;
+  struct LaneForce;
+  struct LaneArms;
+  void add_normal(const ContactLanes &c, const LaneArms &arms, const Lanes &elastic_force, const Lanes &damping_force);
+  void add_tangential(int part, const ContactLanes &c, const LaneArms &arms, const Lanes *force);
+  void add_past(const ContactLanes &c, const Lanes &weight, const Lanes &elastic_force);
+  void add_spring(const ContactLanes &c, const Lanes &weight);
   template <Partner partner>
   void add_contact(const Law &law, const Contact &c, double dt, bool springs_move);
   void add_with_wall(const Contact &c, int grain_id, double dt, bool springs_move);
