@@ -85,6 +85,18 @@ class EnergyLedger {
     const double *x, *v, *force, *torque;
   };
 
+  /** Many, in rows of three numbers, of quaternions four: spheroids, or without quaternions spheres of moment of inertia
+   *  `inertia_factor` m r^2, which have no inertia and momentum here. */
+  struct Grains {
+    int n;
+    const int *mask;
+    int bit, frozen;  // the ledger's; of grains that may be held, whatever their force
+    const double *mass, *x, *v, *force, *torque, *omega, *momentum, *inertia, *quaternion, *radius;
+    double inertia_factor;
+
+    bool four_free(int i) const;
+  };
+
   /** What grains bring when they come and take when they leave: their kinetic energy, and what is stored in contacts
    *  that only exist with them, by partner. */
   enum Partner { grains, walls, partners };
@@ -118,6 +130,8 @@ class EnergyLedger {
    *  momentum likewise. */
   void begin_end_of_step() { ends_ = Ends(); }
   void end_of_step(const Grain &grain, const double omega[3], const double momentum[3], double dt);
+  /** From grain i on as many as it can take side by side: the first that it has not taken; likewise at the start. */
+  int end_of_step(const Grains &grains, int i, double dt);
   /** Its weight, whose work is not to be other work; likewise at the start of a step. */
   void end_with_weight(const Grain &grain, const Eigen::Vector3d &weight);
   /** Some left and some came since the step began, before its forces were evaluated. Kinetic energies are those of the
@@ -130,6 +144,7 @@ class EnergyLedger {
    *  kick, and momentum, before it: inertia w = L + torque dt/2. */
   void begin_start_of_step(const LedgerFrame &frame);
   void start_of_step(const Grain &grain, const double omega_after[3], const double momentum[3], double dt);
+  int start_of_step(const Grains &grains, int i, double dt);
   void start_with_weight(const Grain &grain, const Eigen::Vector3d &weight, double dt);
   /** Of its velocity `given` came with the frame's change, because the grain lies beyond a face; after
    *  start_of_step(). */
@@ -170,7 +185,7 @@ class EnergyLedger {
   enum Part { elastic, damping, spring, sliding, viscous, rolling, parts };
   /** Eight numbers of each part: force, -, torque, - on a grain; or in sums over contacts F_a r_b xx yy zz, F.u, F_a
    *  r_b yz xz xy, -. */
-  static constexpr int power_place = 3;
+  static constexpr int power_place = 3, power_moments = 7;
   /** Sums over the contacts of one evaluation with one kind of partner. */
   struct Contacts {
     double sums[parts][8] = {};
@@ -182,7 +197,7 @@ class EnergyLedger {
   };
   /** Of contacts between grains that come side by side, lane by lane, until the evaluation ends. */
   struct LaneContacts {
-    Lanes sums[parts][8]{};
+    Lanes sums[parts][power_moments]{};
     Lanes normal_energy{}, spring_energy{}, elastic_path{}, new_elastic{}, kept_elastic{}, kept_spring{}, kept_energy{},
         friction{}, stiffening{}, travel{}, revived{};
     void move_to(Contacts &sums);
@@ -234,7 +249,7 @@ class EnergyLedger {
   int slots_ = 0, kinds_ = 1;     // kinds: of partners that there are
   int own_ = 0;                   // grains
   std::vector<double> wrenches_;  // eight numbers for each part on each of them, and on one more, which is all ghosts
-  bool cleared_ = false;          // and all are 0
+  bool filled_[partners * parts] = {};  // slots that are not 0
   Evaluation now_, before_;
   LaneContacts lanes_;
   Ends ends_;
@@ -254,10 +269,14 @@ class EnergyLedger {
   static double half_work(const Contacts &contacts, int part, double dt);
   static double wall_power(const WallContacts &sums, int part, const LedgerFrame &frame);
   struct Unit;
-  struct LaneForce;
+  struct LaneStarts;
+  bool start_four(const Grains &grains, int i, double dt, LaneStarts &sums);
   struct LaneArms;
-  void add_normal(const ContactLanes &c, const LaneArms &arms, const Lanes &elastic_force, const Lanes &damping_force);
-  void add_tangential(int part, const ContactLanes &c, const LaneArms &arms, const Lanes *force);
+  /** Where a part is in the wrenches that grains have of each other: they are the first, in the order of the parts, and of
+   *  spring and sliding a law has one. */
+  static constexpr int lane_slot(Part part) { return part <= damping ? part : part <= sliding ? spring : sliding; }
+  void add_normal(const ContactLanes &c, const LaneArms &arms, const Lanes *sizes);
+  void add_tangential(Part part, int slot, const ContactLanes &c, const LaneArms &arms, const Lanes *force);
   void add_past(const ContactLanes &c, const Lanes &weight, const Lanes &elastic_force);
   void add_spring(const ContactLanes &c, const Lanes &weight);
   template <Partner partner>

@@ -34,83 +34,85 @@ GRAINSCOPE_INLINE Lanes of_overlap(const Lanes &overlap, double exponent) {
 
 }
 
-/** Where a contact is, seen from its two grains, and who is asked. */
+/** Where contacts are, seen from their two grains, and where what they do to them is added up. */
 struct EnergyLedger::LaneArms {
-  LaneMask here;
   Lanes weight;
-  Lanes branch[3];  // with the weight
-  Lanes i[3], j[3];
+  const Lanes *i;
+  Lanes j[3], branch[3];              // branch: with the weight
+  double *of_i[LANES], *of_j[LANES];  // of those that do not count, and of ghosts, in one place
 
-  GRAINSCOPE_INLINE LaneArms(const ContactLanes &c, const Members &members)
-      : here(c.geometry.touching), weight(c.forces.weight) {
+  GRAINSCOPE_INLINE LaneArms(const ContactLanes &c, const Members &members, double *wrenches, std::ptrdiff_t stride,
+                             int own)
+      : weight(c.forces.weight), i(c.forces.arm) {
+    LaneMask here = c.geometry.touching;
     if (!members.all()) {
       here &= members_of(c.group, members);
       weight = pick(here, weight, Lanes{});
     }
     for (int a = 0; a < 3; a++) {
       const Lanes r = c.branch(a);
-      i[a] = c.forces.arm[a];
       j[a] = i[a] + r;
       branch[a] = weight * r;
     }
-  }
-};
-
-/** A force on i: its torques on both, lane after lane, and F_a r_b. */
-struct EnergyLedger::LaneForce {
-  Lanes force[LANES], torque_i[LANES], torque_j[LANES], moments[6];
-
-  GRAINSCOPE_INLINE LaneForce(const Lanes *f, const LaneArms &arms) {
-    Lanes torque[3];
-    rows_of(f, force);
-    cross(arms.i, f, torque);
-    rows_of(torque, torque_i);
-    cross(arms.j, f, torque);
-    rows_of(torque, torque_j);
-    const Lanes *const r = arms.branch;
-    const Lanes products[6] = {f[0] * r[0], f[1] * r[1], f[2] * r[2], f[1] * r[2], f[0] * r[2], f[0] * r[1]};
-    std::copy(products, products + 6, moments);
-  }
-};
-
-GRAINSCOPE_INLINE void EnergyLedger::add_normal(const ContactLanes &c, const LaneArms &arms, const Lanes &elastic_force,
-                                                const Lanes &damping_force) {
-  const LaneForce unit(c.forces.normal, arms);
-  const Lanes sizes[2] = {elastic_force, damping_force}, power = arms.weight * c.forces.normal_velocity;
-  for (int part = elastic; part <= damping; part++) {
-    Lanes *const sums = lanes_.sums[part];
-    for (int k = 0; k < 6; k++) sums[k < 3 ? k : k + 1] += sizes[part] * unit.moments[k];
-    sums[power_place] += sizes[part] * power;
-  }
-  for (int k = 0; k < LANES; k++) {
-    if (!arms.here[k]) continue;
-    double *const of_i = wrenches_of(c.group.i[k]), *const of_j = wrenches_of(std::min(c.group.j[k], own_));
-    for (int part = elastic; part <= damping; part++) {
-      const int at = 8 * slot_[grains][part];
-      const Lanes size = lanes_of(sizes[part][k]), force = size * unit.force[k];
-      add_to(of_i + at, force);
-      add_to(of_i + at + 4, size * unit.torque_i[k]);
-      take_from(of_j + at, force);
-      take_from(of_j + at + 4, size * unit.torque_j[k]);
+    for (int k = 0; k < LANES; k++) {
+      of_i[k] = wrenches + stride * (here[k] ? c.group.i[k] : own);
+      of_j[k] = wrenches + stride * (here[k] ? std::min(c.group.j[k], own) : own);
     }
   }
+  /** F_a r_b and F.u. */
+  GRAINSCOPE_INLINE void moments(const Lanes *f, const Lanes &power, Lanes *m) const {
+    for (int a = 0; a < 3; a++) m[a] = f[a] * branch[a];
+    m[power_place] = weight * power;
+    m[4] = f[1] * branch[2];
+    m[5] = f[0] * branch[2];
+    m[6] = f[0] * branch[1];
+  }
+};
+
+/** Elastic and damping forces: so many times a unit force. */
+GRAINSCOPE_INLINE void EnergyLedger::add_normal(const ContactLanes &c, const LaneArms &arms, const Lanes *sizes) {
+  const Lanes *const n = c.forces.normal;
+  Lanes moments[power_moments], torque[3], rows[LANES];
+  arms.moments(n, c.forces.normal_velocity, moments);
+  for (int part = elastic; part <= damping; part++)
+    for (int k = 0; k < power_moments; k++) lanes_.sums[part][k] += sizes[part] * moments[k];
+  constexpr int at[2] = {8 * lane_slot(elastic), 8 * lane_slot(damping)};
+  filled_[lane_slot(elastic)] = filled_[lane_slot(damping)] = true;
+  rows_of(n, rows);
+  for (int k = 0; k < LANES; k++)
+    for (int part = elastic; part <= damping; part++) {
+      const Lanes force = sizes[part][k] * rows[k];
+      add_to(arms.of_i[k] + at[part], force);
+      take_from(arms.of_j[k] + at[part], force);
+    }
+  cross(arms.i, n, torque);
+  rows_of(torque, rows);
+  for (int k = 0; k < LANES; k++)
+    for (int part = elastic; part <= damping; part++) add_to(arms.of_i[k] + at[part] + 4, sizes[part][k] * rows[k]);
+  cross(n, arms.j, torque);
+  rows_of(torque, rows);
+  for (int k = 0; k < LANES; k++)
+    for (int part = elastic; part <= damping; part++) add_to(arms.of_j[k] + at[part] + 4, sizes[part][k] * rows[k]);
 }
 
-GRAINSCOPE_INLINE void EnergyLedger::add_tangential(int part, const ContactLanes &c, const LaneArms &arms,
-                                                    const Lanes *force) {
-  const LaneForce all(force, arms);
-  Lanes *const sums = lanes_.sums[part];
-  for (int k = 0; k < 6; k++) sums[k < 3 ? k : k + 1] += all.moments[k];
-  sums[power_place] += arms.weight * dot(force, c.forces.tangential_velocity);
-  const int at = 8 * slot_[grains][part];
+GRAINSCOPE_INLINE void EnergyLedger::add_tangential(Part part, int slot, const ContactLanes &c, const LaneArms &arms,
+                                                    const Lanes *f) {
+  Lanes moments[power_moments], torque[3], rows[LANES];
+  arms.moments(f, dot(f, c.forces.tangential_velocity), moments);
+  for (int k = 0; k < power_moments; k++) lanes_.sums[part][k] += moments[k];
+  const int at = 8 * slot;
+  filled_[slot] = true;
+  rows_of(f, rows);
   for (int k = 0; k < LANES; k++) {
-    if (!arms.here[k]) continue;
-    double *const of_i = wrenches_of(c.group.i[k]) + at, *const of_j = wrenches_of(std::min(c.group.j[k], own_)) + at;
-    add_to(of_i, all.force[k]);
-    add_to(of_i + 4, all.torque_i[k]);
-    take_from(of_j, all.force[k]);
-    take_from(of_j + 4, all.torque_j[k]);
+    add_to(arms.of_i[k] + at, rows[k]);
+    take_from(arms.of_j[k] + at, rows[k]);
   }
+  cross(arms.i, f, torque);
+  rows_of(torque, rows);
+  for (int k = 0; k < LANES; k++) add_to(arms.of_i[k] + at + 4, rows[k]);
+  cross(f, arms.j, torque);
+  rows_of(torque, rows);
+  for (int k = 0; k < LANES; k++) add_to(arms.of_j[k] + at + 4, rows[k]);
 }
 
 GRAINSCOPE_INLINE void EnergyLedger::add_past(const ContactLanes &c, const Lanes &weight, const Lanes &elastic_force) {
@@ -154,13 +156,12 @@ GRAINSCOPE_INLINE void EnergyLedger::add_spring(const ContactLanes &c, const Lan
 
 GRAINSCOPE_CLONES
 void EnergyLedger::add(const ContactLanes &c, const Members &members) {
-  cleared_ = false;
   const GroupForces &f = c.forces;
-  const LaneArms arms(c, members);
-  const Lanes elastic_force = f.kn * f.overlap, damping_force = c.normal_damping();
-  add_normal(c, arms, elastic_force, damping_force);
+  const LaneArms arms(c, members, wrenches_.data(), 8 * slots_, own_);
+  const Lanes sizes[2] = {f.kn * f.overlap, c.normal_damping()};
+  add_normal(c, arms, sizes);
   if (law_.viscous) {
-    const Lanes against = c.tangential_damping(), along_normal = elastic_force + damping_force;
+    const Lanes against = c.tangential_damping(), along_normal = sizes[elastic] + sizes[damping];
     Lanes force[3];
     for (int a = 0; a < 3; a++) force[a] = f.force[a] - along_normal * f.normal[a];
     if (any(against > 0.0)) {
@@ -169,20 +170,20 @@ void EnergyLedger::add(const ContactLanes &c, const Members &members) {
         drag[a] = -against * f.tangential_velocity[a];
         force[a] -= drag[a];
       }
-      add_tangential(viscous, c, arms, drag);
+      add_tangential(viscous, lane_slot(viscous), c, arms, drag);
     }
-    add_tangential(law_.spring ? spring : sliding, c, arms, force);
+    add_tangential(law_.spring ? spring : sliding, lane_slot(spring), c, arms, force);
   }
-  const Lanes force = arms.weight * elastic_force;
+  const Lanes force = arms.weight * sizes[elastic];
   lanes_.normal_energy += force * f.overlap * law_.energy_factor;
   lanes_.new_elastic -= pick(c.past->known, Lanes{}, 0.5 * c.dt * force * f.normal_velocity);
-  add_past(c, arms.weight, elastic_force);
+  add_past(c, arms.weight, sizes[elastic]);
   if (law_.spring) add_spring(c, arms.weight);
 }
 
 void EnergyLedger::LaneContacts::move_to(Contacts &to) {
   for (int part = 0; part < parts; part++)
-    for (int k = 0; k < 8; k++) to.sums[part][k] += sum_of(sums[part][k]);
+    for (int k = 0; k < power_moments; k++) to.sums[part][k] += sum_of(sums[part][k]);
   to.normal_energy += sum_of(normal_energy);
   to.spring_energy += sum_of(spring_energy);
   to.elastic_path += sum_of(elastic_path);
