@@ -46,6 +46,7 @@ bool EnergyLedger::Law::has(Part part) const {
 }
 
 void EnergyLedger::set_laws(const ContactLaw &between_grains, const std::vector<const ContactLaw *> &with_walls) {
+  wrenches_.clear();
   law_ = Law(between_grains);
   now_.contacts[walls] = Contacts();
   kinds_ = with_walls.empty() ? 1 : partners;
