@@ -214,6 +214,13 @@ TEST(energy_ledger_lanes, ghosts_of_the_step_before_are_no_grains) {
       before.start(*ledger, 1, false);
       ledger->book_start(DT);
       ledger->begin_evaluation(own);
+    }
+    random.many([](const ContactLanes &) {},
+                [&](const Contact &c) {
+                  if (c.i >= own || (!c.ghost() && c.j() >= own)) return;
+                  for (EnergyLedger *ledger : {&lanes, &single}) ledger->add({&c, 1}, {mask, 1, nullptr}, DT, true);
+                });
+    for (EnergyLedger *ledger : {&lanes, &single}) {
       ledger->begin_end_of_step();
       after.end(*ledger, 1, false);
       ledger->book_step(DT);
