@@ -24,7 +24,7 @@ class RandomGrains {
       Eigen::Map<Eigen::Vector4d>(&quaternion_[4 * i]).normalize();
       const int axis = shapes == Shapes::mixed ? i / 5 % 3 : 2;
       for (int a = 0; a < 3; a++) inertia_[3 * i + a] = a == axis ? 1.0 + 0.1 * (i % 7) : 1.3;
-      if (shapes == Shapes::mixed && i == 13) inertia_[3 * i] *= 1.0 + 1e-8;  // triaxial, but hardly
+      if (shapes == Shapes::mixed && i == 21) inertia_[3 * i] *= 1.0 + 1e-8;  // triaxial, but hardly
     }
   }
   void move() {
