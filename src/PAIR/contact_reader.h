@@ -48,10 +48,9 @@ class ContactReader {
   }
   /** Two grains touch. */
   void after(const Surfaces &s, const Forces &force_on_i);
-  /** Two grains touch, of a group whose law was worked out side by side: the pair in lane k, its columns of the contact
-   *  history, its atom types. `past`: null where contacts keep none. */
-  void after(const PairGroup &group, const GroupGeometry &geometry, const GroupForces &forces, const PastLanes *past,
-             int k, double *history, const int types[2]);
+  /** Two grains touch, of a group whose law was worked out side by side: the pair in lane k, its atom types. */
+  void after(const PairGroup &group, const GroupGeometry &geometry, const GroupForces &forces, int k,
+             const int types[2]);
   /** A grain touches a wall; its velocity is read here. */
   void after_wall(const Surfaces &s, const Forces &force_on_i, const PartnerWall &wall);
 
@@ -84,7 +83,7 @@ class ContactReader {
   void read_rolling(const Surfaces &s, const Forces &force_on_i, Contact &c) const;
   void read_past(const Surfaces &s, Contact &c) const;
   void write_past(const Surfaces &s, const Contact &c) const;
-  void renew_past(const Surfaces &s, Contact &c) const;
+  void renew_past(const Surfaces &s, const Friction &friction, Contact &c) const;
 };
 
 }

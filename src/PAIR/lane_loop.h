@@ -130,8 +130,9 @@ void LaneLoop<Model>::set_law() {
       !s_.shearupdate || TangentialBound::get().mode() != TangentialBound::Mode::off || observer_.repeats();
   in_lanes_ = !first && law_.covers();
   kept_ = observed() || pair_->evflag ? &forces_ : nullptr;
-  forces_.springs = observed() && (observer_.needs_records() || observer_.keeps_past());
-  forces_.motion = forces_.springs || (observed() && observer_.lanes_need_motion());
+  forces_.points = observed() && observer_.needs_records();
+  forces_.springs = observed() && observer_.keeps_past();
+  forces_.motion = forces_.points || (observed() && observer_.lanes_need_motion());
   if (!in_lanes_) return;
   law_.refresh();
   group_law_.law = &law_.law();
@@ -173,7 +174,7 @@ inline void LaneLoop<Model>::follow_up(PairOf pair, int n) {
     if (!geometry_.touching[k]) continue;
     if (records) {
       const int types[2] = {lmp_->atom->type[group_.i[k]], lmp_->atom->type[group_.j[k]]};
-      reader_.after(group_, geometry_, forces_, past, k, pair(k).history, types);
+      reader_.after(group_, geometry_, forces_, k, types);
     }
     if (pair_->evflag) {
       const double force[3] = {forces_.force[0][k], forces_.force[1][k], forces_.force[2][k]};
