@@ -42,28 +42,31 @@ struct LaneFlow {
   }
 };
 
-/** Angular momentum now, and angular velocity after a kick, of grains i to i + 3; false if they are not all symmetric
- *  tops about the same axis. */
-GRAINSCOPE_INLINE bool coming_spin(const EnergyLedger::Grains &g, int i, const Lanes &mass, const Lanes *torque,
-                                   double kick, Lanes *momentum, Lanes *spin) {
-  if (!g.quaternion) {
-    const Lanes radius = load(g.radius + i), inertia = g.inertia_factor * mass * radius * radius;
-    Lanes omega[3];
-    read_threes(g.omega + 3 * i, omega);
-    for (int a = 0; a < 3; a++) {
-      momentum[a] = inertia * omega[a];
-      spin[a] = omega[a] + kick / inertia * torque[a];
-    }
-    return true;
+/** Angular momentum now, and angular velocity after a kick, of grains i to i + 3. */
+GRAINSCOPE_INLINE void coming_spin_of_spheres(const EnergyLedger::Grains &g, int i, const Lanes &mass,
+                                              const Lanes *torque, double kick, Lanes *momentum, Lanes *spin) {
+  const Lanes radius = load(g.radius + i), inertia = g.inertia_factor * mass * radius * radius;
+  Lanes omega[3];
+  read_threes(g.omega + 3 * i, omega);
+  for (int a = 0; a < 3; a++) {
+    momentum[a] = inertia * omega[a];
+    spin[a] = omega[a] + kick / inertia * torque[a];
   }
-  Lanes inertia[3], kicked[3], q[4];
+}
+/** Likewise; false if they are not all symmetric tops about the same axis. Real is Lanes: templates take the alignment
+ *  of what is theirs. */
+template <class Real>
+GRAINSCOPE_INLINE bool coming_spin_of_tops(const EnergyLedger::Grains &g, int i, const Lanes *torque, double kick,
+                                           Lanes *momentum, Lanes *spin) {
+  Real inertia[3], kicked[3], q[4], omega[3];
   read_threes(g.inertia + 3 * i, inertia);
   const int axis = axis_of_symmetric_top(inertia);
   if (axis < 0 || !all(are_symmetric_about(axis, inertia))) return false;
   read_threes(g.momentum + 3 * i, momentum);
   read_fours(g.quaternion + 4 * i, q);
   for (int a = 0; a < 3; a++) kicked[a] = momentum[a] + kick * torque[a];
-  angular_velocity(axis, inertia, kicked, q, spin);
+  angular_velocity(axis, inertia, kicked, q, omega);
+  for (int a = 0; a < 3; a++) spin[a] = omega[a];
   return true;
 }
 
@@ -147,7 +150,8 @@ GRAINSCOPE_INLINE bool EnergyLedger::start_four(const Grains &g, int i, double d
   const Lanes mass = load(g.mass + i);
   Lanes force[3], torque[3], momentum[3], spin[3];
   read_threes(g.torque + 3 * i, torque);
-  if (!coming_spin(g, i, mass, torque, 0.5 * dt, momentum, spin)) return false;
+  if (!g.quaternion) coming_spin_of_spheres(g, i, mass, torque, 0.5 * dt, momentum, spin);
+  else if (!coming_spin_of_tops<Lanes>(g, i, torque, 0.5 * dt, momentum, spin)) return false;
   for (int a = 0; a < 3; a++) momentum[a] -= 0.5 * dt * torque[a];
   sums.k_rot += 0.5 * dot(spin, momentum);
 
