@@ -95,7 +95,7 @@ struct Contact {
   // When a sink needs it (ContactSink::needs_motion)
   std::optional<ContactMotion> motion;
   std::optional<ContactRolling> rolling;  // of a law with a rolling model
-  // With `ledger on` only
+  // With `ledger on` only, and not where sinks may take contacts side by side: GroupForces and PastLanes have it there
   std::optional<ContactPast> past;      // of contacts that touched in the previous evaluation
   std::optional<ContactSpring> spring;  // of a law that has one
 

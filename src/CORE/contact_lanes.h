@@ -3,7 +3,7 @@
 #define GRAINSCOPE_CONTACT_LANES_H
 
 #include "contact_law.h"
-#include "pair_group.h"
+#include "past_lanes.h"
 
 namespace grainscope {
 
@@ -14,7 +14,8 @@ struct ContactLanes {
   const GroupGeometry &geometry;
   const GroupForces &forces;
   const ContactLaw &law;
-  double dt;  // the time step
+  double dt;                        // the time step
+  const PastLanes *past = nullptr;  // with `ledger on`
 
   // As in Contact and ContactMotion, k a component:
   GRAINSCOPE_INLINE Lanes branch(int k) const { return -geometry.d[k]; }

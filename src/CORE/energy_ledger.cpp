@@ -46,6 +46,7 @@ bool EnergyLedger::Law::has(Part part) const {
 }
 
 void EnergyLedger::set_laws(const ContactLaw &between_grains, const std::vector<const ContactLaw *> &with_walls) {
+  wrenches_.clear();
   law_ = Law(between_grains);
   now_.contacts[walls] = Contacts();
   kinds_ = with_walls.empty() ? 1 : partners;
@@ -59,10 +60,14 @@ void EnergyLedger::set_laws(const ContactLaw &between_grains, const std::vector<
 }
 
 void EnergyLedger::begin_evaluation(int n_local, bool repeats) {
-  if (!cleared_) wrenches_.clear();
-  wrenches_.resize(8 * static_cast<std::size_t>(n_local) * slots_, 0.0);
-  cleared_ = true;
+  const std::size_t row = 8 * slots_;
+  if (std::any_of(filled_, filled_ + slots_, [](bool filled) { return filled; })) wrenches_.clear();
+  else if (!wrenches_.empty()) std::fill(wrenches_.end() - row, wrenches_.end(), 0.0);  // that of ghosts
+  own_ = n_local;
+  wrenches_.resize((own_ + std::size_t(1)) * row, 0.0);
+  std::fill(filled_, filled_ + slots_, false);
   now_.contacts[grains] = Contacts();
+  lanes_ = LaneContacts();
   if (kinds_ > 1) {
     now_.contacts[walls] = Contacts();
     now_.walls.clear();
@@ -102,7 +107,8 @@ template <EnergyLedger::Partner partner>
 GRAINSCOPE_INLINE void EnergyLedger::add_part(int part, double size, const Unit &unit, const Contact &c, double *of_i,
                                               double *of_j) {
   const Lanes times = lanes_of(size), force = times * unit.force;
-  const int at = 8 * slot_[partner][part];
+  const int slot = slot_[partner][part], at = 8 * slot;
+  filled_[slot] = true;
   double *const sums = now_.contacts[partner].sums[part];
   add_to(sums, times * unit.diagonal);
   add_to(sums + 4, times * unit.beside);
@@ -147,7 +153,6 @@ GRAINSCOPE_INLINE void EnergyLedger::add_spring(Contacts &sums, const Contact &c
 
 template <EnergyLedger::Partner partner>
 GRAINSCOPE_INLINE void EnergyLedger::add_contact(const Law &law, const Contact &c, double dt, bool springs_move) {
-  cleared_ = false;
   Contacts &sums = now_.contacts[partner];
   const ContactMotion &m = *c.motion;
   const double elastic_force = m.normal_stiffness * c.overlap;
@@ -214,6 +219,7 @@ void EnergyLedger::end_of_step(const Grain &g, const double omega[3], const doub
   Lanes other_force = lanes_of(force), other_torque = lanes_of(torque);
   const double *at = wrenches_of(g.index);
   for (int k = 0; k < slots_; k++, at += 8) {
+    if (!filled_[k]) continue;
     other_force -= load(at + 0);
     other_torque -= load(at + 4);
   }
@@ -252,6 +258,7 @@ void EnergyLedger::start_of_step(const Grain &g, const double omega_after[3], co
   Lanes other = lanes_of(force) * velocity + lanes_of(torque) * turning;
   double *part = wrenches_of(g.index);
   for (int k = 0; k < slots_; k++, part += 8) {
+    if (!filled_[k]) continue;
     const Lanes power = load(part + 0) * velocity + load(part + 4) * turning;
     add_to(starts_.rate[k], power);
     other -= power;

@@ -3,7 +3,7 @@
 #define GRAINSCOPE_ENERGY_LEDGER_H
 
 #include "affine_flow.h"
-#include "contact_law.h"
+#include "contact_lanes.h"
 #include <Eigen/Geometry>
 #include <array>
 #include <vector>
@@ -85,6 +85,18 @@ class EnergyLedger {
     const double *x, *v, *force, *torque;
   };
 
+  /** Many, in rows of three numbers, of quaternions four: spheroids, or without quaternions spheres of moment of inertia
+   *  `inertia_factor` m r^2, which have no inertia and momentum here. */
+  struct Grains {
+    int n;
+    const int *mask;
+    int bit, frozen;  // the ledger's; of grains that may be held, whatever their force
+    const double *mass, *x, *v, *force, *torque, *omega, *momentum, *inertia, *quaternion, *radius;
+    double inertia_factor;
+
+    bool four_free(int i) const;
+  };
+
   /** What grains bring when they come and take when they leave: their kinetic energy, and what is stored in contacts
    *  that only exist with them, by partner. */
   enum Partner { grains, walls, partners };
@@ -105,14 +117,21 @@ class EnergyLedger {
     const int *mask;
     int bit;
     const int *ids;
+    /** The host's group all has bit 1. */
+    bool all() const { return bit == 1; }
   };
   /** Contacts of members with each other and with walls. `springs_move`: false in the first evaluation of a run. */
   void add(ContactSpan contacts, const Members &members, double dt, bool springs_move);
+  /** Contacts between grains side by side, with their past, in an evaluation that moves springs. */
+  void add(const ContactLanes &contacts, const Members &members);
+  void end_evaluation();
 
   /** After the forces of step n are complete, before the second kick: v = v^{n-1/2}, x = x^n; angular velocity and
    *  momentum likewise. */
   void begin_end_of_step() { ends_ = Ends(); }
   void end_of_step(const Grain &grain, const double omega[3], const double momentum[3], double dt);
+  /** From grain i on as many as it can take side by side: the first that it has not taken; likewise at the start. */
+  int end_of_step(const Grains &grains, int i, double dt);
   /** Its weight, whose work is not to be other work; likewise at the start of a step. */
   void end_with_weight(const Grain &grain, const Eigen::Vector3d &weight);
   /** Some left and some came since the step began, before its forces were evaluated. Kinetic energies are those of the
@@ -125,6 +144,7 @@ class EnergyLedger {
    *  kick, and momentum, before it: inertia w = L + torque dt/2. */
   void begin_start_of_step(const LedgerFrame &frame);
   void start_of_step(const Grain &grain, const double omega_after[3], const double momentum[3], double dt);
+  int start_of_step(const Grains &grains, int i, double dt);
   void start_with_weight(const Grain &grain, const Eigen::Vector3d &weight, double dt);
   /** Of its velocity `given` came with the frame's change, because the grain lies beyond a face; after
    *  start_of_step(). */
@@ -165,7 +185,7 @@ class EnergyLedger {
   enum Part { elastic, damping, spring, sliding, viscous, rolling, parts };
   /** Eight numbers of each part: force, -, torque, - on a grain; or in sums over contacts F_a r_b xx yy zz, F.u, F_a
    *  r_b yz xz xy, -. */
-  static constexpr int power_place = 3;
+  static constexpr int power_place = 3, power_moments = 7;
   /** Sums over the contacts of one evaluation with one kind of partner. */
   struct Contacts {
     double sums[parts][8] = {};
@@ -174,6 +194,13 @@ class EnergyLedger {
     double new_elastic = 0.0;   // the half step's work of those that did not
     double kept_elastic = 0.0, kept_spring = 0.0, kept_energy = 0.0;  // of the past of those that did
     double friction = 0.0, stiffening = 0.0, travel = 0.0, revived = 0.0;
+  };
+  /** Of contacts between grains that come side by side, lane by lane, until the evaluation ends. */
+  struct LaneContacts {
+    Lanes sums[parts][power_moments]{};
+    Lanes normal_energy{}, spring_energy{}, elastic_path{}, new_elastic{}, kept_elastic{}, kept_spring{}, kept_energy{},
+        friction{}, stiffening{}, travel{}, revived{};
+    void move_to(Contacts &sums);
   };
   /** What more is known of contacts with walls: sums, c the contact point, F_a c_b xx yy zz, F.V, F_a c_b yz xz xy, -;
    *  F; and each by itself. */
@@ -220,9 +247,11 @@ class EnergyLedger {
   Law law_;                       // between grains
   int slot_[partners][parts];     // of a part in a grain's wrenches, or -1
   int slots_ = 0, kinds_ = 1;     // kinds: of partners that there are
-  std::vector<double> wrenches_;  // eight numbers for each part on each local grain
-  bool cleared_ = false;          // and all are 0
+  int own_ = 0;                   // grains
+  std::vector<double> wrenches_;  // eight numbers for each part on each of them, and on one more, which is all ghosts
+  bool filled_[partners * parts] = {};  // slots that are not 0
   Evaluation now_, before_;
+  LaneContacts lanes_;
   Ends ends_;
   Starts starts_;
   LedgerFrame frame_, next_, carried_;
@@ -240,6 +269,16 @@ class EnergyLedger {
   static double half_work(const Contacts &contacts, int part, double dt);
   static double wall_power(const WallContacts &sums, int part, const LedgerFrame &frame);
   struct Unit;
+  struct LaneStarts;
+  bool start_four(const Grains &grains, int i, double dt, LaneStarts &sums);
+  struct LaneArms;
+  /** Where a part is in the wrenches that grains have of each other: they are the first, in the order of the parts, and of
+   *  spring and sliding a law has one. */
+  static constexpr int lane_slot(Part part) { return part <= damping ? part : part <= sliding ? spring : sliding; }
+  void add_normal(const ContactLanes &c, const LaneArms &arms, const Lanes *sizes);
+  void add_tangential(Part part, int slot, const ContactLanes &c, const LaneArms &arms, const Lanes *force);
+  void add_past(const ContactLanes &c, const Lanes &weight, const Lanes &elastic_force);
+  void add_spring(const ContactLanes &c, const Lanes &weight);
   template <Partner partner>
   void add_contact(const Law &law, const Contact &c, double dt, bool springs_move);
   void add_with_wall(const Contact &c, int grain_id, double dt, bool springs_move);

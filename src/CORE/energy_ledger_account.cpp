@@ -142,7 +142,7 @@ void EnergyLedger::book_start(double dt) {
       if (partner == walls) flow -= wall_power(now_.walls, k, next_);
       starts_.work[partner][k] = -0.5 * dt * (sum_of_three(starts_.rate[slot]) + flow);
     }
-  cleared_ = true;
+  std::fill(filled_, filled_ + slots_, false);
   if (stepped_) {
     const double carried = driven_ ? starts_.k_carried : starts_.k_new, old = moved_ ? starts_.k_old : carried;
     between_[W_other] += old - stored_[K_tr] + starts_.k_rot - stored_[K_rot];

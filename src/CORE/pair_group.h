@@ -39,8 +39,8 @@ struct GroupForces {
   bool motion = true;
   Lanes normal_velocity, tangential_velocity[3];
   Lanes arm[3];  // from the centre of i to the contact point
-  // The contact point, and the spring (Friction): what Contacts are made of.
-  bool springs = true;
+  // The contact point, for Contacts; the spring (Friction), for the ledger.
+  bool points = true, springs = true;
   Lanes point[3], before[3], uncut[3], after[3];
 };
 

@@ -110,9 +110,10 @@ GRAINSCOPE_INLINE void keep_forces(LaneMask touching, const Approach<Lanes> &a, 
     kept.tangential_velocity[k] = touched(a.tangential_velocity[k]);
     kept.arm[k] = touched(place.arm[k]);
   }
+  if (kept.points)
+    for (int k = 0; k < 3; k++) kept.point[k] = touched(place.point[k]);
   if (!kept.springs) return;
   for (int k = 0; k < 3; k++) {
-    kept.point[k] = touched(place.point[k]);
     kept.before[k] = touched(before[k]);
     kept.uncut[k] = touched(f.uncut[k]);
     kept.after[k] = touched(f.spring[k]);

@@ -101,7 +101,15 @@ class SymmetricTop {
 };
 
 /** Two moments of inertia are equal. (Semi-axes that are equal to 1e-9 give moments that are equal to 2e-9.) */
-inline bool is_symmetric_top(const double inertia[3]) { return symmetry_axis(inertia, 4e-9).shape != Shape::triaxial; }
+constexpr double ALIKE = 4e-9;
+inline bool is_symmetric_top(const double inertia[3]) { return symmetry_axis(inertia, ALIKE).shape != Shape::triaxial; }
+
+/** Likewise, axis being that across which the moments are the most alike. */
+template <class Real>
+GRAINSCOPE_INLINE typename MaskOf<Real>::type are_symmetric_about(int axis, const Real inertia[3]) {
+  const Real a = inertia[(axis + 1) % 3], b = inertia[(axis + 2) % 3];
+  return absolute(a - b) <= ALIKE * pick(a < b, b, a);
+}
 
 /** The body axis across which the moments are the most alike: that of symmetry; where all three are equal, any. -1
  *  where those side by side have not the same. */

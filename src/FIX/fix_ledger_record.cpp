@@ -189,6 +189,12 @@ void FixLedgerRecord::add_contacts(grainscope::ContactSpan contacts) {
   impl_->ledger.add(contacts, {atom->mask, groupbit, atom->tag}, update->dt, impl_->pair->observer().springs_move());
 }
 
+void FixLedgerRecord::add_lanes(const grainscope::ContactLanes &contacts) {
+  impl_->ledger.add(contacts, {atom->mask, groupbit, atom->tag});
+}
+
+void FixLedgerRecord::end_contacts() { impl_->ledger.end_evaluation(); }
+
 void FixLedgerRecord::pre_exchange() {
   if (!impl_->may_pass) return;
   impl_->before_exchange = impl_->motion->grains_in_step(impl_->ledger);

@@ -37,6 +37,9 @@ class FixLedgerRecord : public grainscope::InternalFix, public grainscope::Conta
   bool wants_contacts() override { return true; }
   void begin_contacts() override;
   void add_contacts(grainscope::ContactSpan contacts) override;
+  bool takes_lanes() const override { return true; }
+  void add_lanes(const grainscope::ContactLanes &contacts) override;
+  void end_contacts() override;
   void end_run() override;
 
   /** Makes the record of compute `id`, in its constructor; `style` is for messages. Collective. */

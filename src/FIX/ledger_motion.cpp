@@ -9,6 +9,7 @@
 #include "domain.h"
 #include "update.h"
 #include <Eigen/Geometry>
+#include <algorithm>
 
 namespace grainscope {
 
@@ -29,6 +30,37 @@ EnergyLedger::Grain LedgerMotion::shown(int i) const {
   static const double none[3] = {0.0, 0.0, 0.0};
   const bool held = movers_.hold(atom->mask[i]);
   return {i, atom->rmass[i], atom->x[i], atom->v[i], held ? none : atom->f[i], held ? none : atom->torque[i]};
+}
+
+EnergyLedger::Grains LedgerMotion::all_shown() const {
+  const bool tops = atom->superquadric_flag;
+  return {atom->nlocal,
+          atom->mask,
+          groupbit_,
+          movers_.frozen,
+          atom->rmass,
+          atom->x[0],
+          atom->v[0],
+          atom->f[0],
+          atom->torque[0],
+          atom->omega[0],
+          tops ? atom->angmom[0] : nullptr,
+          tops ? atom->inertia[0] : nullptr,
+          tops ? atom->quaternion[0] : nullptr,
+          atom->radius,
+          inertia_factor(domain->dimension)};
+}
+
+/** many(grains, i): takes grains side by side from i on, and tells where it stops; one(i) takes the others. */
+template <class Many, class One>
+void LedgerMotion::show_all(Many many, One one) const {
+  if (atom->nlocal == 0) return;
+  const EnergyLedger::Grains grains = all_shown();
+  for (int i = 0; i < grains.n;) {
+    i = many(grains, i);
+    for (const int last = std::min(i + LANES, grains.n); i < last; i++)
+      if (atom->mask[i] & groupbit_) one(i);
+  }
 }
 
 Vector3d LedgerMotion::weight(int i) const {
@@ -78,30 +110,36 @@ void LedgerMotion::start_step(EnergyLedger &ledger) const {
   const BoxJump *const jump = LAMMPS_NS::FixPressStrain::last_jump_of(lmp);
   Vector3d given;
   ledger.begin_start_of_step(frame_of(lmp));
-  for (int i = 0; i < atom->nlocal; i++) {
+  const double dt = update->dt;
+  show_all([&](const EnergyLedger::Grains &grains, int i) { return ledger.start_of_step(grains, i, dt); },
+           [&](int i) {
+             const EnergyLedger::Grain grain = shown(i);
+             double momentum[3], omega_after[3];
+             coming_spin(grain, momentum, omega_after);
+             ledger.start_of_step(grain, omega_after, momentum, dt);
+           });
+  for (int i = 0; (pulled || jump) && i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit_)) continue;
     const EnergyLedger::Grain grain = shown(i);
-    double momentum[3], omega_after[3];
-    coming_spin(grain, momentum, omega_after);
-    ledger.start_of_step(grain, omega_after, momentum, update->dt);
-    if (pulled) ledger.start_with_weight(grain, weight(i), update->dt);
+    if (pulled) ledger.start_with_weight(grain, weight(i), dt);
     if (jump && jump->gives(Map<const Vector3d>(grain.x), given)) ledger.start_with_jump(grain, given);
   }
-  ledger.book_start(update->dt);
+  ledger.book_start(dt);
 }
 
 void LedgerMotion::end_step(EnergyLedger &ledger) const {
   const bool pulled = !gravity_.none();
   gravity_.update();
   ledger.begin_end_of_step();
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit_)) continue;
-    const EnergyLedger::Grain grain = shown(i);
-    double place[3];
-    ledger.end_of_step(grain, atom->omega[i], momentum(i, place), update->dt);
-    if (pulled) ledger.end_with_weight(grain, weight(i));
-  }
-  ledger.book_step(update->dt);
+  const double dt = update->dt;
+  show_all([&](const EnergyLedger::Grains &grains, int i) { return ledger.end_of_step(grains, i, dt); },
+           [&](int i) {
+             double place[3];
+             ledger.end_of_step(shown(i), atom->omega[i], momentum(i, place), dt);
+           });
+  for (int i = 0; pulled && i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit_) ledger.end_with_weight(shown(i), weight(i));
+  ledger.book_step(dt);
 }
 
 /** In the middle of a step: with the velocities of the half step, before or after grains were dealt out. */

@@ -32,6 +32,9 @@ class LedgerMotion : private LAMMPS_NS::Pointers {
   mutable LedgerGravity gravity_;  // of this moment
 
   EnergyLedger::Grain shown(int i) const;
+  EnergyLedger::Grains all_shown() const;
+  template <class Many, class One>
+  void show_all(Many many, One one) const;
   Eigen::Vector3d weight(int i) const;
   double inertia_of_sphere(int i) const;
   const double *momentum(int i, double place[3]) const;

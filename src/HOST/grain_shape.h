@@ -44,10 +44,11 @@ inline Eigen::Quaterniond orientation(const LAMMPS_NS::Atom &atom, int i) {
   return {q[0], q[1], q[2], q[3]};
 }
 
-/** Moment of inertia of grain i, no superquadric, as fix nve/sphere turns it: a sphere's, 2/5 m r^2, or with
- *  `dimension 2` a disc's, 1/2 m r^2. */
+/** Moment of inertia over m r^2 of grains that are no superquadrics, as fix nve/sphere turns them: a sphere's, or with
+ *  `dimension 2` a disc's. */
+inline double inertia_factor(int dimension) { return dimension == 2 ? 0.5 : 0.4; }
 inline double moment_of_inertia(const LAMMPS_NS::Atom &atom, int i, int dimension) {
-  return (dimension == 2 ? 0.5 : 0.4) * atom.rmass[i] * atom.radius[i] * atom.radius[i];
+  return inertia_factor(dimension) * atom.rmass[i] * atom.radius[i] * atom.radius[i];
 }
 
 /** Inertia tensor in the laboratory frame. */

@@ -54,13 +54,12 @@ bool ContactObserver::begin(bool springs_move, bool repeats) {
     dt_ = lmp->update->dt;
     batch_.fill(Contact());
   }
-  motion_ = keeps_past_;
+  motion_ = lanes_motion_ = keeps_past_;
   takers_.clear();
   others_.clear();
-  lanes_motion_ = false;
   for (ContactSink *sink : listening_) {
     sink->begin_contacts();
-    const bool takes_lanes = sink->takes_lanes() && !keeps_past_;
+    const bool takes_lanes = sink->takes_lanes();
     (takes_lanes ? takers_ : others_).push_back(sink);
     lanes_motion_ = lanes_motion_ || (takes_lanes && sink->lanes_need_motion());
     motion_ = motion_ || sink->needs_motion();

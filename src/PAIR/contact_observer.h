@@ -82,10 +82,10 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
     for (ContactSink *sink : takers_) sink->add_lanes(contacts);
   }
   bool takes_lanes() const { return !takers_.empty(); }
-  /** Whether one of these sinks reads the motion of GroupForces. */
+  /** Whether the motion of GroupForces is read. */
   bool lanes_need_motion() const { return lanes_motion_; }
   /** Whether all contacts must come one by one, too. */
-  bool needs_records() const { return keeps_past_ || takers_.size() < listening_.size(); }
+  bool needs_records() const { return takers_.size() < listening_.size(); }
 
   /** Image shift of atom j, three integers as doubles: x_j = x_owner + H . shift. Valid when a sink asked for
    *  images. */

@@ -102,6 +102,13 @@ void ContactReader::write_past(const Surfaces &s, const Contact &c) const {
   at[5] = c.spring ? half * m.tangential_stiffness * c.spring->after.dot(m.tangential_velocity) : 0.0;
 }
 
+void ContactReader::renew_past(const Surfaces &s, const Friction &friction, Contact &c) const {
+  if (!law_.keeps_past()) return;
+  read_past(s, c);
+  if (law_.tangential == TangentialLaw::spring) read_spring(s, friction, c);
+  write_past(s, c);
+}
+
 /** `limitForce` sets a negative total to exactly 0: the damping part is then what cancels the elastic one. */
 inline double ContactReader::normal_damping(const Surfaces &s) const {
   const double damping = -s.gamman * s.vn, elastic = s.kn * s.deltan;
@@ -165,10 +172,6 @@ inline __attribute__((always_inline)) void ContactReader::read(const Surfaces &s
     read_motion(s, friction, c);
     if (law_.rolls) read_rolling(s, force_on_i, c);
   }
-  if (!law_.keeps_past()) return;
-  read_past(s, c);
-  if (law_.tangential == TangentialLaw::spring) read_spring(s, friction, c);
-  write_past(s, c);
 }
 
 void ContactReader::after(const Surfaces &s, const Forces &force_on_i) {
@@ -178,10 +181,12 @@ void ContactReader::after(const Surfaces &s, const Forces &force_on_i) {
   c.partner.emplace<PartnerGrain>(PartnerGrain{s.j, ghost});
   c.weight = ghost ? 0.5 : 1.0;
   c.branch = Map<const Vector3d>(x[s.i]) - Map<const Vector3d>(x[s.j]);
-  read(s, force_on_i, friction_of(s), c);
+  const Friction friction = friction_of(s);
+  read(s, force_on_i, friction, c);
+  renew_past(s, friction, c);
 }
 
-void ContactReader::after(const PairGroup &group, const GroupGeometry &g, const GroupForces &f, int k, double *history,
+void ContactReader::after(const PairGroup &group, const GroupGeometry &g, const GroupForces &f, int k,
                           const int types[2]) {
   const int i = group.i[k], j = group.j[k];
   const bool ghost = j >= observer_.local_grains();
@@ -206,7 +211,6 @@ void ContactReader::after(const PairGroup &group, const GroupGeometry &g, const 
   s.gamman = f.gamma_n[k];
   s.gammat = f.gamma_t[k];
   s.is_non_spherical = true;
-  s.contact_history = history;
   Friction friction;
   friction.coefficient = f.friction[k];
   friction.limit = f.limit[k];
@@ -219,17 +223,19 @@ void ContactReader::after(const PairGroup &group, const GroupGeometry &g, const 
     s.en[l] = f.normal[l][k];
     s.contact_point[l] = f.point[l][k];
     force.delta_F[l] = f.force[l][k];
-    spring_[l] = f.before[l][k];
-    friction.spring[l] = f.uncut[l][k];
   }
   read(s, force, friction, c);
+  c.past.reset();
+  c.spring.reset();
 }
 
 void ContactReader::after_wall(const Surfaces &s, const Forces &force_on_i, const PartnerWall &wall) {
   Contact &c = observer_.next();
   c.partner.emplace<PartnerWall>(PartnerWall{wall.wall, wall.triangle, Map<const Vector3d>(s.v_j)});
   c.weight = 1.0;
-  read(s, force_on_i, friction_of(s), c);
+  const Friction friction = friction_of(s);
+  read(s, force_on_i, friction, c);
+  renew_past(s, friction, c);
   c.branch = c.motion ? Vector3d(-c.motion->arm)
                       : Vector3d(Map<const Vector3d>(observer_.positions()[s.i]) - contact_point(s));
 }

@@ -4,7 +4,7 @@
 
 #include "contact_law.h"
 #include "contact_observer.h"
-#include "pair_group.h"
+#include "past_lanes.h"
 #include "contact_interface.h"
 
 namespace grainscope {
@@ -33,7 +33,7 @@ class ContactReader {
   /** The one that was made last. */
   ObservedModel *model() const { return model_; }
 
-  static constexpr int past_columns = 6;
+  static constexpr int past_columns = PastColumns::count;
   static const char *past_column(int k);
 
   void before(const Surfaces &s) {
@@ -48,9 +48,8 @@ class ContactReader {
   }
   /** Two grains touch. */
   void after(const Surfaces &s, const Forces &force_on_i);
-  /** Two grains touch, of a group whose law was worked out side by side: the pair in lane k, its columns of the contact
-   *  history, its atom types. */
-  void after(const PairGroup &group, const GroupGeometry &geometry, const GroupForces &forces, int k, double *history,
+  /** Two grains touch, of a group whose law was worked out side by side: the pair in lane k, its atom types. */
+  void after(const PairGroup &group, const GroupGeometry &geometry, const GroupForces &forces, int k,
              const int types[2]);
   /** A grain touches a wall; its velocity is read here. */
   void after_wall(const Surfaces &s, const Forces &force_on_i, const PartnerWall &wall);
@@ -84,6 +83,7 @@ class ContactReader {
   void read_rolling(const Surfaces &s, const Forces &force_on_i, Contact &c) const;
   void read_past(const Surfaces &s, Contact &c) const;
   void write_past(const Surfaces &s, const Contact &c) const;
+  void renew_past(const Surfaces &s, const Friction &friction, Contact &c) const;
 };
 
 }

@@ -89,6 +89,7 @@ class LaneLoop : public LIGGGHTS::PairStyles::Granular<Model>, public ResetsOpen
   GroupForces forces_;
   GroupLaw group_law_{};
   GroupForces *kept_ = nullptr;  // forces_ where somebody asks for them
+  PastLanes past_;
 
  private:
   /** For the whole of a run. */
@@ -102,6 +103,7 @@ class LaneLoop : public LIGGGHTS::PairStyles::Granular<Model>, public ResetsOpen
   int touched_flags_ = 0;  // that the models set
 
   void own_compute_force(int eflag, int vflag);
+  void renew_past(const double *history);
   void tally(const Pair &pair, const double *force, int k);
 };
 
@@ -128,8 +130,9 @@ void LaneLoop<Model>::set_law() {
       !s_.shearupdate || TangentialBound::get().mode() != TangentialBound::Mode::off || observer_.repeats();
   in_lanes_ = !first && law_.covers();
   kept_ = observed() || pair_->evflag ? &forces_ : nullptr;
-  forces_.springs = observed() && observer_.needs_records();
-  forces_.motion = forces_.springs || (observed() && observer_.lanes_need_motion());
+  forces_.points = observed() && observer_.needs_records();
+  forces_.springs = observed() && observer_.keeps_past();
+  forces_.motion = forces_.points || (observed() && observer_.lanes_need_motion());
   if (!in_lanes_) return;
   law_.refresh();
   group_law_.law = &law_.law();
@@ -161,21 +164,31 @@ inline void LaneLoop<Model>::follow_up(PairOf pair, int n) {
     for (int k = 0; k < n; k++)
       if (geometry_.touching[k]) *flags_of(pair(k)) |= touched_flags_;
   if (!kept_) return;
+  const PastLanes *const past = observed() && observer_.keeps_past() ? &past_ : nullptr;
+  if (past) renew_past(pair(0).history);
   if (observed() && observer_.takes_lanes())
-    observer_.take({group_, geometry_, forces_, reader_.law(), observer_.time_step()});
+    observer_.take({group_, geometry_, forces_, reader_.law(), observer_.time_step(), past});
   const bool records = observed() && observer_.needs_records();
   if (!records && !pair_->evflag) return;
   for (int k = 0; k < n; k++) {
     if (!geometry_.touching[k]) continue;
     if (records) {
       const int types[2] = {lmp_->atom->type[group_.i[k]], lmp_->atom->type[group_.j[k]]};
-      reader_.after(group_, geometry_, forces_, k, pair(k).history, types);
+      reader_.after(group_, geometry_, forces_, k, types);
     }
     if (pair_->evflag) {
       const double force[3] = {forces_.force[0][k], forces_.force[1][k], forces_.force[2][k]};
       tally(pair(k), force, k);
     }
   }
+}
+
+/** `history`: that of the first pair. */
+template <class Model>
+inline void LaneLoop<Model>::renew_past(const double *history) {
+  const int first = reader_.law().past_column - static_cast<int>(group_.history[0] - history);
+  const PastColumns columns{first, observer_.stamp(), observer_.stamp_before(), 0.5 * observer_.time_step()};
+  grainscope::renew_past(group_, geometry_.touching, forces_, columns, past_);
 }
 
 /** One contact, pair k of the group: the model's forces on its two grains. */
