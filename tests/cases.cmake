@@ -520,7 +520,8 @@ add_cases(surface/ellipsoid-cohesion cases/sphere_cohesion.py LABEL case STYLES 
   as-spheres-edinburgh)
 add_cases(surface/ellipsoid-history-columns cases/history_columns.py LABEL case
   STYLES surface/ellipsoid gran/insitu pair/gran/local CASES
-  flat spheres under-gran counted without-a-trace without-a-trace-under-gran without-a-trace-cohesive)
+  flat spheres under-gran counted behind-the-surface without-a-trace without-a-trace-under-gran
+  without-a-trace-cohesive)
 add_cases(surface/ellipsoid-history-columns cases/history_columns.py LABEL case STYLES surface/ellipsoid pair/gran/local
   RANKS 1 2 CASES spheroids)
 
