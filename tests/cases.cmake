@@ -277,7 +277,7 @@ add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case 
 add_cases(surface/ellipsoid-host cases/pair_host.py LABEL case STYLES surface/ellipsoid gran/insitu
   RANKS 1 LONG_RANKS 2 CASES
   virial-of-ellipsoids restart-of-ellipsoids-continues pair-local-output-does-not-disturb-ellipsoids)
-add_cases(surface/ellipsoid-forces cases/ellipsoid_forces.py LABEL case STYLES surface/ellipsoid CASES
+add_cases(surface/ellipsoid-forces cases/ellipsoid_forces.py LABEL case STYLES surface/ellipsoid contacthistory CASES
   spheroid-0.33 spheroid-0.5 spheroid-3 spheres polydisperse gaussian-curvature mean-curvature
   limit-without-curvature-keywords flows-on-from-the-other restart-of-prolate-grains restart-of-oblate-grains)
 add_cases(surface/ellipsoid-forces cases/ellipsoid_forces.py LABEL case STYLES surface/ellipsoid
@@ -518,10 +518,12 @@ add_cases(surface/ellipsoid-cohesion cases/sphere_cohesion.py LABEL case STYLES 
   sizes-by-curvature poles-under-gran spheres softened-spheres pole-on-a-plane pole-on-a-mesh
   pole-on-a-plane-by-curvature sphere-on-a-plane sphere-on-a-mesh superquadrics as-spheres-sjkr as-spheres-sjkr2
   as-spheres-edinburgh)
-add_cases(surface/ellipsoid-history-columns cases/history_columns.py LABEL case STYLES surface/ellipsoid gran/insitu
-  CASES flat spheres under-gran counted without-a-trace without-a-trace-under-gran without-a-trace-cohesive)
-add_cases(surface/ellipsoid-history-columns cases/history_columns.py LABEL case STYLES surface/ellipsoid RANKS 1 2
-  CASES spheroids)
+add_cases(surface/ellipsoid-history-columns cases/history_columns.py LABEL case
+  STYLES surface/ellipsoid gran/insitu pair/gran/local CASES
+  flat spheres under-gran counted behind-the-surface without-a-trace without-a-trace-under-gran
+  without-a-trace-cohesive)
+add_cases(surface/ellipsoid-history-columns cases/history_columns.py LABEL case STYLES surface/ellipsoid pair/gran/local
+  RANKS 1 2 CASES spheroids)
 
 # Faces that move alone
 add_cases(displacement/shear-faces cases/moving_faces.py LABEL case STYLES displacement/shear change_box RANKS 1 2

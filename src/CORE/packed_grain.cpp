@@ -19,7 +19,10 @@ GRAINSCOPE_INLINE void put_last(const double *three, double fourth, double *row)
 }
 
 GRAINSCOPE_INLINE void turn_axis(const double *quaternion, unsigned char symmetry, PackedGrain &grain) {
-  if (symmetry != KEPT) rotated_axis(quaternion, symmetry, grain.axis);
+  if (symmetry < KEPT) rotated_axis(quaternion, symmetry, grain.axis);
+  if (symmetry != QUATERNION) return;
+  for (int k = 0; k < 3; k++) grain.axis[k] = quaternion[k];
+  grain.inverse_product = quaternion[3];
 }
 
 }
@@ -46,7 +49,7 @@ void pack_axes(const GrainRows &rows, const unsigned char *symmetry, PackedGrain
   for (; i + LANES <= rows.count; i += LANES) {
     const double *q = rows.quaternion + 4 * i;
     const unsigned char k = symmetry[i];
-    if (k != KEPT && symmetry[i + 1] == k && symmetry[i + 2] == k && symmetry[i + 3] == k) {
+    if (k < KEPT && symmetry[i + 1] == k && symmetry[i + 2] == k && symmetry[i + 3] == k) {
       Lanes turn[4], axis[4], row[4];
       load_rows([q](int n) { return q + 4 * n; }, turn);
       rotated_axis(turn, k, axis);

@@ -9,7 +9,8 @@ struct alignas(64) PackedGrain {
   double x[3], reach;  // centre, and radius of the bounding sphere
   double velocity[3], mass;
   double spin[3], size;  // angular velocity, and radius of the sphere of equal volume
-  // of a spheroid, as in Spheroid; axis[0] of a grain among nothing but spheres: the radius that contacts are found by
+  // of a spheroid, as in Spheroid; axis[0] of a grain among nothing but spheres: the radius that contacts are found by;
+  // of a triaxial grain, of which no contact asks for them, the quaternion
   double axis[3], inverse_product;
 };
 
@@ -33,8 +34,8 @@ struct GrainRows {
 /** Places and motions into `grains`. */
 void pack_motion(const GrainRows &rows, PackedGrain *grains);
 /** And axes, of spheroids: symmetry[i] is the body axis of grain i that is its own, 0, 1 or 2; KEPT leaves it as it is,
- *  of spheres. */
-constexpr unsigned char KEPT = 3;
+ *  of spheres; QUATERNION is for triaxial grains. */
+constexpr unsigned char KEPT = 3, QUATERNION = 4;
 void pack_axes(const GrainRows &rows, const unsigned char *symmetry, PackedGrain *grains);
 
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ellipsoid_bodies.h"
+#include "fitted.h"
 #include "symmetry_axis.h"
 #include "atom.h"
 #include "comm.h"
@@ -17,27 +18,38 @@ void EllipsoidBodies::prepare() {
     read_shapes(n);
     refuse_other_than_spheres();
   }
-  if (only_spheres_ || !wants_axes_) return;
-  for (int i = 0; i < n; i++)
-    if (!is_sphere(i)) rotated_axis(atom->quaternion[i], grains_[i].axis, grains_[i].spheroid.u);
+  fit(turned_, keeps_turned_ ? n : 0);
+  for (std::size_t i = 0; i < turned_.size(); i++) turned_[i] = turned(i);
+}
+
+EllipsoidBodies::Shape EllipsoidBodies::shape_of(int i) const {
+  const double *s = atom->shape[i];
+  const SymmetryAxis axis = symmetry_axis(s);
+  Shape shape;
+  shape.spheroid = make_spheroid(s, atom->quaternion[i]);
+  shape.equivalent_radius = std::cbrt(0.75 * atom->volume[i] / M_PI);  // in the host's words, to the last bit
+  shape.elongation =
+      axis.shape == grainscope::Shape::sphere ? 0.0 : *std::max_element(s, s + 3) - *std::min_element(s, s + 3);
+  shape.axis = std::max(axis.index, 0);
+  shape.triaxial = axis.shape == grainscope::Shape::triaxial;
+  return shape;
 }
 
 void EllipsoidBodies::read_shapes(int n) {
-  grains_.resize(n);
+  int alike = n ? 1 : 0;
+  while (alike < n && std::equal(atom->shape[alike], atom->shape[alike] + 3, atom->shape[0]) &&
+         atom->volume[alike] == atom->volume[0])
+    alike++;
+  one_shape_ = n && alike == n;
+  fit(shapes_, one_shape_ ? 1 : n);
   some_triaxial_ = some_spheres_ = false;
   only_spheres_ = true;
-  for (int i = 0; i < n; i++) {
-    const double *s = atom->shape[i];
-    const SymmetryAxis axis = symmetry_axis(s);
-    Grain &grain = grains_[i];
-    grain.spheroid = make_spheroid(s, atom->quaternion[i]);
-    grain.equivalent_radius = std::cbrt(0.75 * atom->volume[i] / M_PI);  // in the host's words, to the last bit
-    grain.elongation = axis.shape == Shape::sphere ? 0.0 : *std::max_element(s, s + 3) - *std::min_element(s, s + 3);
-    grain.axis = std::max(axis.index, 0);
-    grain.triaxial = axis.shape == Shape::triaxial;
-    some_triaxial_ = some_triaxial_ || grain.triaxial;
-    some_spheres_ = some_spheres_ || axis.shape == Shape::sphere;
-    only_spheres_ = only_spheres_ && axis.shape == Shape::sphere;
+  for (std::size_t i = 0; i < shapes_.size(); i++) {
+    shapes_[i] = shape_of(i);
+    const bool sphere = is_sphere(i);
+    some_triaxial_ = some_triaxial_ || shapes_[i].triaxial;
+    some_spheres_ = some_spheres_ || sphere;
+    only_spheres_ = only_spheres_ && sphere;
   }
 }
 
@@ -87,15 +99,15 @@ void EllipsoidBodies::refuse_other_than_spheres() {
 Triaxial EllipsoidBodies::frame(int i) const { return make_triaxial(atom->shape[i], atom->quaternion[i]); }
 
 Spheroid EllipsoidBodies::turned(int i) const {
-  Spheroid spheroid = grains_[i].spheroid;
-  if (!is_sphere(i)) rotated_axis(atom->quaternion[i], grains_[i].axis, spheroid.u);
-  return spheroid;
+  Spheroid body = spheroid(i);
+  if (one_shape_ || !is_sphere(i)) rotated_axis(atom->quaternion[i], symmetry(i), body.u);
+  return body;
 }
 
 EllipsoidContact EllipsoidBodies::solve_alone(const Query &q) const {
-  if (grains_[q.i].triaxial || grains_[q.j].triaxial) return ellipsoid_contact(frame(q.i), frame(q.j), q.d, q.start);
-  if (!wants_axes_) return ellipsoid_contact(turned(q.i), turned(q.j), q.d, q.start);
-  return ellipsoid_contact(grains_[q.i].spheroid, grains_[q.j].spheroid, q.d, q.start);
+  if (is_triaxial(q.i) || is_triaxial(q.j)) return ellipsoid_contact(frame(q.i), frame(q.j), q.d, q.start);
+  if (!keeps_turned_) return ellipsoid_contact(turned(q.i), turned(q.j), q.d, q.start);
+  return ellipsoid_contact(turned_[q.i], turned_[q.j], q.d, q.start);
 }
 
 EllipsoidContact EllipsoidBodies::solve(const Query &query) {
@@ -108,7 +120,7 @@ void EllipsoidBodies::count(const Query &query, EllipsoidContact &contact) {
   count(contact.touching, contact.steps);
   if (!contact.fallback) return;
   counts.fallbacks++;
-  const double r = grains_[query.i].equivalent_radius, *d = query.d;
+  const double r = equivalent_radius(query.i), *d = query.d;
   if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < 1e-20 * r * r && atom->tag[query.i] > atom->tag[query.j]) {
     // Concentric: its two owners must choose the same normal, so the one that sees it the other way round turns round.
     const EllipsoidContact turned = solve_alone({query.j, query.i, {-d[0], -d[1], -d[2]}, 0.0});
@@ -149,8 +161,7 @@ void EllipsoidBodies::count(const SolverTally &tally) {
 }
 
 double EllipsoidBodies::mean_curvature(int i, const double y[3]) const {
-  return grains_[i].triaxial ? grainscope::mean_curvature(frame(i), y)
-                             : grainscope::mean_curvature(wants_axes_ ? grains_[i].spheroid : turned(i), y);
+  return is_triaxial(i) ? grainscope::mean_curvature(frame(i), y) : grainscope::mean_curvature(turned(i), y);
 }
 
 }

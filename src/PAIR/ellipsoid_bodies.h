@@ -37,7 +37,7 @@ class NeighbourListWatch {
 };
 
 /** Every owned and ghost grain as an ellipsoid: shapes are read once per neighbour list and run, orientations once per
- *  force evaluation. */
+ *  force evaluation, or when a pair asks for them. */
 class EllipsoidBodies : private LAMMPS_NS::Pointers {
  public:
   explicit EllipsoidBodies(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
@@ -45,8 +45,8 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
   /** Before a force evaluation; all ranks together. Refuses grains that are no ellipsoids, or no spheres where a model
    *  needs spheres. */
   void prepare();
-  /** A loop that finds the axes of grains itself says no. */
-  void set_wants_axes(bool wants) { wants_axes_ = wants; }
+  /** A loop that asks for few pairs says no. */
+  void set_keeps_turned(bool keeps) { keeps_turned_ = keeps; }
   /** The words of a contact model that knows spheres only, or "". */
   void set_sphere_model(const std::string &model) { sphere_model_ = model; }
 
@@ -59,21 +59,25 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
   /** At a point y of the surface of grain i, from its centre [1/length]. */
   double mean_curvature(int i, const double y[3]) const;
   /** Of the sphere of equal volume. */
-  double equivalent_radius(int i) const { return grains_[i].equivalent_radius; }
+  double equivalent_radius(int i) const { return shape(i).equivalent_radius; }
+  /** All grains are alike but for place, orientation and motion. */
+  bool one_shape() const { return one_shape_; }
   bool only_spheres() const { return only_spheres_; }
   bool some_spheres() const { return some_spheres_; }
   bool some_triaxial() const { return some_triaxial_; }
   /** Two grains that are what the lanes of meet_spheroids() are for, or those of meet_round(). */
   bool in_lanes(int i, int j) const {
-    return only_spheres_ || (!grains_[i].triaxial && !grains_[j].triaxial && !(is_sphere(i) && is_sphere(j)));
+    return only_spheres_ || (!is_triaxial(i) && !is_triaxial(j) && !(is_sphere(i) && is_sphere(j)));
   }
-  /** Of a spheroid, or a sphere; its axis is there where prepare() was asked for it. */
-  const Spheroid &spheroid(int i) const { return grains_[i].spheroid; }
+  /** Of a spheroid, or a sphere, but for its axis. */
+  const Spheroid &spheroid(int i) const { return shape(i).spheroid; }
   /** The body axis that is the symmetry axis; of spheres, any. */
-  int symmetry(int i) const { return grains_[i].axis; }
-  bool is_sphere(int i) const { return grains_[i].elongation == 0.0; }
-  /** Difference of the largest and the smallest semi-axis. */
-  double elongation(int i) const { return grains_[i].elongation; }
+  int symmetry(int i) const { return shape(i).axis; }
+  bool is_sphere(int i) const { return shape(i).elongation == 0.0; }
+  bool is_triaxial(int i) const { return shape(i).triaxial; }
+  /** For SeparationMemory. A turn by phi brings a surface nearer by at most the elongation times phi; it changes an axis
+   *  by phi, a quaternion by phi/2. */
+  double turn_slope(int i) const { return shape(i).elongation * (is_triaxial(i) ? 2.0 : 1.0); }
 
   SolverCounts counts;
   /** Adds to them what was done in lanes: a pair, or many. */
@@ -81,19 +85,23 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
   void count(const SolverTally &tally);
 
  private:
-  struct Grain {
+  struct Shape {
     Spheroid spheroid;
-    double equivalent_radius, elongation;
+    double equivalent_radius, elongation;  // the largest less the smallest semi-axis
     int axis;
     bool triaxial;
   };
-  std::vector<Grain> grains_;
-  bool wants_axes_ = true;
+  std::vector<Shape> shapes_;     // one, if it is that of all
+  std::vector<Spheroid> turned_;  // as they are now, of each grain, where they are kept
+  bool keeps_turned_ = true;
+  bool one_shape_ = false;
   bool only_spheres_ = false, some_spheres_ = false, some_triaxial_ = false;
   NeighbourListWatch lists_;
   bool warned_ = false;
   std::string sphere_model_;
 
+  const Shape &shape(int i) const { return shapes_[one_shape_ ? 0 : i]; }
+  Shape shape_of(int i) const;
   void read_shapes(int n);
   void refuse_other_blockiness();
   void refuse_other_than_spheres();

@@ -51,7 +51,7 @@ class EllipsoidLoop : public LaneLoop<Model> {
   bool lanes_solve_all_ = false;                  // there are no pairs for which that is known not to be
   SolverTally tally_;
 
-  void prepare(bool hosts) override { bodies_.set_wants_axes(hosts); }
+  void prepare(bool hosts) override { bodies_.set_keeps_turned(hosts); }
   void evaluate() override;
   void approach(int k) override;
   void follow_motion();
@@ -88,13 +88,14 @@ void EllipsoidLoop<Model>::follow_motion() {
   const bool renewed = lists_.renewed(*lmp_->neighbor, *lmp_->update);
   if (renewed) {
     near_.restart(this->lists());
-    apart_.restart(n, near_.listed(), lmp_->neighbor->cutneighmax, [this](int i) { return bodies_.elongation(i); });
+    apart_.restart(n, near_.listed(), lmp_->neighbor->cutneighmax, bodies_.one_shape(),
+                   [this](int i) { return bodies_.turn_slope(i); });
     scene_.restart(bodies_);
   }
-  scene_.load(&bodies_);
   const BoxState box(lmp_);
   apart_.move(box.edges, Eigen::Map<const Eigen::Vector3d>(lmp_->domain->boxlo), scene_.packed(),
-              n ? atom->quaternion[0] : nullptr);
+              [this](int first, int many) { scene_.load(&bodies_, first, many); });
+  scene_.load_forces();
   if (!renewed) near_.choose(this->lists(), apart_);
 }
 

@@ -3,6 +3,7 @@
 #define GRAINSCOPE_ELLIPSOID_SURFACE_H
 
 #include "ellipsoid_bodies.h"
+#include "superquadric_columns.h"
 #include "atom.h"
 #include "contact_interface.h"
 #include <Eigen/Geometry>
@@ -12,13 +13,10 @@ namespace grainscope {
 
 /** Between the solver and the host's contact data and history: what `surface ellipsoid` means, whichever loop asks. */
 struct EllipsoidSurface {
-  // Columns of the contact history, as many as `surface superquadric` has, so that restart files of the two are
-  // interchangeable: what one left is a start for the other or no start, never a wrong one. Only `lambda` is remembered
-  // (less 1/2: changes its sign when the host swaps i and j; 0: none), last of them and beside the tangential spring in
-  // memory; the others stay 0: not touching, to the other surface. In an evaluation for output alone all of them hold
-  // for a while what `surface superquadric` would give; see show().
-  static constexpr int columns = 7;
-  int first, lambda;
+  // Column of the contact history, before those of all other models: less 1/2, so that it changes its sign when the host
+  // swaps i and j; 0: none. Restart files have it as the last column of `surface superquadric`: what one surface left is
+  // a start for the other or no start, never a wrong one.
+  static constexpr int lambda = 0;
   double curvature_limit = 0.0;
   bool mean = false, gaussian = false;
 
@@ -71,11 +69,12 @@ struct EllipsoidSurface {
     return true;
   }
 
-  /** What compute pair/gran/local reads from the history, in the order of `surface superquadric`: 0 (which axis of the
-   *  bounding boxes separated them), 2 (they touch), contact point, depth of i, depth of j. `lambda` is lost. */
-  void show(const EllipsoidContact &c, const SurfaceData &s) const {
-    const double *p = s.contact_point, values[columns] = {0.0, 2.0, p[0], p[1], p[2], c.depth[0], c.depth[1]};
-    std::copy(values, values + columns, s.contact_history + first);
+  /** What compute pair/gran/local shows, the columns of `surface superquadric`: 0 (which axis of the bounding boxes
+   *  separated them), 2 (they touch), contact point, depth of i, depth of j. */
+  static void show(const EllipsoidContact &c, const SurfaceData &s, double *columns) {
+    const double *p = s.contact_point;
+    const double values[SuperquadricColumns::count] = {0.0, 2.0, p[0], p[1], p[2], c.depth[0], c.depth[1]};
+    std::copy(values, values + SuperquadricColumns::count, columns);
   }
 
   /** Velocities of i against j at the contact point, and its distances from the centres (of spheres entered

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "near_pairs.h"
+#include "fitted.h"
 
 namespace grainscope {
 
@@ -24,18 +25,15 @@ void NearPairs::choose(const Lists &lists, const SeparationMemory &apart) {
   chosen_ = true;
   std::size_t near = 0;
   for (int number = 0; number < listed_; number++) near += apart.may_touch_before(number, good_until_);
-  if (pairs_.capacity() < near + AHEAD || pairs_.capacity() > 2 * (near + AHEAD)) {
-    std::vector<Pair>().swap(pairs_);
-    pairs_.reserve(near + near / 8 + AHEAD);
-  }
-  pairs_.clear();
+  fit(pairs_, near + AHEAD);
+  Pair *pair = pairs_.data();
   int number = 0;
   for (int ii = 0; ii < lists.list->inum; ii++) {
     const int i = lists.list->ilist[ii], neighbours = lists.list->numneigh[i];
     for (int place = 0; place < neighbours; place++, number++)
-      if (apart.may_touch_before(number, good_until_)) pairs_.push_back(lists.pair(i, place, number));
+      if (apart.may_touch_before(number, good_until_)) *pair++ = lists.pair(i, place, number);
   }
-  end_with(pairs_.size());
+  end_with(near);
 }
 
 }

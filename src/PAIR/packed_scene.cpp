@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "packed_scene.h"
+#include "fitted.h"
 #include <algorithm>
 #include <cmath>
 
@@ -7,10 +8,9 @@ namespace grainscope {
 
 void PackedScene::restart(const EllipsoidBodies &bodies) {
   const int n = atom->nlocal + atom->nghost;
-  grains_.assign(n, PackedGrain());
-  shapes_.resize(n);
-  symmetry_.resize(n);
-  bool alike = true;
+  fit(grains_, n);
+  fit(symmetry_, n);
+  fit(shapes_, bodies.one_shape() ? 1 : n);
   for (int i = 0; i < n; i++) {
     const Spheroid &s = bodies.spheroid(i);
     PackedGrain &grain = grains_[i];
@@ -18,29 +18,38 @@ void PackedScene::restart(const EllipsoidBodies &bodies) {
     grain.inverse_product = s.inverse_product;
     std::copy(s.u, s.u + 3, grain.axis);
     if (bodies.only_spheres()) grain.axis[0] = std::sqrt(s.equatorial_square);
-    shapes_[i] = {s.equatorial_square, s.polar_square, s.inverse_equatorial_square, s.inverse_polar_square};
-    symmetry_[i] = bodies.is_sphere(i) ? KEPT : bodies.symmetry(i);
-    alike = alike && s.equatorial_square == shapes_[0].equatorial_square && s.polar_square == shapes_[0].polar_square;
+    symmetry_[i] = bodies.is_sphere(i) ? KEPT : bodies.is_triaxial(i) ? QUATERNION : bodies.symmetry(i);
   }
-  if (alike && n > 0) shapes_.resize(1);
+  for (std::size_t i = 0; i < shapes_.size(); i++) {
+    const Spheroid &s = bodies.spheroid(i);
+    shapes_[i] = {s.equatorial_square, s.polar_square, s.inverse_equatorial_square, s.inverse_polar_square};
+  }
 }
 
-void PackedScene::load(const EllipsoidBodies *bodies) {
-  const int own = atom->nlocal, n = own + atom->nghost;
-  grains_.resize(n);
-  if (n > 0) {
-    const GrainRows rows{n,
-                         atom->x[0],
-                         atom->v[0],
-                         atom->omega[0],
-                         bodies ? atom->quaternion[0] : nullptr,
-                         atom->radius,
-                         atom->rmass,
-                         bodies ? nullptr : atom->radius};
-    pack_motion(rows, grains_.data());
-    if (bodies && !bodies->only_spheres()) pack_axes(rows, symmetry_.data(), grains_.data());
-  }
-  forces_.resize(own + 1);
+void PackedScene::load(const EllipsoidBodies *bodies, int first, int many) {
+  if (many == 0) return;
+  const GrainRows rows{many,
+                       atom->x[first],
+                       atom->v[first],
+                       atom->omega[first],
+                       bodies ? atom->quaternion[first] : nullptr,
+                       atom->radius + first,
+                       atom->rmass + first,
+                       bodies ? nullptr : atom->radius + first};
+  pack_motion(rows, &grains_[first]);
+  if (bodies && !bodies->only_spheres()) pack_axes(rows, &symmetry_[first], &grains_[first]);
+}
+
+void PackedScene::load_spheres() {
+  const int n = atom->nlocal + atom->nghost;
+  fit(grains_, n);
+  load(nullptr, 0, n);
+  load_forces();
+}
+
+void PackedScene::load_forces() {
+  const int own = atom->nlocal;
+  fit(forces_, own + 1);
   for (int i = 0; i < own; i++) {
     const double *f = atom->f[i], *torque = atom->torque[i];
     for (int k = 0; k < 3; k++) {

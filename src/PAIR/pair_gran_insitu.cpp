@@ -12,6 +12,7 @@
 #include "run_fixes.h"
 #include "sphere_geometry.h"
 #include "stop_signal.h"
+#include "superquadric_columns.h"
 #include "surface_required.h"
 #include "tangential_bound.h"
 #include "time_step_watch.h"
@@ -171,7 +172,7 @@ void PairGranInsitu::init_style() {
   impl_->observer.begin_run();
   impl_->images_of_build = -1;
   if (history && !fix_history)
-    impl_->checks.require_same_columns_in_restart(dnum_pairgran, ContactReader::past_columns, impl_->ledger);
+    impl_->checks.require_same_columns_in_restart(columns_in_restart(), ContactReader::past_columns, impl_->ledger);
   impl_->renumbered = atom->natoms < impl_->grains && !grainscope::contacts_know_their_grains(lmp);
   if (impl_->renumbered && comm->me == 0)
     error->warning(FLERR, "grains were given other IDs, and the host keeps tangential springs by ID: some are now "
@@ -196,7 +197,7 @@ void PairGranInsitu::init_granular() {
   law.exponent = stressStrainExponent();
   law.past_column = impl_->past_column;
   if (law.tangential == TangentialLaw::spring) law.spring_column = column_of("shearx");
-  const int place = contact_match("surface", "ellipsoid") ? impl_->surface.lambda + 1 : 0;
+  const int place = contact_match("surface", "ellipsoid") ? grainscope::EllipsoidSurface::lambda + 1 : 0;
   impl_->lane_law.connect(impl_->models, law.spring_column == place);
   impl_->friction = nullptr;
   if (law.tangential == TangentialLaw::viscous || law.tangential == TangentialLaw::spring) {
@@ -207,6 +208,12 @@ void PairGranInsitu::init_granular() {
   impl_->reader.set_law(law);
   impl_->observer.set_keeps_past(law.keeps_past());
   impl_->sphere_model = contact_match("surface", "superquadric") ? grainscope::SphereGeometry::of(*this) : "";
+}
+
+/** Numbers per contact. */
+int PairGranInsitu::columns_in_restart() const {
+  const bool ellipsoids = impl_->loop->contact_match("surface", "ellipsoid");
+  return dnum_pairgran + (ellipsoids ? grainscope::SuperquadricColumns::left_out : 0);
 }
 
 /** Of the contact history. */

@@ -71,6 +71,7 @@ class PairGranInsitu : public PairGranProxy, public grainscope::EllipsoidOwner {
 
   bool take_setting(std::vector<char *> &words, const char *keyword, const char *no, const char *yes);
   void add_past_columns();
+  int columns_in_restart() const;
   int column_of(const std::string &name) const;
   void set_tangential_bound();
   void watch_time_step();

@@ -42,7 +42,7 @@ class SphereLoop : public LaneLoop<Model> {
 
 template <class Model>
 void SphereLoop<Model>::evaluate() {
-  scene_.load(nullptr);
+  scene_.load_spheres();
   group_.size = 0;
   const LAMMPS_NS::NeighList *list = pair_->list;
   // More grains than the second cache holds.

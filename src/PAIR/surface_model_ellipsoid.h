@@ -9,7 +9,8 @@ SURFACE_MODEL(SURFACE_ELLIPSOID,ellipsoid,11)
 
 #include "ellipsoid_owner.h"
 #include "ellipsoid_surface.h"
-#include "shown_columns.h"
+#include "pair_gran.h"
+#include "shown_row.h"
 #include "sphere_geometry.h"
 #include "surface_model_superquadric.h"
 #include <memory>
@@ -17,8 +18,8 @@ SURFACE_MODEL(SURFACE_ELLIPSOID,ellipsoid,11)
 namespace LIGGGHTS { namespace ContactModels {
 
 /** Grains of atom_style superquadric with blockiness 2 2, by the exact contact of ellipsoids: `surface superquadric` in
- *  keywords, physics and history columns, walls included; but models that know spheres only are given spheres
- *  (sphere_geometry.h). See doc/surface_ellipsoid.md. */
+ *  keywords and physics, walls included; but models that know spheres only are given spheres (sphere_geometry.h). See
+ *  doc/surface_ellipsoid.md. */
 template <>
 class SurfaceModel<SURFACE_ELLIPSOID> : public SurfaceModelBase {
  public:
@@ -27,13 +28,15 @@ class SurfaceModel<SURFACE_ELLIPSOID> : public SurfaceModelBase {
     if (!atom->superquadric_flag)
       error->all(FLERR,
                  "surface ellipsoid needs atom_style superquadric (spheres are ellipsoids with three equal semi-axes)");
-    surface_.first = setup->add_history_value("inequality_obb", "0");
-    for (const char *name : {"touching", "cpx", "cpy", "cpz", "a1"}) setup->add_history_value(name, "0");
-    surface_.lambda = setup->add_history_value("lambda", "1");
-    model->add_history_offset("contact_point_offset", surface_.first + 2);
-    model->add_history_offset("alpha1_offset", surface_.first + 5);
-    model->add_history_offset("alpha2_offset", surface_.first + 6);
+    if (model->is_wall())
+      for (const char *name : {"inequality_obb", "touching", "cpx", "cpy", "cpz", "a1"})
+        setup->add_history_value(name, "0");
+    setup->add_history_value(Columns::kept, "1");
+    model->add_history_offset("contact_point_offset", Columns::contact_point);
+    model->add_history_offset("alpha1_offset", Columns::first_depth);
+    model->add_history_offset("alpha2_offset", Columns::second_depth);
     if (model->is_wall()) return;
+    pair_ = dynamic_cast<PairGran *>(setup);
     owner_ = dynamic_cast<grainscope::EllipsoidOwner *>(setup);
     if (!owner_) own_bodies_.reset(new grainscope::EllipsoidBodies(lmp));
     bodies_ = owner_ ? &owner_->ellipsoid_bodies() : own_bodies_.get();
@@ -72,10 +75,9 @@ class SurfaceModel<SURFACE_ELLIPSOID> : public SurfaceModelBase {
     const grainscope::EllipsoidBodies::Query query{
         s.i, s.j, {-s.delta[0], -s.delta[1], -s.delta[2]}, surface_.start(s.contact_history)};
     const grainscope::EllipsoidContact contact = bodies_->solve(query);
-    const bool for_output = !s.computeflag;
-    if (for_output) shown_.keep(s.contact_history + surface_.first);
+    if (for_output(s)) s.contact_history = shown_.copy(s.contact_history, pair_->dnum());
     const bool touching = surface_.enter(contact, s, *bodies_, atom);
-    if (touching && for_output) surface_.show(contact, s);
+    if (touching && for_output(s)) surface_.show(contact, s, shown_.superquadric_columns());
     return touching;
   }
 
@@ -86,19 +88,26 @@ class SurfaceModel<SURFACE_ELLIPSOID> : public SurfaceModelBase {
   }
 
   void endSurfacesIntersect(SurfacesIntersectData &s, TriMesh *, double *const) { spheres_.leave(s); }
-  void surfacesClose(SurfacesCloseData &, ForceData &, ForceData &) {}
-  void endPass(SurfacesIntersectData &, ForceData &, ForceData &) { shown_.put_back(); }
+  void surfacesClose(SurfacesCloseData &s, ForceData &, ForceData &) {
+    if (!s.is_wall && for_output(s)) s.contact_history = shown_.copy(s.contact_history, pair_->dnum());
+  }
+  void endPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
   void tally_pp(double, int, int, int) {}
   void tally_pw(double, int, int, int) {}
 
  private:
+  using Columns = grainscope::SuperquadricColumns;
+
   grainscope::EllipsoidSurface surface_;
   grainscope::SphereGeometry spheres_;
-  grainscope::ShownColumns<grainscope::EllipsoidSurface::columns> shown_;
+  grainscope::ShownRow shown_;
   IContactHistorySetup *setup_;
+  PairGran *pair_ = nullptr;  // of contacts of grains
   grainscope::EllipsoidOwner *owner_ = nullptr;
   grainscope::EllipsoidBodies *bodies_ = nullptr;
   std::unique_ptr<grainscope::EllipsoidBodies> own_bodies_;
+
+  static bool for_output(const SurfacesCloseData &s) { return !s.computeflag; }
 
   void surfacesIntersectWall(SurfacesIntersectData &s) {
     s.reff = s.radi;

@@ -17,10 +17,10 @@ WIDTH = 13  # two IDs and a flag, seven columns of the surface, the tangential s
 SOLVER = 1e-4
 
 
-def history(result):
-    """{(lower ID, higher ID): columns} of the first snapshot; i is the grain that comes first in the host's list."""
-    columns = result.dump("pairs.dump")[0][1]
-    table = np.array([columns[f"c_pairs[{k}]"] for k in range(1, WIDTH + 1)]).T
+def history(result, snapshot=0, width=WIDTH):
+    """{(lower ID, higher ID): columns} of a snapshot; i is the grain that comes first in the host's list."""
+    columns = result.dump("pairs.dump")[snapshot][1]
+    table = np.array([columns[f"c_pairs[{k}]"] for k in range(1, width + 1)]).T
     return {(int(row[0]), int(row[1])): row[3:] for row in table}
 
 
@@ -71,6 +71,29 @@ def counted(ranks):
         require_close(row[5] + row[6], rows["overlap"][k], 1e-11, "overlap", 1.0)
 
 
+def behind_the_surface(ranks):
+    """Springs, and what `ledger on` keeps of the evaluation before: a stamp, the overlap, the elastic force."""
+    width = WIDTH + 6
+    deck = Deck(dense_packing(1.5), surface="ellipsoid", extra="ledger on tangential_damping off")
+    deck.body = [
+        "compute ledger all energy/ledger",
+        "thermo_style custom step c_ledger[1]",
+        "thermo 1",
+        HISTORY,
+        *dump_local("pairs", width, 20, "pairs"),
+        shear(0.1 / (20 * deck.dt())),
+        "run 20",
+    ]
+    table = np.array(list(history(run(deck, ranks), 1, width).values()))
+    require(len(table) > 100, f"only {len(table)} contacts")
+    overlap = table[:, 5] + table[:, 6]
+    require((table[:, 10] == table[0, 10]).all() and table[0, 10] > 0.0, f"stamps {table[:, 10]}")
+    require_close(table[:, 11], overlap, 1e-11, "overlap that the ledger keeps", 1.0)  # to rounding, as above
+    sprung = np.linalg.norm(table[:, 7:10], axis=1)
+    require((sprung > 0.0).mean() > 0.9, f"{(sprung == 0.0).sum()} of {len(table)} contacts have no spring")
+    require((sprung < 10.0 * overlap.max()).all(), f"springs of {sprung.max()}, overlaps of {overlap.max()}")
+
+
 def without_a_trace(**choices):
     """Output in every fifth step or none, the same trajectory: also of pair_style gran, which keeps no copy of its
     history."""
@@ -92,6 +115,7 @@ CASES = {
     "spheres": as_superquadric(dense_packing()),
     "under-gran": as_superquadric(dense_packing(1.5), pair="gran"),
     "counted": counted,
+    "behind-the-surface": behind_the_surface,
     "without-a-trace": without_a_trace(),
     "without-a-trace-under-gran": without_a_trace(pair="gran"),
     "without-a-trace-cohesive": without_a_trace(cohesion="sjkr"),

@@ -46,7 +46,8 @@ FIXES = [
     "allow_special_domain_periodic yes",
 ]
 PLATES = ["press/wall mesh plate axis z target 2e4 area box every/step 5"]
-MADE_BY_OTHERS = {"grain/record", "ledger/record", "run/guard", "setup/memory"}
+MADE_BY_OTHERS = {"contacthistory", "grain/record", "ledger/record", "run/guard", "setup/memory"}
+BEFORE_RUNS_ALONE = {"pair/gran/local"}  # the host lets nobody make it after a run
 PAIRS = [
     "surface ellipsoid",
     "setup neutral surface ellipsoid",
@@ -172,6 +173,7 @@ def every_style_is_here(ranks):
         for kind, styles in (("Compute", COMPUTES), ("Fix", FIXES + PLATES))
     }
     here["Fix"] |= MADE_BY_OTHERS
+    here["Compute"] |= BEFORE_RUNS_ALONE
     for header in (Path(os.environ["GRAINSCOPE_SOURCE"]) / "src").rglob("*.h"):
         for kind, style in re.findall(r"^(Compute|Fix)Style\(([^,]+),", header.read_text(), re.M):
             require(style in here[kind], f"{kind.lower()} {style} is not among those made and removed")

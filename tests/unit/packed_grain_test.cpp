@@ -66,10 +66,11 @@ void expect_untouched(const PackedGrain &grain, int i) {
 void expect_axis(const Columns &columns, int i, unsigned char symmetry, const PackedGrain &grain) {
   double axis[3];
   const PackedGrain before = untouched(i)[i];
-  if (symmetry == KEPT) std::copy_n(before.axis, 3, axis);
-  else rotated_axis(&columns.quaternion[4 * i], symmetry, axis);
+  const double *quaternion = &columns.quaternion[4 * i];
+  if (symmetry < KEPT) rotated_axis(quaternion, symmetry, axis);
+  else std::copy_n(symmetry == KEPT ? before.axis : quaternion, 3, axis);
   expect_row(grain.axis, axis);
-  EXPECT_EQ(grain.inverse_product, before.inverse_product);
+  EXPECT_EQ(grain.inverse_product, symmetry == QUATERNION ? quaternion[3] : before.inverse_product);
   EXPECT_EQ(grain.size, before.size);
   expect_row(grain.x, before.x);
 }
@@ -100,7 +101,7 @@ TEST(packed_grain, holds_the_motion_of_every_grain) {
 TEST(packed_grain, holds_the_axis_of_every_spheroid) {
   for (int count = 0; count < 10; count++) {
     const Columns columns(count);
-    for (unsigned char alike : {0, 1, 2, int(KEPT)}) {
+    for (unsigned char alike : {0, 1, 2, int(KEPT), int(QUATERNION)}) {
       std::vector<PackedGrain> grains = untouched(count);
       const std::vector<unsigned char> symmetry(count, alike);
       pack_axes(columns.rows(false), symmetry.data(), grains.data());
@@ -114,9 +115,9 @@ TEST(packed_grain, holds_the_axis_of_every_spheroid) {
 TEST(packed_grain, axes_of_grains_that_are_not_alike) {
   constexpr int count = 5;
   const Columns columns(count);
-  for (int mixture = 0; mixture < 1024; mixture++) {
+  for (int mixture = 0; mixture < 5 * 5 * 5 * 5 * 5; mixture++) {
     unsigned char symmetry[count];
-    for (int i = 0; i < count; i++) symmetry[i] = mixture >> 2 * i & 3;
+    for (int i = 0, rest = mixture; i < count; i++, rest /= 5) symmetry[i] = rest % 5;
     std::vector<PackedGrain> grains = untouched(count);
     pack_axes(columns.rows(false), symmetry, grains.data());
     for (int i = 0; i < count; i++) expect_axis(columns, i, symmetry[i], grains[i]);

@@ -4,6 +4,7 @@
 
 #include "ellipsoid_contact.h"
 #include "separation_memory.h"
+#include "symmetry_axis.h"
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -28,6 +29,7 @@ struct Grains {
     int i, j;
   };
   std::vector<Pair> pairs;
+  std::vector<PackedGrain> packed;
   SeparationMemory memory;
   double reach = 0.0;
 
@@ -37,18 +39,33 @@ struct Grains {
     for (int i = 0; i < int(x.size()); i++)
       for (int j = i + 1; j < int(x.size()); j++)
         if ((x[i] - x[j]).norm() <= reach) pairs.push_back({i, j});
-    memory.restart(x.size(), pairs.size(), reach, [this](int i) {
-      return *std::max_element(shape[i].begin(), shape[i].end()) - *std::min_element(shape[i].begin(), shape[i].end());
+    const bool alike = std::count(shape.begin(), shape.end(), shape[0]) == int(shape.size());
+    packed.assign(x.size(), PackedGrain());
+    memory.restart(x.size(), pairs.size(), reach, alike, [this](int i) {
+      const auto ends = std::minmax_element(shape[i].begin(), shape[i].end());
+      return (*ends.second - *ends.first) * (is_triaxial(i) ? 2.0 : 1.0);
     });
     move();
   }
 
+  bool is_triaxial(int i) const { return symmetry_axis(shape[i].data()).shape == Shape::triaxial; }
+
   void move() {
-    std::vector<PackedGrain> packed(x.size());
-    std::vector<std::array<double, 4>> wxyz;
-    for (std::size_t i = 0; i < x.size(); i++) std::copy_n(x[i].data(), 3, packed[i].x);
-    for (const Quaterniond &a : q) wxyz.push_back({a.w(), a.x(), a.y(), a.z()});
-    memory.move(edges, origin, packed.data(), wxyz.empty() ? nullptr : wxyz[0].data());
+    memory.move(edges, origin, packed.data(), [this](int first, int many) {
+      for (int i = first; i < first + many; i++) pack(i);
+    });
+  }
+
+  void pack(int i) {
+    const double wxyz[4] = {q[i].w(), q[i].x(), q[i].y(), q[i].z()};
+    PackedGrain &grain = packed[i];
+    std::copy_n(x[i].data(), 3, grain.x);
+    if (is_triaxial(i)) {
+      std::copy_n(wxyz, 3, grain.axis);
+      grain.inverse_product = wxyz[3];
+    } else {
+      rotated_axis(wxyz, std::max(symmetry_axis(shape[i].data()).index, 0), grain.axis);
+    }
   }
 
   EllipsoidContact contact(int k) const {

@@ -142,14 +142,45 @@ TEST(separation_memory, turns_count_by_the_elongation) {
   EXPECT_FALSE(g.may_touch(0));
 }
 
+/** A spheroid by its axis, a triaxial grain by its quaternion. */
 TEST(separation_memory, large_turns_count_in_full) {
-  for (double angle = 0.1; angle < 3.14; angle += 0.1) {
-    Grains g = rods(0.5);
-    g.q[0] = Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitY()));
-    g.move();
-    EXPECT_GE(g.memory.moved(0), 4.0 * angle);
-    EXPECT_LE(g.memory.moved(0), 4.0 * angle * 1.2);
+  for (double angle = 0.1; angle < 3.14; angle += 0.1)
+    for (double width : {1.0, 1.1}) {
+      Grains g = rods(0.5);
+      g.shape = {{1.0, width, 5.0}, {1.0, 1.0, 5.0}};
+      g.list(12.0);
+      g.look(0);
+      g.q[0] = Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitY()));
+      g.move();
+      EXPECT_GE(g.memory.moved(0), 4.0 * angle);
+      EXPECT_LE(g.memory.moved(0), 4.0 * angle * 1.2);
+    }
+}
+
+/** A spheroid that spins about its axis brings nothing nearer. */
+TEST(separation_memory, spin_of_a_spheroid_about_its_axis_does_not_count) {
+  Grains g = rods(0.5);
+  g.q[0] = Quaterniond(Eigen::AngleAxisd(2.0, Vector3d::UnitZ()));
+  g.move();
+  EXPECT_NEAR(g.memory.moved(0), 0.0, 1e-14);
+}
+
+/** Grains of one shape, more than are followed at a time. */
+TEST(separation_memory, every_grain_of_many_is_followed) {
+  Grains g;
+  for (int i = 0; i < 203; i++) {
+    g.x.push_back(Vector3d(20.0 * i, 0, 0));
+    g.q.push_back(Quaterniond::Identity());
+    g.shape.push_back({1.0, 1.0, 5.0});
   }
+  g.list(12.0);
+  for (int i = 0; i < 203; i++) {
+    g.x[i].y() += 1e-3 * i;
+    g.q[i] = Quaterniond(Eigen::AngleAxisd(1e-4 * i, Vector3d::UnitX()));
+  }
+  g.move();
+  for (int i = 0; i < 203; i++) EXPECT_NEAR(g.memory.moved(i), 1e-3 * i + 4e-4 * i, 1e-5 * i) << i;
+  EXPECT_EQ(g.memory.most_moved(), g.memory.moved(202));
 }
 
 /** Grains that go with the box's flow use up only the strain times their distance; the box's own translation costs
@@ -208,11 +239,12 @@ TEST(separation_memory, motion_is_at_least_the_true_one_of_every_grain) {
       double most = 0.0;
       for (int i = 0; i < count; i++) {
         const Vector3d flown = g.origin + shift + f * (g.x[i] - g.origin), drift = random.vector(0.2);
-        const double angle = random.uniform(0.0, 1.0);
+        const Vector3d axis = g.q[i] * Vector3d::UnitZ();
         g.x[i] = flown + drift;
-        g.q[i] = random.turn(angle) * g.q[i];
+        g.q[i] = random.turn(random.uniform(0.0, 1.0)) * g.q[i];
+        const Vector3d axis_now = g.q[i] * Vector3d::UnitZ();
         displaced[i] += drift.norm();
-        turned[i] += std::abs(g.shape[i][2] - 1.0) * angle;
+        turned[i] += std::abs(g.shape[i][2] - 1.0) * std::atan2(axis.cross(axis_now).norm(), axis.dot(axis_now));
       }
       g.edges = f * g.edges;
       g.origin += shift;
