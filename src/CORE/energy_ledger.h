@@ -85,8 +85,8 @@ class EnergyLedger {
     const double *x, *v, *force, *torque;
   };
 
-  /** Many, in rows of three numbers, of quaternions four: spheroids, or without quaternions spheres of moment of inertia
-   *  `inertia_factor` m r^2, which have no inertia and momentum here. */
+  /** Many, in rows of three numbers, of quaternions four: spheroids, or without quaternions spheres of moment of
+   *  inertia `inertia_factor` m r^2, which have no inertia and momentum here. */
   struct Grains {
     int n;
     const int *mask;
@@ -272,8 +272,8 @@ class EnergyLedger {
   struct LaneStarts;
   bool start_four(const Grains &grains, int i, double dt, LaneStarts &sums);
   struct LaneArms;
-  /** Where a part is in the wrenches that grains have of each other: they are the first, in the order of the parts, and of
-   *  spring and sliding a law has one. */
+  /** Where a part is in the wrenches that grains have of each other: they are the first, in the order of the parts, and
+   *  of spring and sliding a law has one. */
   static constexpr int lane_slot(Part part) { return part <= damping ? part : part <= sliding ? spring : sliding; }
   void add_normal(const ContactLanes &c, const LaneArms &arms, const Lanes *sizes);
   void add_tangential(Part part, int slot, const ContactLanes &c, const LaneArms &arms, const Lanes *force);

@@ -270,8 +270,8 @@ TEST(energy_ledger_lanes, grains_side_by_side_are_those_one_by_one) {
       }
 }
 
-/** Of contacts that touch: what their history holds is taken if it is of the evaluation before, and what they are now is
- *  left there. */
+/** Of contacts that touch: what their history holds is taken if it is of the evaluation before, and what they are now
+ *  is left there. */
 TEST(energy_ledger_lanes, the_past_is_taken_from_the_history_and_renewed) {
   RandomContacts random(TangentialLaw::spring);
   const double half = 0.5 * DT;
