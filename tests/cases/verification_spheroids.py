@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Verification of spheroids: elastic impact along axes, free precession, rest on a plane (doc/verification.md)."""
+from functools import partial
+import math
+
+import numpy as np
+
+from case import main
+from deck import rayleigh_time
+from oracle.measures import rotation
+from packing import Grain
+from spheroid_motion import MOTION, moments
+from verification import (
+    G,
+    STIFF,
+    Body,
+    Bound,
+    Problem,
+    cases_of,
+    deck_of,
+    free_box,
+    law_of,
+    material,
+    plane,
+    rms,
+)
+from verification_normal import elastic_impact
+from wall_analytic import gravity, wall
+
+PROLATE, OBLATE, TRIAXIAL = (0.8, 0.8, 1.2), (1.2, 1.2, 0.6), (0.7, 1.0, 1.3)
+SOFT = 0.2 * STIFF
+CURVED = "gaussianCurvature yes curvatureLimitFactor 100"
+ROOT = math.sqrt(0.5)
+# Turned so that body axis x, y or z is along z.
+TURNS = ((ROOT, 0.0, -ROOT, 0.0), (ROOT, ROOT, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
+
+
+def along(shape, axis, young=STIFF):
+    """The body with that axis along z. The principal curvatures of an ellipsoid at the end of its axis c are c/a^2 and
+    c/b^2: the radius of its Gaussian curvature is a b/c."""
+    c = shape[axis]
+    return Body(young, shape, c, math.prod(shape) / c**2, TURNS[axis])
+
+
+def resting(surface):
+    """Spheroids and a triaxial ellipsoid are set on a plane on the ends of each of their axes, and sink in until they
+    rest: overlap and force under their weight."""
+    bodies = [along(shape, axis) for shape in (PROLATE, OBLATE, TRIAXIAL) for axis in range(3)]
+    weights = np.array([body.mass() * G for body in bodies])
+    overlaps = []
+    for body, weight in zip(bodies, weights):
+        law = law_of((STIFF, STIFF), (body.roundness, None), (body.mass(), None))
+        overlaps.append(law.overlap_under(weight))
+    overlaps = np.array(overlaps)
+    reaches = np.array([body.reach for body in bodies])
+    smallest = rayleigh_time(min(min(body.shape) for body in bodies), STIFF)
+
+    def deck(dt):
+        grains = []
+        for k, body in enumerate(bodies):
+            where = (4.0 * (k % 3) - 4.0, 4.0 * (k // 3) - 4.0, body.reach)
+            grains.append(Grain(where, body.shape, body.quaternion))
+        packing = free_box(grains, atom_style="superquadric")
+        made = deck_of(packing, dt, surface=surface, extra=CURVED, material=material(restitution=(0.3,)))
+        made.body = [gravity(0.0, 0.0, -G), wall(made, "floor", "zplane 0.0")]
+        return made
+
+    def errors(snapshots):
+        now = snapshots[-1]
+        return {
+            "overlap": float(np.abs((reaches - now["z"]) / overlaps - 1.0).max()),
+            "force": float(np.abs(now["f_force_floor[3]"] / weights - 1.0).max()),
+        }
+
+    bounds = {"overlap": Bound(0, 1e-8), "force": Bound(0, 1e-8)}
+    return Problem(
+        f"rest on a plane, surface {surface}",
+        deck,
+        300.0 * smallest,
+        errors,
+        bounds,
+        smallest,
+        columns="id z vz f_force_floor[3]",
+    )
+
+
+def precessing(integrator, order, bound):
+    """Spheroids that turn freely: the axis goes round the angular momentum L at the rate |L|/I_e, at a fixed angle."""
+    random = np.random.default_rng(5)
+    grains = []
+    for k, alpha in enumerate((0.33, 0.5, 0.8, 1.25, 2.0, 3.0)):
+        q, axis = random.normal(size=4), random.normal(size=3)
+        shape = (1.0, 1.0, alpha)
+        spin = 30.0 * axis / np.linalg.norm(axis)
+        grains.append(
+            Grain(
+                (6.0 * (k % 3) - 6.0, 6.0 * (k // 3) - 3.0, 0.0), shape, tuple(q / np.linalg.norm(q)), omega=tuple(spin)
+            )
+        )
+    smallest = rayleigh_time(0.33, STIFF)
+    time = 2.0
+
+    def deck(dt):
+        packing = free_box(grains, atom_style="superquadric")
+        return deck_of(packing, dt, ["unfix integrate", f"fix integrate all {integrator}"])
+
+    def errors(snapshots):
+        turned, tilted, kept = [], [], []
+        for k, grain in enumerate(grains):
+            inertia, start = moments(grain), rotation(np.array(grain.quaternion))
+            momentum = start @ (inertia * (start.T @ np.array(grain.omega)))
+            size = np.linalg.norm(momentum)
+            axes = [rotation(np.array([s[f"quat{n}"][k] for n in (1, 2, 3, 4)]))[:, 2] for s in snapshots]
+            phase = size / inertia[0] * time
+            along_l = momentum / size
+            across = [u - (u @ along_l) * along_l for u in (axes[0], axes[-1])]
+            found = math.atan2(np.cross(across[0], across[1]) @ along_l, across[0] @ across[1])
+            turned.append(math.remainder(found - phase, 2.0 * math.pi) / phase)
+            tilted.append((axes[-1] - axes[0]) @ along_l)
+            now = np.array([snapshots[-1]["angmom" + a][k] for a in "xyz"])
+            kept.append(np.linalg.norm(now - momentum) / size)
+        return {"precession rate": rms(turned), "tilt of the axis": rms(tilted), "angular momentum": rms(kept)}
+
+    bounds = {
+        "precession rate": Bound(order, bound[0]),
+        "tilt of the axis": Bound(order, bound[1]),
+        "angular momentum": Bound(0, bound[2]),
+    }
+    return Problem(f"precession, {integrator}", deck, time, errors, bounds, smallest, columns=MOTION)
+
+
+def meeting(title, first, second, surface="ellipsoid"):
+    return elastic_impact(f"elastic impact, {title}, surface {surface}", first, second, surface=surface, extra=CURVED)
+
+
+MEETINGS = {
+    "prolate-poles": ("poles of prolate grains", along(PROLATE, 2), along(PROLATE, 2)),
+    "prolate-sides": ("sides of prolate grains, axes crossed", along(PROLATE, 0), along(PROLATE, 1, SOFT)),
+    "oblate-faces": ("poles of oblate grains", along(OBLATE, 2), along(OBLATE, 2)),
+    "oblate-edge-on-prolate-pole": ("rim of an oblate, pole of a prolate", along(OBLATE, 0), along(PROLATE, 2, SOFT)),
+    "triaxial-on-a-plane": ("a triaxial grain and a plane", along(TRIAXIAL, 1), plane()),
+}
+PROBLEMS = {
+    **{f"elastic-impact-{name}": partial(meeting, *bodies) for name, bodies in MEETINGS.items()},
+    "elastic-impact-superquadric": partial(meeting, *MEETINGS["prolate-poles"], "superquadric"),
+    "precession-spheroid": partial(precessing, "nve/spheroid", 0, (1e-10, 1e-10, 1e-14)),
+    "precession-superquadric": partial(precessing, "nve/superquadric integration_scheme 1", 2, (3.5e-7, 9.3e-6, 1e-9)),
+    "rest-ellipsoid": partial(resting, "ellipsoid"),
+    "rest-superquadric": partial(resting, "superquadric"),
+}
+
+if __name__ == "__main__":
+    main(cases_of(PROBLEMS))
