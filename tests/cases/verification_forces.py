@@ -3,7 +3,7 @@
 import math
 
 import numpy as np
-from scipy.optimize import minimize_scalar
+from scipy.optimize import brentq, minimize_scalar
 
 from case import main, require, require_close
 from deck import dump_grains, rayleigh_time
@@ -263,6 +263,57 @@ def pulled(model):
     return case
 
 
+ADHESION = 200.0  # work of adhesion w [J/m^2]
+
+
+def jkr_force(overlap):
+    """By the radius a of the contact: F = 4 E* a^3/(3 R*) - sqrt(8 pi w E* a^3), overlap a^2/R* - sqrt(2 pi w a/E*)."""
+    young, radius = PAIR.young, PAIR.radius
+    smallest = (2.0 * math.pi * ADHESION * radius**2 / young) ** (1.0 / 3.0)  # at overlap 0
+    a = brentq(
+        lambda a: a * a / radius - math.sqrt(2.0 * math.pi * ADHESION * a / young) - overlap,
+        0.999 * smallest,
+        radius,
+        xtol=1e-15,
+    )
+    return 4.0 * young * a**3 / (3.0 * radius) - math.sqrt(8.0 * math.pi * ADHESION * young * a**3)
+
+
+def jkr(ranks):
+    """LIGGGHTS's thornton_ning, without yield: pressed together and drawn apart, force by overlap. It adds up
+    dF/d(overlap) from step to step: of first order. A contact ends at overlap 0, where the tension is 8/9 of JKR's
+    3/2 pi w R*; that would need the neck that forms beyond."""
+    largest, deep, found = 1.5 * math.pi * ADHESION * PAIR.radius, 2e-3, []
+    for steps in (1000, 4000):
+        dt = 100.0 * T_R / steps
+        speed = 1.2 * deep / (steps * dt)
+        deck = joined(-0.2 * deep, dt, "off")
+        deck.normal = "thornton_ning"
+        deck.body = [
+            "unfix integrate",
+            "group moved id 2",
+            f"fix press moved move linear {number(-speed)} 0.0 0.0 units box",
+            *dump_grains(deck.packing, 1, columns="id x fx"),
+            f"run {steps}",
+            "unfix press",
+            f"fix draw moved move linear {number(speed)} 0.0 0.0 units box",
+            f"run {steps}",
+        ]
+        properties = (
+            f"fix adhesion all property/global surfaceEnergy peratomtypepair 1 {number(ADHESION)}\n"
+            "fix yield all property/global coefficientYieldRatio peratomtype 0.5\n"
+        )
+        snapshots = run(deck.text().replace("fix speed all", properties + "fix speed all"), ranks).dump("grains.dump")
+        overlaps, forces = overlaps_of(snapshots), np.array([s["fx"][1] for _, s in snapshots])
+        closed = overlaps > 0.0
+        expected = np.array([jkr_force(overlap) for overlap in overlaps[closed]])
+        found.append((np.abs(forces[closed] - expected).max() / largest, -forces.min() / largest))
+    (coarse, _), (fine, tension) = found
+    print(f"force by overlap: {coarse:.3f} and {fine:.3f} of the pull-off force, largest tension {tension:.4f} of it")
+    require_close(coarse / fine, 4.0, 0.05, "error at 4 times the step")
+    require_close(tension, 8.0 / 9.0, 0.01, "largest tension")
+
+
 PROBLEMS = {
     "spin-down-cdt": spinning_down,
     "rolling-cdt": rolling_down,
@@ -272,6 +323,7 @@ PROBLEMS = {
 CASES = {
     **cases_of(PROBLEMS),
     **{f"pull-off-{model}": pull_off(model) for model in AREAS},
+    "pull-off-jkr": jkr,
     **{f"pulled-{model}": pulled(model) for model in AREAS},
 }
 

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Verification of spheroids: elastic impact along axes, free precession, rest on a plane (doc/verification.md)."""
+from dataclasses import replace
 from functools import partial
 import math
 
 import numpy as np
 
-from case import main
+from case import main, require
 from deck import rayleigh_time
 from oracle.measures import rotation
 from packing import Grain
@@ -20,9 +21,11 @@ from verification import (
     deck_of,
     free_box,
     law_of,
+    mass_of,
     material,
     plane,
     rms,
+    solve,
 )
 from verification_normal import elastic_impact
 from wall_analytic import gravity, wall
@@ -84,6 +87,88 @@ def resting(surface):
     )
 
 
+def leaning(shape, surface, bounds):
+    """Spheroids hit a plane, their axes at angles t from 5 to 85 degrees to the vertical: velocity and spin after an
+    elastic impact without friction, against the equations of motion. With h^2 = a^2 sin^2 t + c^2 cos^2 t the overlap
+    is h - z, the radius of curvature a^2 c/h^2, the lever (c^2 - a^2) sin t cos t/h."""
+    a, _, c = shape
+    mass, speed = mass_of(*shape), 1.0
+    across = 0.2 * mass * (a * a + c * c)  # moment of inertia
+    plain = law_of((STIFF, STIFF), (1.0, None), (mass, None))
+    angles = np.radians(np.linspace(5.0, 85.0, 16))
+
+    def height(t):
+        return math.hypot(a * math.sin(t), c * math.cos(t))
+
+    def rate(_, y):
+        z, v, t, spin = y
+        h = height(t)
+        force = replace(plain, radius=a * a * c / h**2).elastic(h - z)
+        return [v, force / mass, spin, (c * c - a * a) * math.sin(t) * math.cos(t) / h * force / across]
+
+    time = 2.5 * replace(plain, radius=a * a / c).duration(speed)
+    known = np.array([solve(rate, [height(t), -speed, t, 0.0], time).y[:, -1] for t in angles])
+
+    def deck(dt):
+        grains = []
+        for k, t in enumerate(angles):
+            where = (4.0 * (k % 4) - 6.0, 4.0 * (k // 4) - 6.0, height(t))
+            turned = (math.cos(0.5 * t), 0.0, math.sin(0.5 * t), 0.0)
+            grains.append(Grain(where, shape, turned, (0.0, 0.0, -speed)))
+        made = deck_of(free_box(grains, atom_style="superquadric"), dt, surface=surface, extra=CURVED)
+        made.body = [wall(made, "floor", "zplane 0.0")]
+        return made
+
+    def errors(snapshots):
+        now = snapshots[-1]
+        return {
+            "velocity after": rms((now["vz"] - known[:, 1]) / speed),
+            "spin after": rms((now["omegay"] - known[:, 3]) * c / speed),
+        }
+
+    bounds = {"velocity after": Bound(2.5, bounds[0]), "spin after": Bound(2.5, bounds[1])}
+    title = f"leaning {'prolate' if c > a else 'oblate'} grains on a plane"
+    title += "" if surface == "ellipsoid" else f", surface {surface}"
+    return Problem(title, deck, time, errors, bounds, rayleigh_time(min(shape), STIFF))
+
+
+def colliding(surface):
+    """Turned and spinning spheroids of two shapes meet off centre, with friction and damping: momentum and moment of
+    momentum stay, whatever the law."""
+    kinds = (PROLATE, OBLATE)
+    masses = np.array([mass_of(*shape) for shape in kinds])
+    tilts = ((math.cos(0.3), 0.0, math.sin(0.3), 0.0), (math.cos(0.5), math.sin(0.5), 0.0, 0.0))
+    grains = [
+        Grain((side * 1.05, 0.35 * side, 0.1 * side), shape, tilt, (-side, 0.0, 0.0), (0.3, 0.5 * side, 0.7))
+        for side, shape, tilt in zip((-1.0, 1.0), kinds, tilts)
+    ]
+    smallest = rayleigh_time(min(OBLATE), STIFF)
+
+    def deck(dt):
+        contact = material(restitution=(0.5,), friction=(0.4,))
+        packing = free_box(grains, atom_style="superquadric")
+        made = deck_of(packing, dt, surface=surface, extra=CURVED, material=contact)
+        made.body = ["unfix integrate", "fix integrate all nve/spheroid"]
+        return made
+
+    def totals(now):
+        x, v, own = (np.stack([now[name + a] for a in "xyz"], axis=1) for name in ("", "v", "angmom"))
+        return masses @ v, (masses[:, None] * np.cross(x, v) + own).sum(axis=0)
+
+    def errors(snapshots):
+        (p0, m0), (p, m) = totals(snapshots[0]), totals(snapshots[-1])
+        changed = max(np.abs(snapshots[-1]["vx"] - snapshots[0]["vx"]))
+        require(changed > 0.5, f"they did not collide: {changed}")
+        return {
+            "momentum": np.abs(p - p0).max() / masses.max(),
+            "moment of momentum": np.abs(m - m0).max() / masses.max(),
+        }
+
+    bounds = {"momentum": Bound(0, 1e-12), "moment of momentum": Bound(0, 1e-11)}
+    title = f"collision of two spheroids, surface {surface}"
+    return Problem(title, deck, 60.0 * smallest, errors, bounds, smallest, columns=MOTION)
+
+
 def precessing(integrator, order, bound):
     """Spheroids that turn freely: the axis goes round the angular momentum L at the rate |L|/I_e, at a fixed angle."""
     random = np.random.default_rng(5)
@@ -130,7 +215,8 @@ def precessing(integrator, order, bound):
 
 
 def meeting(title, first, second, surface="ellipsoid"):
-    return elastic_impact(f"elastic impact, {title}, surface {surface}", first, second, surface=surface, extra=CURVED)
+    title += "" if surface == "ellipsoid" else f", surface {surface}"
+    return elastic_impact(f"elastic impact, {title}", first, second, surface=surface, extra=CURVED)
 
 
 MEETINGS = {
@@ -143,8 +229,13 @@ MEETINGS = {
 PROBLEMS = {
     **{f"elastic-impact-{name}": partial(meeting, *bodies) for name, bodies in MEETINGS.items()},
     "elastic-impact-superquadric": partial(meeting, *MEETINGS["prolate-poles"], "superquadric"),
+    "leaning-prolate": partial(leaning, PROLATE, "ellipsoid", (1e-5, 9e-6)),
+    "leaning-oblate": partial(leaning, OBLATE, "ellipsoid", (4.2e-6, 3.5e-6)),
+    "leaning-superquadric": partial(leaning, PROLATE, "superquadric", (1e-5, 9e-6)),
+    "collision-ellipsoid": partial(colliding, "ellipsoid"),
+    "collision-superquadric": partial(colliding, "superquadric"),
     "precession-spheroid": partial(precessing, "nve/spheroid", 0, (1e-10, 1e-10, 1e-14)),
-    "precession-superquadric": partial(precessing, "nve/superquadric integration_scheme 1", 2, (3.5e-7, 9.3e-6, 1e-9)),
+    "precession-superquadric": partial(precessing, "nve/superquadric", 2, (3.5e-7, 9.3e-6, 1e-9)),
     "rest-ellipsoid": partial(resting, "ellipsoid"),
     "rest-superquadric": partial(resting, "superquadric"),
 }
