@@ -127,7 +127,10 @@ def draw(found):
         for order in guides:
             axes.loglog(SWEEP, 2.0 * top * (np.array(SWEEP) / SWEEP[0]) ** order, "--", color="0.6", linewidth=0.8)
             axes.annotate(
-                f"$dt^{{{order:g}}}$", (SWEEP[-1], 2.0 * top * (SWEEP[-1] / SWEEP[0]) ** order), color="0.4", va="bottom"
+                f"$dt^{{{order:g}}}$",
+                (SWEEP[-1], 2.0 * top * (SWEEP[-1] / SWEEP[0]) ** order),
+                color="0.4",
+                va="bottom",
             )
         axes.set(title=title, xlabel=r"$dt/T_R$", ylabel="relative error", ylim=(FLOOR, None))
         axes.legend(fontsize=8, loc="upper left", bbox_to_anchor=(0.0, -0.13))
