@@ -10,6 +10,7 @@ import numpy as np
 from case import main, require, require_close
 from deck import dump_grains, rayleigh_time
 from ledger import UNDAMPED
+import meshes
 from packing import DENSITY
 from run import run
 from verification import (
@@ -48,13 +49,13 @@ def floor_law(e=1.0, model="hertz"):
     return law_of((STIFF, STIFF), (1.0, None), (MASS, None), e, model)
 
 
-def slipping(friction=0.3):
+def slipping(who, share, mesh=False, friction=0.3, **choices):
     """Balls set down in motion without spin: slip ends after 2/7 v/(mu g) at 5/7 v if the lever is R and the spring
-    stiff. Here the lever is R - overlap/2, and the ball swings on the spring until it is stretched to the limit: both
-    in closed form. Slip ends where a straight line through two moments of it meets 0."""
+    stiff. Here the lever is R less a `share` of the overlap, and the ball swings on the spring until it is stretched
+    to the limit: both in closed form. Slip ends where a straight line through two moments of it meets 0."""
     law = floor_law()
     overlap = law.overlap_under(MASS * G)
-    lever, stiffness, limit = 1.0 - 0.5 * overlap, law.tangential_stiffness(overlap), friction * MASS * G
+    lever, stiffness, limit = 1.0 - share * overlap, law.tangential_stiffness(overlap), friction * MASS * G
     mobility = 1.0 / MASS + lever**2 / INERTIA
     frequency = math.sqrt(stiffness * mobility)
     speeds = 1.0 + 0.05 * np.arange(GRAINS)
@@ -66,8 +67,9 @@ def slipping(friction=0.3):
 
     def deck(dt):
         grains = [ball((*place(k), 1.0 - overlap), velocity=(v, 0.0, 0.0)) for k, v in enumerate(speeds)]
-        made = deck_of(free_box(grains), dt, material=material(friction=(friction,)))
-        made.body = [gravity(0.0, 0.0, -G), wall(made, "floor", "zplane 0.0")]
+        packing = free_box(grains, atom_style="superquadric" if choices else "sphere")
+        made = deck_of(packing, dt, material=material(friction=(friction,)), **choices)
+        made.body = [gravity(0.0, 0.0, -G), *(mesh_floor(made) if mesh else [wall(made, "floor", "zplane 0.0")])]
         return made
 
     def errors(snapshots):
@@ -79,7 +81,7 @@ def slipping(friction=0.3):
         return {"time": rms(end / ends - 1.0), "velocity": rms(speed / rolled - 1.0)}
 
     bounds = {"time": Bound(2, 3e-4), "velocity": Bound(0, 1e-11)}
-    return Problem("slip to roll", deck, time, errors, bounds, T_R, samples=2)
+    return Problem(f"slip to roll, {who}", deck, time, errors, bounds, T_R, samples=2)
 
 
 def mindlin_impact(law, normal, tangential, friction, dashpot):
@@ -129,7 +131,20 @@ def mindlin_impact(law, normal, tangential, friction, dashpot):
             slips = int(np.sign(y[4]))
 
 
-def oblique(e, steepest, orders, allowed, extra="", **choices):
+FLOOR = meshes.rectangle((-15.0, -15.0, 0.0), (30.0, 0.0, 0.0), (0.0, 30.0, 0.0))
+
+
+def mesh_floor(deck):
+    """The plane z = 0 as a mesh of two triangles; some grains of `place` touch both."""
+    file = meshes.folder_with(floor=FLOOR) / "floor.stl"
+    model = replace(deck, extra="").model()
+    return [
+        f"fix mesh all mesh/surface file {file} type 1",
+        f"fix floor all wall/gran {model} mesh n_meshes 1 meshes mesh {deck.extra}".strip(),
+    ]
+
+
+def oblique(e, steepest, orders, allowed, extra="", mesh=False, **choices):
     """Impacts on a plane at angles from `steepest` to 80 degrees to the normal: sticking, slipping and both, against
     the law's own differential equation."""
     law, speed, friction = floor_law(e), 1.0, 0.2
@@ -140,7 +155,7 @@ def oblique(e, steepest, orders, allowed, extra="", **choices):
     def deck(dt):
         grains = [ball((*place(k), 1.0), velocity=(speed * math.tan(a), 0.0, -speed)) for k, a in enumerate(angles)]
         made = deck_of(free_box(grains), dt, material=material(friction=(friction,), restitution=(e,)), extra=extra)
-        made.body = [wall(made, "floor", "zplane 0.0")]
+        made.body = mesh_floor(made) if mesh else [wall(made, "floor", "zplane 0.0")]
         return made
 
     def errors(snapshots):
@@ -150,7 +165,7 @@ def oblique(e, steepest, orders, allowed, extra="", **choices):
     names = ("tangential velocity", "spin", "normal velocity")
     bounds = {name: Bound(*both) for name, *both in zip(names, orders, allowed)}
     return Problem(
-        f"oblique impact on a plane, {extra + ', ' if extra else ''}e = {e:g}",
+        f"oblique impact on a {'mesh' if mesh else 'plane'}, {extra + ', ' if extra else ''}e = {e:g}",
         deck,
         time,
         errors,
@@ -339,10 +354,15 @@ def kharaz(ranks):
 
 
 PROBLEMS = {
-    "slip-to-roll": slipping,
+    # The levers are LIGGGHTS's: of spheres to the middle of the overlap, of superquadrics to the grain's surface at a
+    # plane, to the mesh at a mesh.
+    "slip-to-roll": partial(slipping, "sphere", 0.5),
+    "slip-to-roll-of-ellipsoids": partial(slipping, "ellipsoid", 0.0, surface="ellipsoid"),
+    "slip-to-roll-on-a-mesh": partial(slipping, "ellipsoid on a mesh", 1.0, True, surface="ellipsoid"),
     # Below this step a small term of first order shows: LIGGGHTS takes the lever, R - overlap/2, at the end of a step,
     # and the spin at its middle.
     "oblique-on-a-plane": partial(oblique, 1.0, 5.0, (2, 2, 2.5), (4e-5, 1e-4, 7e-6), smallest=0.0125),
+    "oblique-on-a-mesh": partial(oblique, 1.0, 5.0, (2, 2, 2.5), (4e-5, 1e-4, 7e-6), mesh=True, smallest=0.0125),
     "oblique-damped": partial(oblique, 0.5, 25.0, (1, 1), (1.4e-2, 3.5e-2)),
     "oblique-damped-along-the-normal": partial(oblique, 0.5, 25.0, (1, 1), (8.5e-4, 2.1e-3), UNDAMPED),
     "oblique-of-two-spheres": sliding_pairs,

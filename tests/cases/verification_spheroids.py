@@ -27,6 +27,7 @@ from verification import (
     rms,
     solve,
 )
+from verification_friction import mesh_floor
 from verification_normal import elastic_impact
 from wall_analytic import gravity, wall
 
@@ -87,7 +88,7 @@ def resting(surface):
     )
 
 
-def leaning(shape, surface, bounds):
+def leaning(shape, surface, bounds, mesh=False):
     """Spheroids hit a plane, their axes at angles t from 5 to 85 degrees to the vertical: velocity and spin after an
     elastic impact without friction, against the equations of motion. With h^2 = a^2 sin^2 t + c^2 cos^2 t the overlap
     is h - z, the radius of curvature a^2 c/h^2, the lever (c^2 - a^2) sin t cos t/h."""
@@ -100,11 +101,20 @@ def leaning(shape, surface, bounds):
     def height(t):
         return math.hypot(a * math.sin(t), c * math.cos(t))
 
+    def curvature_radius(z, t, lever):
+        """On a mesh LIGGGHTS takes it not at the deepest point but where the line to that point's projection meets the
+        surface."""
+        along, beside = (lever * math.sin(t) - z * math.cos(t)), (lever * math.cos(t) + z * math.sin(t))
+        if not mesh:
+            return a * a * c / height(t) ** 2
+        on_surface = (beside / a) ** 2 + (along / c) ** 2
+        return a * a * c * ((beside / a**2) ** 2 + (along / c**2) ** 2) / on_surface
+
     def rate(_, y):
         z, v, t, spin = y
-        h = height(t)
-        force = replace(plain, radius=a * a * c / h**2).elastic(h - z)
-        return [v, force / mass, spin, (c * c - a * a) * math.sin(t) * math.cos(t) / h * force / across]
+        lever = -(c * c - a * a) * math.sin(t) * math.cos(t) / height(t)
+        force = replace(plain, radius=curvature_radius(z, t, lever)).elastic(height(t) - z)
+        return [v, force / mass, spin, -lever * force / across]
 
     time = 2.5 * replace(plain, radius=a * a / c).duration(speed)
     known = np.array([solve(rate, [height(t), -speed, t, 0.0], time).y[:, -1] for t in angles])
@@ -116,7 +126,7 @@ def leaning(shape, surface, bounds):
             turned = (math.cos(0.5 * t), 0.0, math.sin(0.5 * t), 0.0)
             grains.append(Grain(where, shape, turned, (0.0, 0.0, -speed)))
         made = deck_of(free_box(grains, atom_style="superquadric"), dt, surface=surface, extra=CURVED)
-        made.body = [wall(made, "floor", "zplane 0.0")]
+        made.body = mesh_floor(made) if mesh else [wall(made, "floor", "zplane 0.0")]
         return made
 
     def errors(snapshots):
@@ -127,7 +137,7 @@ def leaning(shape, surface, bounds):
         }
 
     bounds = {"velocity after": Bound(2.5, bounds[0]), "spin after": Bound(2.5, bounds[1])}
-    title = f"leaning {'prolate' if c > a else 'oblate'} grains on a plane"
+    title = f"leaning {'prolate' if c > a else 'oblate'} grains on a {'mesh' if mesh else 'plane'}"
     title += "" if surface == "ellipsoid" else f", surface {surface}"
     return Problem(title, deck, time, errors, bounds, rayleigh_time(min(shape), STIFF))
 
@@ -232,6 +242,7 @@ PROBLEMS = {
     "leaning-prolate": partial(leaning, PROLATE, "ellipsoid", (1e-5, 9e-6)),
     "leaning-oblate": partial(leaning, OBLATE, "ellipsoid", (4.2e-6, 3.5e-6)),
     "leaning-superquadric": partial(leaning, PROLATE, "superquadric", (1e-5, 9e-6)),
+    "leaning-on-a-mesh": partial(leaning, PROLATE, "ellipsoid", (1e-5, 9e-6), True),
     "collision-ellipsoid": partial(colliding, "ellipsoid"),
     "collision-superquadric": partial(colliding, "superquadric"),
     "precession-spheroid": partial(precessing, "nve/spheroid", 0, (1e-10, 1e-10, 1e-14)),
