@@ -730,3 +730,30 @@ add_cases(velocity/memory+displacement/shear-time cases/passed_time.py LABEL cas
 
 # Other units
 add_cases(every-style-units cases/units.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 CASES spheres spheroids walls)
+
+# Problems of the field whose solution is known: errors and orders of convergence (doc/verification.md)
+function(add_verified script styles)
+  cmake_parse_arguments(ARG "" "" "PROBLEMS;OTHERS;ON_RANKS" ${ARGN})
+  list(TRANSFORM ARG_PROBLEMS APPEND -sweep OUTPUT_VARIABLE sweeps)
+  set(prefix gran/insitu-verification)
+  add_cases(${prefix} cases/${script}.py LABEL case STYLES ${styles} CASES ${ARG_PROBLEMS} ${ARG_OTHERS})
+  add_cases(${prefix} cases/${script}.py LABEL case STYLES ${styles} LONG_RANKS 2 CASES ${ARG_ON_RANKS})
+  add_cases(${prefix} cases/${script}.py LABEL case STYLES ${styles} LONG_RANKS 1 CASES ${sweeps})
+  string(REPLACE verification_ "" part ${script})
+  add_cases(${prefix}-${part} cases/${script}.py LABEL case STYLES ${styles} CASES as-pair-style-gran)
+endfunction()
+add_verified(verification_normal "gran/insitu;wall/gran" PROBLEMS
+  free-fall bounces-hooke bounces-hertz bounces-hertz-elastic restitution-hooke restitution-hooke-limited
+  restitution-hertz elastic-impact-of-equal-spheres elastic-impact-of-unequal-spheres elastic-impact-on-a-plane
+  head-on-hooke head-on-hertz stacked-hooke stacked-hertz stacked-hertz-elastic ON_RANKS head-on-hertz)
+add_verified(verification_friction "gran/insitu;wall/gran;surface/ellipsoid" PROBLEMS
+  slip-to-roll slip-to-roll-of-ellipsoids slip-to-roll-on-a-mesh oblique-on-a-plane oblique-on-a-mesh oblique-damped
+  oblique-damped-along-the-normal oblique-of-two-spheres
+  OTHERS kharaz coulomb ON_RANKS oblique-of-two-spheres)
+add_verified(verification_forces "gran/insitu;wall/gran" PROBLEMS spin-down-cdt rolling-cdt spin-down-epsd2 settling
+  OTHERS pull-off-sjkr pull-off-sjkr2 pull-off-jkr pulled-sjkr pulled-sjkr2 ON_RANKS pull-off-sjkr)
+add_verified(verification_spheroids "gran/insitu;surface/ellipsoid;nve/spheroid;wall/gran" PROBLEMS
+  elastic-impact-prolate-poles elastic-impact-prolate-sides elastic-impact-oblate-faces
+  elastic-impact-oblate-edge-on-prolate-pole elastic-impact-triaxial-on-a-plane elastic-impact-superquadric
+  leaning-prolate leaning-oblate leaning-on-a-mesh leaning-superquadric collision-ellipsoid collision-superquadric
+  precession-spheroid precession-superquadric rest-ellipsoid rest-superquadric ON_RANKS leaning-prolate)

@@ -44,13 +44,14 @@ def sphere(position, velocity=(0.0, 0.0, 0.0), omega=(0.0, 0.0, 0.0)):
     return Grain(position, velocity=velocity, omega=omega)
 
 
-def wall(deck, name, primitive):
-    """Keeps its force on each grain. Keywords of the model stand at its end; `ledger` is the pair style's alone."""
+def wall(deck, name, primitive, kind=1):
+    """Of atom type `kind`; keeps its force on each grain. Keywords of the model stand at its end; `ledger` is the pair
+    style's alone."""
     keywords = deck.extra.replace("ledger on", "").strip()
     words, _, moving = primitive.partition(" shear ")
     moving = f"shear {moving}" if moving else ""
     model = replace(deck, extra="").model()
-    return f"fix {name} all wall/gran {model} primitive type 1 {words} store_force yes {moving} {keywords}".strip()
+    return f"fix {name} all wall/gran {model} primitive type {kind} {words} store_force yes {moving} {keywords}".strip()
 
 
 def gravity(x, y, z):

@@ -23,6 +23,7 @@ class Material:
     friction: tuple = (0.4,)
     rolling: tuple = (0.1,)
     cohesion: tuple = (1e4,)
+    poisson: tuple = (POISSON,)
 
     def lines(self, types):
         def pairs(values):
@@ -34,7 +35,7 @@ class Material:
             return f"peratomtype {numbers(values)}"
 
         yield f"fix young all property/global youngsModulus {singles(self.young)}"
-        yield f"fix poisson all property/global poissonsRatio {singles((POISSON,))}"
+        yield f"fix poisson all property/global poissonsRatio {singles(self.poisson)}"
         yield f"fix restitution all property/global coefficientRestitution {pairs(self.restitution)}"
         yield f"fix friction all property/global coefficientFriction {pairs(self.friction)}"
         yield f"fix rolling all property/global coefficientRollingFriction {pairs(self.rolling)}"
