@@ -17,6 +17,11 @@ class LaneLaw : private LAMMPS_NS::Pointers {
   /** Before a run; all ranks together. `models`: the words of the command. `spring_in_place`: in the contact history the
    *  tangential spring is where the lanes look for it, behind lambda or, without one, in the first columns. */
   void connect(const std::string &models, bool spring_in_place);
+  /** `time_level synchronized`; `kept`: what is kept of a contact, behind lambda. */
+  void synchronize(int kept) {
+    law_.synchronized = true;
+    law_.kept = kept;
+  }
   bool covers() const { return covers_; }
   /** Material properties and time step as they are now. */
   void refresh();
