@@ -728,3 +728,14 @@ add_cases(velocity/memory+displacement/shear-time cases/passed_time.py LABEL cas
 
 # Other units
 add_cases(every-style-units cases/units.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 CASES spheres spheroids walls)
+
+add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu surface/ellipsoid wall/gran CASES
+  neck neck-equal neck-ellipsoids neck-superquadrics neck-one-by-one points points-ellipsoid sieve)
+add_cases(gran/insitu-time-level cases/time_level.py LABEL long STYLES gran/insitu CASES neck-tiny)
+add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu surface/ellipsoid CASES
+  order-normal order-normal-damped order-tangential order-rolling order-all order-all-damped order-ellipsoids
+  order-spheroids lanes-spheres lanes-spheroids lanes-balls lanes-viscous)
+add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu surface/ellipsoid RANKS 2
+  LONG_RANKS 4 CASES ranks-spheres ranks-spheroids)
+add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu wall/gran setup/memory read_restart
+  RANKS 1 2 LONG_RANKS 4 CASES restart-spheres restart-spheroids)
