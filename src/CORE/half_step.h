@@ -30,6 +30,36 @@ struct Motion {
   Real spin_i[3], spin_j[3];
 };
 
+/** v, turned as the shortest rotation turns the unit vector `from` to `to`. */
+template <class Real>
+GRAINSCOPE_INLINE void turn(const Real *from, const Real *to, const Real *v, Real *turned) {
+  const Real along = inner(v, from);
+  Real across[3];
+  for (int k = 0; k < 3; k++) across[k] = v[k] - along * from[k];
+  const Real by = inner(across, to) / (1.0 + inner(from, to));
+  for (int k = 0; k < 3; k++) turned[k] = along * to[k] + across[k] - by * (from[k] + to[k]);
+}
+
+/** The normal in the middle of the step, `half`, and the velocity of surface i against surface j there, turned to
+ *  `normal`: of two spheres, whose centres have moved by their velocities. `branch` = x_i - x_j; it and `normal`,
+ *  towards i, are of the end of the step. */
+template <class Real>
+GRAINSCOPE_INLINE void of_spheres(const Real *normal, const Real *branch, Real radius_i, Real radius_j,
+                                  const Motion<Real> &motion, double dt, Real *half, Real *velocity) {
+  Real middle[3], levers[3], turning[3], v[3];
+  for (int k = 0; k < 3; k++) middle[k] = branch[k] - (0.5 * dt) * motion.velocity[k];
+  const Real distance = root(inner(middle, middle)), overlap = radius_i + radius_j - distance;
+  const Real lever_i = radius_i - 0.5 * overlap, lever_j = radius_j - 0.5 * overlap;
+  const auto goes_on = inner(middle, normal) > 0.0;
+  for (int k = 0; k < 3; k++) {
+    half[k] = pick(goes_on, middle[k] / distance, normal[k]);
+    levers[k] = lever_i * motion.spin_i[k] + lever_j * motion.spin_j[k];
+  }
+  outer(levers, half, turning);
+  for (int k = 0; k < 3; k++) v[k] = motion.velocity[k] - turning[k];
+  turn(half, normal, v, velocity);
+}
+
 /** A contact at one moment, from i's side. */
 template <class Real>
 struct Moment {
@@ -37,76 +67,43 @@ struct Moment {
   Real arm_i[3], arm_j[3];  // from the centres to the contact point; at a wall that of i alone has a meaning
 };
 
-/** The middle of a step of two spheres, whose centres have moved by their velocities. `normal`, `branch` = x_i - x_j:
- *  at its end. */
-template <class Real>
-GRAINSCOPE_INLINE void middle_of_spheres(const Real *normal, const Real *branch, Real radius_i, Real radius_j,
-                                         const Motion<Real> &motion, double dt, Moment<Real> &middle) {
-  Real half[3];
-  for (int k = 0; k < 3; k++) half[k] = branch[k] - (0.5 * dt) * motion.velocity[k];
-  const Real distance = root(inner(half, half)), overlap = radius_i + radius_j - distance;
-  const Real lever_i = radius_i - 0.5 * overlap, lever_j = radius_j - 0.5 * overlap;
-  const auto goes_on = inner(half, normal) > 0.0;
-  for (int k = 0; k < 3; k++) {
-    middle.normal[k] = pick(goes_on, half[k] / distance, normal[k]);
-    middle.arm_i[k] = -lever_i * middle.normal[k];
-    middle.arm_j[k] = lever_j * middle.normal[k];
-  }
-}
-
 /** What is kept of a contact from step to step where its past does not follow from velocities (walls, grains that are
  *  no spheres), each of three numbers: the normal; the contact point against the middle of the two centres, or at a
- *  wall against that of i; and relative_velocity(), for evaluations that are repeated. */
+ *  wall against that of i; and the velocity that was found, for evaluations that are repeated. */
 enum Kept { kept_normal = 0, kept_point = 3, kept_velocity = 6, kept_numbers = 9 };
 
-/** The middle of a step from what was kept at its beginning and is `now`, at its end. */
+/** The same of any contact, from what was kept of it at the beginning of the step and from what it is `now`, which is
+ *  kept. */
 template <class Real>
-GRAINSCOPE_INLINE void middle_of_kept(const Real *kept, const Moment<Real> &now, bool wall, const Motion<Real> &motion,
-                                      double dt, Moment<Real> &middle) {
-  Real sum[3];
+GRAINSCOPE_INLINE void of_kept(const Moment<Real> &now, bool wall, const Motion<Real> &motion, double dt, Real *kept,
+                               Real *half, Real *velocity) {
+  Real sum[3], arm_i[3], arm_j[3], turn_i[3], turn_j[3] = {}, v[3];
   for (int k = 0; k < 3; k++) sum[k] = kept[kept_normal + k] + now.normal[k];
   const Real length = root(inner(sum, sum));
   const auto goes_on = inner(kept + kept_normal, now.normal) > 0.0;  // else it is a new contact
   for (int k = 0; k < 3; k++) {
-    const Real branch = now.arm_j[k] - now.arm_i[k], half = 0.5 * (branch - (0.5 * dt) * motion.velocity[k]);
+    const Real branch = now.arm_j[k] - now.arm_i[k], aside = 0.5 * (branch - (0.5 * dt) * motion.velocity[k]);
     const Real point = wall ? now.arm_i[k] : 0.5 * (now.arm_i[k] + now.arm_j[k]);
     const Real mean = 0.5 * (kept[kept_point + k] + point);
-    middle.normal[k] = pick(goes_on, sum[k] / length, now.normal[k]);
-    middle.arm_i[k] = pick(goes_on, wall ? mean : mean - half, now.arm_i[k]);
-    middle.arm_j[k] = pick(goes_on, mean + half, now.arm_j[k]);
-  }
-}
-
-/** All that is kept of a contact. */
-template <class Real>
-GRAINSCOPE_INLINE void keep(const Moment<Real> &now, bool wall, const Real *velocity, Real *kept) {
-  for (int k = 0; k < 3; k++) {
+    half[k] = pick(goes_on, sum[k] / length, now.normal[k]);
+    arm_i[k] = pick(goes_on, wall ? mean : mean - aside, now.arm_i[k]);
+    arm_j[k] = pick(goes_on, mean + aside, now.arm_j[k]);
     kept[kept_normal + k] = now.normal[k];
-    kept[kept_point + k] = wall ? now.arm_i[k] : 0.5 * (now.arm_i[k] + now.arm_j[k]);
-    kept[kept_velocity + k] = velocity[k];
+    kept[kept_point + k] = point;
   }
-}
-
-/** Of surface i against surface j in the middle of a step, turned to the normal at its end. */
-template <class Real>
-GRAINSCOPE_INLINE void relative_velocity(const Moment<Real> &middle, const Motion<Real> &motion, bool wall,
-                                         const Real *normal, Real *velocity) {
-  Real turn_i[3], turn_j[3] = {}, v[3];
-  outer(motion.spin_i, middle.arm_i, turn_i);
-  if (!wall) outer(motion.spin_j, middle.arm_j, turn_j);
+  outer(motion.spin_i, arm_i, turn_i);
+  if (!wall) outer(motion.spin_j, arm_j, turn_j);
   for (int k = 0; k < 3; k++) v[k] = motion.velocity[k] + turn_i[k] - turn_j[k];
-  const Real along = inner(v, middle.normal);
-  for (int k = 0; k < 3; k++) v[k] -= along * middle.normal[k];
-  const Real by = inner(v, normal) / (1.0 + inner(middle.normal, normal));
-  for (int k = 0; k < 3; k++) velocity[k] = along * normal[k] + v[k] - by * (middle.normal[k] + normal[k]);
+  turn(half, now.normal, v, velocity);
+  for (int k = 0; k < 3; k++) kept[kept_velocity + k] = velocity[k];
 }
 
 /** A tangential spring, over the whole of the step: what lies across the normal at its beginning then lies across that
  *  at its end. */
 template <class Real>
-GRAINSCOPE_INLINE void turn_spring(const Moment<Real> &middle, Real *spring) {
-  const Real twice = 2.0 * inner(spring, middle.normal);
-  for (int k = 0; k < 3; k++) spring[k] -= twice * middle.normal[k];
+GRAINSCOPE_INLINE void turn_spring(const Real *half, Real *spring) {
+  const Real twice = 2.0 * inner(spring, half);
+  for (int k = 0; k < 3; k++) spring[k] -= twice * half[k];
 }
 
 }}

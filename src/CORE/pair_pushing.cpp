@@ -181,12 +181,12 @@ GRAINSCOPE_INLINE void enter_velocity(const Lanes *v, Approach<Lanes> &a) {
   for (int k = 0; k < 3; k++) a.tangential_velocity[k] = v[k] - a.normal_velocity * a.normal[k];
 }
 
-/** Everything from the approach on. `lambda`: of the history from now on; what it was where null. `middle` of the step
- *  with `time_level synchronized`; else null. */
+/** Everything from the approach on. `lambda`: of the history from now on; what it was where null. `half`: the normal in the
+ *  middle of the step with `time_level synchronized`; else null. */
 template <class History, class Torques>
 GRAINSCOPE_INLINE void push(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
                             const GroupLaw &law, const Approach<Lanes> &a, const Place &place, const Lanes *lambda,
-                            Torques torques, const Moment<Lanes> *middle, GroupForces *kept) {
+                            Torques torques, const Lanes *half, GroupForces *kept) {
   Coefficients<Lanes> c;
   coefficients(law, c);
   const Normal<Lanes> n = normal_force(*law.law, c, a);
@@ -195,7 +195,7 @@ GRAINSCOPE_INLINE void push(const PackedGrains &grains, const PairGroup &group, 
   Friction<Lanes> f{};
   if (law.law->tangential == PairLaw::Tangential::history) {
     History::get(group, history);
-    if (middle) half_step::turn_spring(*middle, before);
+    if (half) half_step::turn_spring(half, before);
     spring_friction(*law.law, limit, a, n, before, f);
   } else if (law.law->tangential == PairLaw::Tangential::no_history) {
     viscous_friction(limit, a, n, f);
@@ -246,10 +246,8 @@ GRAINSCOPE_INLINE void push_ellipsoids_of(const PackedGrains &grains, const Pair
     place.set(xi, k, xi[k] + g.point[k]);
     arm_j[k] = place.point[k] - xj[k];
   }
-  Lanes v[3];
-  Moment<Lanes> middle;
+  Lanes v[3], half[3];
   if (synchronized) {
-    const Motion<Lanes> motion = motion_of(s);
     Lanes remembered[half_step::kept_numbers];
     Moment<Lanes> now;
     for (int k = 0; k < 3; k++) {
@@ -258,9 +256,7 @@ GRAINSCOPE_INLINE void push_ellipsoids_of(const PackedGrains &grains, const Pair
       now.arm_j[k] = arm_j[k];
     }
     load_kept(group, law.law->kept, remembered);
-    half_step::middle_of_kept(remembered, now, false, motion, law.law->dt, middle);
-    half_step::relative_velocity(middle, motion, false, a.normal, v);
-    half_step::keep(now, false, v, remembered);
+    half_step::of_kept(now, false, motion_of(s), law.law->dt, remembered, half, v);
     store_kept(group, g.touching, law.law->kept, remembered);
   } else {
     Lanes turn_i[3], turn_j[3];
@@ -269,16 +265,17 @@ GRAINSCOPE_INLINE void push_ellipsoids_of(const PackedGrains &grains, const Pair
     for (int k = 0; k < 3; k++) v[k] = s.velocity[0][k] - s.velocity[1][k] + turn_i[k] - turn_j[k];
   }
   enter_velocity(v, a);
-  const Moment<Lanes> *const past = synchronized ? &middle : nullptr;
+  const Lanes *const turned = synchronized ? half : nullptr;
 
   if (round) {
     const Lanes lever[2] = {size_i - g.depth[0], size_j - g.depth[1]};
     for (int k = 0; k < 3; k++) place.set(xi, k, xi[k] - lever[0] * a.normal[k]);
-    push<LambdaAndSpring>(grains, group, g, law, a, place, nullptr, LeverTorques{a.normal, lever}, past, kept);
+    push<LambdaAndSpring>(grains, group, g, law, a, place, nullptr, LeverTorques{a.normal, lever}, turned, kept);
   } else {
     const bool friction = law.law->tangential != PairLaw::Tangential::off;
     const Lanes lambda = g.lambda - 0.5;
-    push<LambdaAndSpring>(grains, group, g, law, a, place, &lambda, ArmTorques{place.arm, arm_j, friction}, past, kept);
+    push<LambdaAndSpring>(grains, group, g, law, a, place, &lambda, ArmTorques{place.arm, arm_j, friction}, turned,
+                          kept);
   }
 }
 
@@ -293,7 +290,7 @@ GRAINSCOPE_INLINE void push_spheres_of(const PackedGrains &grains, const PairGro
   a.overlap = radius_i + radius_j - r;
   a.mass = effective_mass(s, law);
   const Lanes half = 0.5 * a.overlap, lever_i = radius_i - half, lever_j = radius_j - half;
-  Lanes xi[4], d[3], v[3], w[3];
+  Lanes xi[4], d[3], v[3], w[3], half_normal[3];
   Place place;
   load_rows([&](int k) { return grains.grains[group.i[k]].x; }, xi);
   for (int k = 0; k < 3; k++) {
@@ -303,11 +300,8 @@ GRAINSCOPE_INLINE void push_spheres_of(const PackedGrains &grains, const PairGro
     w[k] = (lever_i * s.spin[0][k] + lever_j * s.spin[1][k]) * inverse;
     place.set(xi, k, xi[k] - lever_i * a.normal[k]);
   }
-  Moment<Lanes> middle;
   if (synchronized) {
-    const Motion<Lanes> motion = motion_of(s);
-    half_step::middle_of_spheres(a.normal, d, radius_i, radius_j, motion, law.law->dt, middle);
-    half_step::relative_velocity(middle, motion, false, a.normal, v);
+    half_step::of_spheres(a.normal, d, radius_i, radius_j, motion_of(s), law.law->dt, half_normal, v);
     enter_velocity(v, a);
   } else {
     a.normal_velocity = v[0] * a.normal[0] + v[1] * a.normal[1] + v[2] * a.normal[2];
@@ -319,28 +313,48 @@ GRAINSCOPE_INLINE void push_spheres_of(const PackedGrains &grains, const PairGro
   }
   const Lanes lever[2] = {lever_i, lever_j};
   push<SpringAlone>(grains, group, g, law, a, place, nullptr, LeverTorques{a.normal, lever},
-                    synchronized ? &middle : nullptr, kept);
+                    synchronized ? half_normal : nullptr, kept);
 }
 
 }
 
-GRAINSCOPE_CLONES
+// The rare way has functions of its own: in one, the usual way would pay for its registers.
+GRAINSCOPE_CLONES void push_ellipsoids_usual(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
+                                             const GroupLaw &law, GroupForces *kept) {
+  push_ellipsoids_of<false, false>(grains, group, g, law, kept);
+}
+GRAINSCOPE_CLONES void push_ellipsoids_synchronized(const PackedGrains &grains, const PairGroup &group,
+                                                    const GroupGeometry &g, const GroupLaw &law, GroupForces *kept) {
+  push_ellipsoids_of<false, true>(grains, group, g, law, kept);
+}
+GRAINSCOPE_CLONES void push_round_usual(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
+                                        const GroupLaw &law, GroupForces *kept) {
+  push_ellipsoids_of<true, false>(grains, group, g, law, kept);
+}
+GRAINSCOPE_CLONES void push_round_synchronized(const PackedGrains &grains, const PairGroup &group,
+                                               const GroupGeometry &g, const GroupLaw &law, GroupForces *kept) {
+  push_ellipsoids_of<true, true>(grains, group, g, law, kept);
+}
+GRAINSCOPE_CLONES void push_spheres_usual(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
+                                          const GroupLaw &law, GroupForces *kept) {
+  push_spheres_of<false>(grains, group, g, law, kept);
+}
+GRAINSCOPE_CLONES void push_spheres_synchronized(const PackedGrains &grains, const PairGroup &group,
+                                                 const GroupGeometry &g, const GroupLaw &law, GroupForces *kept) {
+  push_spheres_of<true>(grains, group, g, law, kept);
+}
+
 void push_ellipsoids(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g, const GroupLaw &law,
                      GroupForces *kept) {
-  if (law.law->synchronized) push_ellipsoids_of<false, true>(grains, group, g, law, kept);
-  else push_ellipsoids_of<false, false>(grains, group, g, law, kept);
+  (law.law->synchronized ? push_ellipsoids_synchronized : push_ellipsoids_usual)(grains, group, g, law, kept);
 }
-GRAINSCOPE_CLONES
 void push_round(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g, const GroupLaw &law,
                 GroupForces *kept) {
-  if (law.law->synchronized) push_ellipsoids_of<true, true>(grains, group, g, law, kept);
-  else push_ellipsoids_of<true, false>(grains, group, g, law, kept);
+  (law.law->synchronized ? push_round_synchronized : push_round_usual)(grains, group, g, law, kept);
 }
-GRAINSCOPE_CLONES
 void push_spheres(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g, const GroupLaw &law,
                   GroupForces *kept) {
-  if (law.law->synchronized) push_spheres_of<true>(grains, group, g, law, kept);
-  else push_spheres_of<false>(grains, group, g, law, kept);
+  (law.law->synchronized ? push_spheres_synchronized : push_spheres_usual)(grains, group, g, law, kept);
 }
 
 }

@@ -61,26 +61,25 @@ void TimeLevel::find_velocity(const Surfaces &s, bool moves) {
   }
   const double dt = update->dt, *const *x = atom->x;
   Motion<double> motion;
-  Moment<double> now, middle;
+  double half[3];
   for (int k = 0; k < 3; k++) {
     motion.velocity[k] = s.v_i[k] - s.v_j[k];
     motion.spin_i[k] = s.omega_i[k];
     motion.spin_j[k] = s.is_wall ? 0.0 : s.omega_j[k];
-    now.normal[k] = s.en[k];
   }
   if (kept) {
+    Moment<double> now;
     const double lever = s.radi - 0.5 * s.deltan;
     for (int k = 0; k < 3; k++) {
+      now.normal[k] = s.en[k];
       now.arm_i[k] = points_ ? s.contact_point[k] - x[s.i][k] : -lever * s.en[k];
       now.arm_j[k] = s.is_wall ? 0.0 : s.contact_point[k] - x[s.j][k];
     }
-    middle_of_kept(kept, now, s.is_wall, motion, dt, middle);
+    half_step::of_kept(now, s.is_wall, motion, dt, kept, half, velocity_);
   } else {
-    half_step::middle_of_spheres(s.en, s.delta, s.radi, s.radj, motion, dt, middle);
+    half_step::of_spheres(s.en, s.delta, s.radi, s.radj, motion, dt, half, velocity_);
   }
-  half_step::relative_velocity(middle, motion, s.is_wall, s.en, velocity_);
-  if (kept) half_step::keep(now, s.is_wall, velocity_, kept);
-  if (moves && columns_.spring >= 0) half_step::turn_spring(middle, s.contact_history + columns_.spring);
+  if (moves && columns_.spring >= 0) half_step::turn_spring(half, s.contact_history + columns_.spring);
 }
 
 }

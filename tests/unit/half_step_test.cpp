@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <random>
+#include <utility>
 
 using namespace grainscope;
 using Eigen::AngleAxisd;
@@ -27,77 +28,86 @@ struct Random {
 
 void set(double *to, const Vector3d &v) { Map<Vector3d>{to} = v; }
 
-constexpr double rounding = 1e-14;
+constexpr double rounding = 1e-13;
 
-/** Two unit vectors less than 60 degrees apart: of a middle and of the end of its step. */
-void random_normals(Random &random, Moment<double> &middle, Vector3d &end) {
-  const Vector3d first = random.unit();
-  set(middle.normal, first);
-  end = AngleAxisd(1.0 * random.number(), first.cross(random.unit()).normalized()) * first;
+/** Of the middle and of the end of a step: unit vectors less than 60 degrees apart. */
+struct Normals {
+  Vector3d half, end;
+  explicit Normals(Random &random) : half(random.unit()) {
+    end = AngleAxisd(random.number(), half.cross(random.unit()).normalized()) * half;
+  }
+};
+
+struct Moves {
+  Vector3d velocity, spin_i, spin_j;
+  explicit Moves(Random &random) : velocity(random.vector()), spin_i(random.vector()), spin_j(random.vector()) {}
+  Motion<double> motion() const {
+    Motion<double> m;
+    set(m.velocity, velocity);
+    set(m.spin_i, spin_i);
+    set(m.spin_j, spin_j);
+    return m;
+  }
+  Vector3d of_surfaces(const Vector3d &arm_i, const Vector3d &arm_j) const {
+    return velocity + spin_i.cross(arm_i) - spin_j.cross(arm_j);
+  }
+};
+
+Vector3d turned(const Vector3d &from, const Vector3d &to, const Vector3d &v) {
+  return Eigen::Quaterniond::FromTwoVectors(from, to) * v;
 }
 
-Motion<double> random_motion(Random &random) {
-  Motion<double> m;
-  set(m.velocity, random.vector());
-  set(m.spin_i, random.vector());
-  set(m.spin_j, random.vector());
-  return m;
-}
+struct Touch {
+  Vector3d normal, arm_i, arm_j;
+  Moment<double> moment() const {
+    Moment<double> m;
+    set(m.normal, normal);
+    set(m.arm_i, arm_i);
+    set(m.arm_j, arm_j);
+    return m;
+  }
+};
 
 }
 
 TEST(half_step, turns_velocities_as_the_shortest_rotation) {
   Random random;
   for (int k = 0; k < 1000; k++) {
-    Moment<double> middle;
-    Vector3d end, found;
-    random_normals(random, middle, end);
-    set(middle.arm_i, random.vector());
-    set(middle.arm_j, random.vector());
-    const Motion<double> m = random_motion(random);
-    const Map<const Vector3d> normal(middle.normal);
-    const Vector3d v = Map<const Vector3d>(m.velocity) +
-                       Map<const Vector3d>(m.spin_i).cross(Map<const Vector3d>(middle.arm_i)) -
-                       Map<const Vector3d>(m.spin_j).cross(Map<const Vector3d>(middle.arm_j));
-    half_step::relative_velocity(middle, m, false, end.data(), found.data());
-    const Vector3d expected = Eigen::Quaterniond::FromTwoVectors(Vector3d(normal), end) * v;
-    EXPECT_LT((found - expected).norm(), rounding * 10.0);
-    EXPECT_NEAR(found.norm(), v.norm(), rounding * 10.0);
-    EXPECT_NEAR(found.dot(end), v.dot(normal), rounding * 10.0);  // approach stays approach
+    const Normals n(random);
+    const Vector3d v = random.vector();
+    Vector3d found;
+    half_step::turn(n.half.data(), n.end.data(), v.data(), found.data());
+    EXPECT_LT((found - turned(n.half, n.end, v)).norm(), rounding);
+    EXPECT_NEAR(found.dot(n.end), v.dot(n.half), rounding);  // approach stays approach
   }
 }
 
 TEST(half_step, turns_springs_from_the_normal_at_the_beginning_to_that_at_the_end) {
   Random random;
   for (int k = 0; k < 1000; k++) {
-    Moment<double> middle;
-    Vector3d end;
-    random_normals(random, middle, end);
-    const Vector3d normal = Map<const Vector3d>(middle.normal), start = 2.0 * end.dot(normal) * normal - end;
-    const Vector3d spring = start.cross(random.unit());
+    const Normals n(random);
+    const Vector3d start = 2.0 * n.end.dot(n.half) * n.half - n.end, spring = start.cross(random.unit());
     Vector3d found = spring;
-    half_step::turn_spring(middle, found.data());
-    const Vector3d expected = Eigen::Quaterniond::FromTwoVectors(start, end) * spring;
-    EXPECT_LT((found - expected).norm(), rounding * 10.0);
-    EXPECT_NEAR(found.dot(end), 0.0, rounding * 10.0);
-    EXPECT_NEAR(found.norm(), spring.norm(), rounding * 10.0);
+    half_step::turn_spring(n.half.data(), found.data());
+    EXPECT_LT((found - turned(start, n.end, spring)).norm(), rounding);
+    EXPECT_NEAR(found.dot(n.end), 0.0, rounding);
   }
 }
 
-TEST(half_step, middle_of_spheres_is_the_mean_of_both_ends) {
+/** The places of spheres in the middle are the mean of both ends, and the contact point halves their overlap. */
+TEST(half_step, of_spheres) {
   Random random;
   for (int k = 0; k < 1000; k++) {
-    const Motion<double> m = random_motion(random);
+    const Moves m(random);
     const double dt = 0.1, ri = 1.0 + 0.5 * random.number(), rj = 1.0 + 0.5 * random.number();
-    const Vector3d end = 0.99 * (ri + rj) * random.unit(), start = end - dt * Map<const Vector3d>(m.velocity),
-                   half = 0.5 * (start + end), normal = end.normalized();
-    Moment<double> middle;
-    half_step::middle_of_spheres(normal.data(), end.data(), ri, rj, m, dt, middle);
-    EXPECT_LT((Map<const Vector3d>(middle.normal) - half.normalized()).norm(), rounding);
-    // From either centre to one point, which halves the overlap.
-    EXPECT_LT((Map<const Vector3d>(middle.arm_j) - Map<const Vector3d>(middle.arm_i) - half).norm(), rounding * 10.0);
-    const double lever_i = Map<const Vector3d>(middle.arm_i).norm(), lever_j = Map<const Vector3d>(middle.arm_j).norm();
-    EXPECT_NEAR(ri - lever_i, rj - lever_j, rounding * 10.0);
+    const Vector3d end = 0.99 * (ri + rj) * random.unit(), start = end - dt * m.velocity, middle = 0.5 * (start + end),
+                   n = middle.normalized(), normal = end.normalized();
+    const double overlap = ri + rj - middle.norm();
+    const Vector3d u = m.of_surfaces(-(ri - 0.5 * overlap) * n, (rj - 0.5 * overlap) * n);
+    Vector3d half, found;
+    half_step::of_spheres(normal.data(), end.data(), ri, rj, m.motion(), dt, half.data(), found.data());
+    EXPECT_LT((half - n).norm(), rounding);
+    EXPECT_LT((found - turned(n, normal, u)).norm(), rounding);
   }
 }
 
@@ -106,19 +116,15 @@ TEST(half_step, middle_of_spheres_is_the_mean_of_both_ends) {
 TEST(half_step, what_turns_as_one_body_does_not_slip) {
   Random random;
   for (int k = 0; k < 100; k++) {
-    const Vector3d spin = random.vector(), branch = 2.0 * random.unit();
+    const Vector3d spin = random.vector(), branch = 2.0 * random.unit(), normal = 0.5 * branch;
     double errors[2];
     for (int fine = 0; fine < 2; fine++) {
       const double dt = fine ? 0.05 : 0.1;
-      const Vector3d start = AngleAxisd(-spin.norm() * dt, spin.normalized()) * branch, normal = 0.5 * branch;
-      Motion<double> m;
-      set(m.velocity, (branch - start) / dt);
-      set(m.spin_i, spin);
-      set(m.spin_j, spin);
-      Moment<double> middle;
-      Vector3d u;
-      half_step::middle_of_spheres(normal.data(), branch.data(), 1.0, 1.0, m, dt, middle);
-      half_step::relative_velocity(middle, m, false, normal.data(), u.data());
+      Moves m(random);
+      m.velocity = (branch - AngleAxisd(-spin.norm() * dt, spin.normalized()) * branch) / dt;
+      m.spin_i = m.spin_j = spin;
+      Vector3d half, u;
+      half_step::of_spheres(normal.data(), branch.data(), 1.0, 1.0, m.motion(), dt, half.data(), u.data());
       errors[fine] = u.norm();
     }
     EXPECT_LT(errors[0], 0.01);  // (spin dt)^2/12 of the speed
@@ -126,45 +132,43 @@ TEST(half_step, what_turns_as_one_body_does_not_slip) {
   }
 }
 
-TEST(half_step, keeps_what_it_needs_for_the_next_step) {
+/** Normal and arms in the middle are the means of both ends; of a contact that is new, those of the end. */
+TEST(half_step, of_what_was_kept) {
   Random random;
+  const double dt = 0.01;
   for (bool wall : {false, true})
     for (int k = 0; k < 1000; k++) {
-      const double dt = 0.01;
-      const Motion<double> m = random_motion(random);
-      const Vector3d v = Map<const Vector3d>(m.velocity), point_before = random.vector(), point = random.vector();
-      Moment<double> before, now, middle, fresh;
-      const Vector3d n = random.unit(), branch = random.vector();
-      set(before.normal, AngleAxisd(0.3 * random.number(), random.unit()) * n);
-      set(now.normal, n);
-      set(before.arm_i, point_before);
-      set(now.arm_i, point);
-      set(before.arm_j, point_before + branch - dt * v);
-      set(now.arm_j, point + branch);
+      Moves m(random);
+      if (wall) m.spin_j.setZero();
+      const Vector3d branch = random.vector(), n = random.unit();
+      Touch before, now;
+      before.normal = AngleAxisd(0.3 * random.number(), random.unit()) * n;
+      before.arm_i = random.vector();
+      before.arm_j = before.arm_i + branch - dt * m.velocity;
+      now = {n, random.vector(), {}};
+      now.arm_j = now.arm_i + branch;
       double kept[half_step::kept_numbers] = {};
-      half_step::middle_of_kept(kept, now, wall, m, dt, fresh);  // nothing is kept yet
-      EXPECT_EQ(Map<const Vector3d>(fresh.normal), n);
-      EXPECT_EQ(Map<const Vector3d>(fresh.arm_i), point);
-      half_step::keep(before, wall, m.spin_i, kept);
-      EXPECT_EQ(Map<const Vector3d>(kept + half_step::kept_velocity), Map<const Vector3d>(m.spin_i));
-      half_step::middle_of_kept(kept, now, wall, m, dt, middle);
-      const Vector3d sum = Map<const Vector3d>(before.normal) + n;
-      EXPECT_LT((Map<const Vector3d>(middle.normal) - sum.normalized()).norm(), rounding);
-      EXPECT_LT((Map<const Vector3d>(middle.arm_i) - 0.5 * (point_before + point)).norm(), rounding);
+      Vector3d half, found;
+      half_step::of_kept(before.moment(), wall, m.motion(), dt, kept, half.data(), found.data());
+      EXPECT_EQ(half, before.normal);
+      EXPECT_LT((found - m.of_surfaces(before.arm_i, before.arm_j)).norm(), rounding);
+      EXPECT_EQ(Map<const Vector3d>(kept + half_step::kept_velocity), found);
+      double others[half_step::kept_numbers];  // as j keeps it, and as TimeLevel::add_columns() has it
+      for (int c = 0; c < half_step::kept_numbers; c++) others[c] = c / 3 == 1 ? kept[c] : -kept[c];
+
+      half_step::of_kept(now.moment(), wall, m.motion(), dt, kept, half.data(), found.data());
+      const Vector3d middle = (before.normal + n).normalized(),
+                     u = m.of_surfaces(0.5 * (before.arm_i + now.arm_i), 0.5 * (before.arm_j + now.arm_j));
+      EXPECT_LT((half - middle).norm(), rounding);
+      EXPECT_LT((found - turned(middle, n, u)).norm(), rounding);
       if (wall) continue;
-      const Vector3d mean = 0.5 * (Map<const Vector3d>(before.arm_j) + Map<const Vector3d>(now.arm_j));
-      EXPECT_LT((Map<const Vector3d>(middle.arm_j) - mean).norm(), rounding);
-      // As j sees it: what is kept changes its sign, or does not, as TimeLevel says.
-      double turned[half_step::kept_numbers];
-      Moment<double> from_j{}, of_j;
-      set(from_j.normal, -n);
-      set(from_j.arm_i, Map<const Vector3d>(now.arm_j));
-      set(from_j.arm_j, Map<const Vector3d>(now.arm_i));
-      Motion<double> motion = m;
-      set(motion.velocity, -v);
-      for (int c = 0; c < half_step::kept_numbers; c++) turned[c] = c / 3 == 1 ? kept[c] : -kept[c];
-      half_step::middle_of_kept(turned, from_j, wall, motion, dt, of_j);
-      EXPECT_LT((Map<const Vector3d>(of_j.arm_i) - Map<const Vector3d>(middle.arm_j)).norm(), rounding);
-      EXPECT_LT((Map<const Vector3d>(of_j.normal) + Map<const Vector3d>(middle.normal)).norm(), rounding);
+      Moves from_j = m;
+      from_j.velocity = -m.velocity;
+      std::swap(from_j.spin_i, from_j.spin_j);
+      const Touch seen{-n, now.arm_j, now.arm_i};
+      Vector3d half_j, found_j;
+      half_step::of_kept(seen.moment(), wall, from_j.motion(), dt, others, half_j.data(), found_j.data());
+      EXPECT_LT((half_j + half).norm(), rounding);
+      EXPECT_LT((found_j + found).norm(), rounding);
     }
 }
