@@ -318,43 +318,35 @@ GRAINSCOPE_INLINE void push_spheres_of(const PackedGrains &grains, const PairGro
 
 }
 
-// The rare way has functions of its own: in one, the usual way would pay for its registers.
-GRAINSCOPE_CLONES void push_ellipsoids_usual(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
-                                             const GroupLaw &law, GroupForces *kept) {
-  push_ellipsoids_of<false, false>(grains, group, g, law, kept);
-}
-GRAINSCOPE_CLONES void push_ellipsoids_synchronized(const PackedGrains &grains, const PairGroup &group,
-                                                    const GroupGeometry &g, const GroupLaw &law, GroupForces *kept) {
-  push_ellipsoids_of<false, true>(grains, group, g, law, kept);
-}
-GRAINSCOPE_CLONES void push_round_usual(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
-                                        const GroupLaw &law, GroupForces *kept) {
-  push_ellipsoids_of<true, false>(grains, group, g, law, kept);
-}
-GRAINSCOPE_CLONES void push_round_synchronized(const PackedGrains &grains, const PairGroup &group,
-                                               const GroupGeometry &g, const GroupLaw &law, GroupForces *kept) {
-  push_ellipsoids_of<true, true>(grains, group, g, law, kept);
-}
-GRAINSCOPE_CLONES void push_spheres_usual(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
-                                          const GroupLaw &law, GroupForces *kept) {
-  push_spheres_of<false>(grains, group, g, law, kept);
-}
-GRAINSCOPE_CLONES void push_spheres_synchronized(const PackedGrains &grains, const PairGroup &group,
-                                                 const GroupGeometry &g, const GroupLaw &law, GroupForces *kept) {
-  push_spheres_of<true>(grains, group, g, law, kept);
-}
-
+GRAINSCOPE_CLONES
 void push_ellipsoids(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g, const GroupLaw &law,
                      GroupForces *kept) {
-  (law.law->synchronized ? push_ellipsoids_synchronized : push_ellipsoids_usual)(grains, group, g, law, kept);
+  push_ellipsoids_of<false, false>(grains, group, g, law, kept);
 }
+GRAINSCOPE_CLONES
+void push_ellipsoids_synchronized(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
+                                  const GroupLaw &law, GroupForces *kept) {
+  push_ellipsoids_of<false, true>(grains, group, g, law, kept);
+}
+GRAINSCOPE_CLONES
 void push_round(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g, const GroupLaw &law,
                 GroupForces *kept) {
-  (law.law->synchronized ? push_round_synchronized : push_round_usual)(grains, group, g, law, kept);
+  push_ellipsoids_of<true, false>(grains, group, g, law, kept);
 }
+GRAINSCOPE_CLONES
+void push_round_synchronized(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
+                             const GroupLaw &law, GroupForces *kept) {
+  push_ellipsoids_of<true, true>(grains, group, g, law, kept);
+}
+GRAINSCOPE_CLONES
 void push_spheres(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g, const GroupLaw &law,
                   GroupForces *kept) {
-  (law.law->synchronized ? push_spheres_synchronized : push_spheres_usual)(grains, group, g, law, kept);
+  push_spheres_of<false>(grains, group, g, law, kept);
+}
+GRAINSCOPE_CLONES
+void push_spheres_synchronized(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
+                               const GroupLaw &law, GroupForces *kept) {
+  push_spheres_of<true>(grains, group, g, law, kept);
 }
 
 }

@@ -19,9 +19,10 @@ class LaneLaw : private LAMMPS_NS::Pointers {
   void connect(const std::string &models, bool spring_in_place);
   /** `time_level synchronized`; `kept`: what is kept of a contact, behind lambda. */
   void synchronize(int kept) {
-    law_.synchronized = true;
+    synchronized_ = true;
     law_.kept = kept;
   }
+  bool synchronized() const { return synchronized_; }
   bool covers() const { return covers_; }
   /** Material properties and time step as they are now. */
   void refresh();
@@ -31,7 +32,7 @@ class LaneLaw : private LAMMPS_NS::Pointers {
   }
 
  private:
-  bool covers_ = false;
+  bool covers_ = false, synchronized_ = false;
   PairLaw law_;
   // of the host, for each pair of atom types
   double **young_ = nullptr, **shear_ = nullptr, **beta_ = nullptr, **log_restitution_ = nullptr, **friction_ = nullptr,
