@@ -757,3 +757,14 @@ add_verified(verification_spheroids "gran/insitu;surface/ellipsoid;nve/spheroid;
   elastic-impact-oblate-edge-on-prolate-pole elastic-impact-triaxial-on-a-plane elastic-impact-superquadric
   leaning-prolate leaning-oblate leaning-on-a-mesh leaning-superquadric collision-ellipsoid collision-superquadric
   precession-spheroid precession-superquadric rest-ellipsoid rest-superquadric ON_RANKS leaning-prolate)
+
+add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu surface/ellipsoid wall/gran CASES
+  neck neck-equal neck-ellipsoids neck-superquadrics neck-one-by-one points points-ellipsoid sieve)
+add_cases(gran/insitu-time-level cases/time_level.py LABEL long STYLES gran/insitu CASES neck-tiny)
+add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu surface/ellipsoid CASES
+  order-normal order-normal-damped order-tangential order-rolling order-all order-all-damped order-ellipsoids
+  order-spheroids lanes-spheres lanes-spheroids lanes-balls lanes-viscous)
+add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu surface/ellipsoid RANKS 2
+  LONG_RANKS 4 CASES ranks-spheres ranks-spheroids)
+add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu wall/gran setup/memory read_restart
+  RANKS 1 2 LONG_RANKS 4 CASES restart-spheres restart-spheroids)

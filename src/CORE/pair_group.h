@@ -88,6 +88,13 @@ void push_round(const PackedGrains &grains, const PairGroup &group, const GroupG
 /** The same of spheres after meet_spheres(), by the formulas of LIGGGHTS's `surface default`. */
 void push_spheres(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &geometry,
                   const GroupLaw &law, GroupForces *kept);
+/** The same with `time_level synchronized`: functions of their own, or the usual way would pay for their registers. */
+void push_ellipsoids_synchronized(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &geometry,
+                                  const GroupLaw &law, GroupForces *kept);
+void push_round_synchronized(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &geometry,
+                             const GroupLaw &law, GroupForces *kept);
+void push_spheres_synchronized(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &geometry,
+                               const GroupLaw &law, GroupForces *kept);
 
 }
 

@@ -22,6 +22,7 @@ struct PairLaw {
   double characteristic_speed = 0.0;  // hooke
   double curvature_limit = 0.0;       // of ellipsoids: the largest effective radius over that of their spheres; 0: none
   double dt = 0.0;
+  int kept = 0;  // with `time_level synchronized`, of ellipsoids: the first column of half_step::Kept, behind lambda
 
   /** What belongs to a pair of atom types. */
   struct alignas(32) Terms {

@@ -2,6 +2,7 @@
 #include "pair_group.h"
 #include "pair_places.h"
 #include "group_wrenches.h"
+#include "half_step.h"
 #include <algorithm>
 
 namespace grainscope {
@@ -9,6 +10,9 @@ namespace grainscope {
 namespace {
 
 using namespace pair_law;
+using half_step::Moment;
+using half_step::Motion;
+using half_step::outer;
 
 struct Sides {
   Lanes velocity[2][4], spin[2][4];  // fourth: mass, size
@@ -39,12 +43,6 @@ GRAINSCOPE_INLINE void coefficients(const GroupLaw &law, Coefficients<Lanes> &c)
   }
   load_rows([&](int k) { return law.terms[k]->constant; }, c.constant);
   for (int k = 0; k < LANES; k++) c.friction[k] = law.terms[k]->friction;
-}
-
-GRAINSCOPE_INLINE void cross(const Lanes *a, const Lanes *b, Lanes *c) {
-  c[0] = a[1] * b[2] - a[2] * b[1];
-  c[1] = a[2] * b[0] - a[0] * b[2];
-  c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
 /** The columns of the history: lambda - 1/2 and a spring. */
@@ -127,12 +125,12 @@ struct ArmTorques {
   GRAINSCOPE_INLINE void operator()(const Lanes *normal, const Lanes *tangential, Lanes *on_i, Lanes *on_j) const {
     Lanes against[3], more_i[3], more_j[3];
     for (int k = 0; k < 3; k++) against[k] = -normal[k];
-    cross(arm_i, normal, on_i);
-    cross(arm_j, against, on_j);
+    outer(arm_i, normal, on_i);
+    outer(arm_j, against, on_j);
     if (!friction) return;
     for (int k = 0; k < 3; k++) against[k] = -tangential[k];
-    cross(arm_i, tangential, more_i);
-    cross(arm_j, against, more_j);
+    outer(arm_i, tangential, more_i);
+    outer(arm_j, against, more_j);
     for (int k = 0; k < 3; k++) {
       on_i[k] += more_i[k];
       on_j[k] += more_j[k];
@@ -145,7 +143,7 @@ struct LeverTorques {
   const Lanes *normal, *lever;
   GRAINSCOPE_INLINE void operator()(const Lanes *, const Lanes *tangential, Lanes *on_i, Lanes *on_j) const {
     Lanes t[3];
-    cross(normal, tangential, t);
+    outer(normal, tangential, t);
     for (int k = 0; k < 3; k++) {
       on_i[k] = -lever[0] * t[k];
       on_j[k] = -lever[1] * t[k];
@@ -153,11 +151,43 @@ struct LeverTorques {
   }
 };
 
-/** Everything from the approach on. `lambda`: of the history from now on; what it was where null. */
+GRAINSCOPE_INLINE Motion<Lanes> motion_of(const Sides &s) {
+  Motion<Lanes> m;
+  for (int k = 0; k < 3; k++) {
+    m.velocity[k] = s.velocity[0][k] - s.velocity[1][k];
+    m.spin_i[k] = s.spin[0][k];
+    m.spin_j[k] = s.spin[1][k];
+  }
+  return m;
+}
+
+/** What half_step keeps of each contact: rows of four numbers, and one more. */
+GRAINSCOPE_INLINE void load_kept(const PairGroup &group, int first, Lanes *kept) {
+  for (int row = 0; row < 8; row += LANES) load_rows([&](int k) { return group.history[k] + first + row; }, kept + row);
+}
+GRAINSCOPE_INLINE void store_kept(const PairGroup &group, LaneMask touching, int first, const Lanes *kept) {
+  for (int row = 0; row < 8; row += LANES) {
+    Lanes rows[LANES];
+    transpose(kept + row, rows);
+    for (int k = 0; k < LANES; k++)
+      if (touching[k]) store(rows[k], group.history[k] + first + row);
+  }
+  for (int k = 0; k < LANES; k++)
+    if (touching[k]) group.history[k][first + 8] = kept[8][k];
+}
+
+/** Enters the velocity of the surfaces against each other into the approach. */
+GRAINSCOPE_INLINE void enter_velocity(const Lanes *v, Approach<Lanes> &a) {
+  a.normal_velocity = v[0] * a.normal[0] + v[1] * a.normal[1] + v[2] * a.normal[2];
+  for (int k = 0; k < 3; k++) a.tangential_velocity[k] = v[k] - a.normal_velocity * a.normal[k];
+}
+
+/** Everything from the approach on. `lambda`: of the history from now on; what it was where null. `half`: the normal in the
+ *  middle of the step with `time_level synchronized`; else null. */
 template <class History, class Torques>
 GRAINSCOPE_INLINE void push(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
                             const GroupLaw &law, const Approach<Lanes> &a, const Place &place, const Lanes *lambda,
-                            Torques torques, GroupForces *kept) {
+                            Torques torques, const Lanes *half, GroupForces *kept) {
   Coefficients<Lanes> c;
   coefficients(law, c);
   const Normal<Lanes> n = normal_force(*law.law, c, a);
@@ -166,6 +196,7 @@ GRAINSCOPE_INLINE void push(const PackedGrains &grains, const PairGroup &group, 
   Friction<Lanes> f{};
   if (law.law->tangential == PairLaw::Tangential::history) {
     History::get(group, history);
+    if (half) half_step::turn_spring(half, before);
     spring_friction(*law.law, limit, a, n, before, f);
   } else if (law.law->tangential == PairLaw::Tangential::no_history) {
     viscous_friction(limit, a, n, f);
@@ -195,7 +226,7 @@ GRAINSCOPE_INLINE void push(const PackedGrains &grains, const PairGroup &group, 
   }
 }
 
-template <bool round>
+template <bool round, bool synchronized>
 GRAINSCOPE_INLINE void push_ellipsoids_of(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
                                           const GroupLaw &law, GroupForces *kept) {
   Sides s;
@@ -216,24 +247,40 @@ GRAINSCOPE_INLINE void push_ellipsoids_of(const PackedGrains &grains, const Pair
     place.set(xi, k, xi[k] + g.point[k]);
     arm_j[k] = place.point[k] - xj[k];
   }
-  Lanes turn_i[3], turn_j[3], v[3];
-  cross(s.spin[0], place.arm, turn_i);
-  cross(s.spin[1], arm_j, turn_j);
-  for (int k = 0; k < 3; k++) v[k] = s.velocity[0][k] - s.velocity[1][k] + turn_i[k] - turn_j[k];
-  a.normal_velocity = v[0] * a.normal[0] + v[1] * a.normal[1] + v[2] * a.normal[2];
-  for (int k = 0; k < 3; k++) a.tangential_velocity[k] = v[k] - a.normal_velocity * a.normal[k];
+  Lanes v[3], half[3];
+  if (synchronized) {
+    Lanes remembered[half_step::kept_numbers];
+    Moment<Lanes> now;
+    for (int k = 0; k < 3; k++) {
+      now.normal[k] = a.normal[k];
+      now.arm_i[k] = place.arm[k];
+      now.arm_j[k] = arm_j[k];
+    }
+    load_kept(group, law.law->kept, remembered);
+    half_step::of_kept(now, false, motion_of(s), law.law->dt, remembered, half, v);
+    store_kept(group, g.touching, law.law->kept, remembered);
+  } else {
+    Lanes turn_i[3], turn_j[3];
+    outer(s.spin[0], place.arm, turn_i);
+    outer(s.spin[1], arm_j, turn_j);
+    for (int k = 0; k < 3; k++) v[k] = s.velocity[0][k] - s.velocity[1][k] + turn_i[k] - turn_j[k];
+  }
+  enter_velocity(v, a);
+  const Lanes *const turned = synchronized ? half : nullptr;
 
   if (round) {
     const Lanes lever[2] = {size_i - g.depth[0], size_j - g.depth[1]};
     for (int k = 0; k < 3; k++) place.set(xi, k, xi[k] - lever[0] * a.normal[k]);
-    push<LambdaAndSpring>(grains, group, g, law, a, place, nullptr, LeverTorques{a.normal, lever}, kept);
+    push<LambdaAndSpring>(grains, group, g, law, a, place, nullptr, LeverTorques{a.normal, lever}, turned, kept);
   } else {
     const bool friction = law.law->tangential != PairLaw::Tangential::off;
     const Lanes lambda = g.lambda - 0.5;
-    push<LambdaAndSpring>(grains, group, g, law, a, place, &lambda, ArmTorques{place.arm, arm_j, friction}, kept);
+    push<LambdaAndSpring>(grains, group, g, law, a, place, &lambda, ArmTorques{place.arm, arm_j, friction}, turned,
+                          kept);
   }
 }
 
+template <bool synchronized>
 GRAINSCOPE_INLINE void push_spheres_of(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
                                        const GroupLaw &law, GroupForces *kept) {
   Sides s;
@@ -244,7 +291,7 @@ GRAINSCOPE_INLINE void push_spheres_of(const PackedGrains &grains, const PairGro
   a.overlap = radius_i + radius_j - r;
   a.mass = effective_mass(s, law);
   const Lanes half = 0.5 * a.overlap, lever_i = radius_i - half, lever_j = radius_j - half;
-  Lanes xi[4], d[3], v[3], w[3];
+  Lanes xi[4], d[3], v[3], w[3], half_normal[3];
   Place place;
   load_rows([&](int k) { return grains.grains[group.i[k]].x; }, xi);
   for (int k = 0; k < 3; k++) {
@@ -254,14 +301,20 @@ GRAINSCOPE_INLINE void push_spheres_of(const PackedGrains &grains, const PairGro
     w[k] = (lever_i * s.spin[0][k] + lever_j * s.spin[1][k]) * inverse;
     place.set(xi, k, xi[k] - lever_i * a.normal[k]);
   }
-  a.normal_velocity = v[0] * a.normal[0] + v[1] * a.normal[1] + v[2] * a.normal[2];
-  for (int k = 0; k < 3; k++) {
+  if (synchronized) {
+    half_step::of_spheres(a.normal, d, radius_i, radius_j, motion_of(s), law.law->dt, half_normal, v);
+    enter_velocity(v, a);
+  } else {
+    a.normal_velocity = v[0] * a.normal[0] + v[1] * a.normal[1] + v[2] * a.normal[2];
+  }
+  for (int k = 0; k < 3 && !synchronized; k++) {
     const int l = (k + 1) % 3, m = (k + 2) % 3;
     const Lanes along = a.normal_velocity * a.normal[k];
     a.tangential_velocity[k] = (v[k] - along) - (d[m] * w[l] - d[l] * w[m]);
   }
   const Lanes lever[2] = {lever_i, lever_j};
-  push<SpringAlone>(grains, group, g, law, a, place, nullptr, LeverTorques{a.normal, lever}, kept);
+  push<SpringAlone>(grains, group, g, law, a, place, nullptr, LeverTorques{a.normal, lever},
+                    synchronized ? half_normal : nullptr, kept);
 }
 
 }
@@ -269,17 +322,32 @@ GRAINSCOPE_INLINE void push_spheres_of(const PackedGrains &grains, const PairGro
 GRAINSCOPE_CLONES
 void push_ellipsoids(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g, const GroupLaw &law,
                      GroupForces *kept) {
-  push_ellipsoids_of<false>(grains, group, g, law, kept);
+  push_ellipsoids_of<false, false>(grains, group, g, law, kept);
+}
+GRAINSCOPE_CLONES
+void push_ellipsoids_synchronized(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
+                                  const GroupLaw &law, GroupForces *kept) {
+  push_ellipsoids_of<false, true>(grains, group, g, law, kept);
 }
 GRAINSCOPE_CLONES
 void push_round(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g, const GroupLaw &law,
                 GroupForces *kept) {
-  push_ellipsoids_of<true>(grains, group, g, law, kept);
+  push_ellipsoids_of<true, false>(grains, group, g, law, kept);
+}
+GRAINSCOPE_CLONES
+void push_round_synchronized(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
+                             const GroupLaw &law, GroupForces *kept) {
+  push_ellipsoids_of<true, true>(grains, group, g, law, kept);
 }
 GRAINSCOPE_CLONES
 void push_spheres(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g, const GroupLaw &law,
                   GroupForces *kept) {
-  push_spheres_of(grains, group, g, law, kept);
+  push_spheres_of<false>(grains, group, g, law, kept);
+}
+GRAINSCOPE_CLONES
+void push_spheres_synchronized(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
+                               const GroupLaw &law, GroupForces *kept) {
+  push_spheres_of<true>(grains, group, g, law, kept);
 }
 
 }

@@ -10,6 +10,7 @@
 #include "observed_wall.h"
 #include "pair_gran_insitu.h"
 #include "restart_state.h"
+#include "taken_setting.h"
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
@@ -96,7 +97,8 @@ struct SavedWall {
 }
 
 struct FixWallGranInsitu::Impl : grainscope::WallContacts {
-  explicit Impl(LAMMPS *lmp) : velocities(lmp) {}
+  explicit Impl(LAMMPS *lmp) : time_level(lmp), velocities(lmp) {}
+  grainscope::TimeLevel time_level;
   std::string words;
   std::vector<std::string> columns;  // of the contact history
   int past_column = -1;              // first of the ledger's, or -1
@@ -113,14 +115,27 @@ struct FixWallGranInsitu::Impl : grainscope::WallContacts {
   }
 };
 
+struct FixWallGranInsitu::Words {
+  Words(LAMMPS *lmp, int narg, char **arg) : all(arg, arg + narg) {
+    synchronized = grainscope::take_setting(lmp, "fix " + std::string(arg[0]) + " (wall/gran)", all, "time_level",
+                                            "host", "synchronized");
+  }
+  std::vector<char *> all;  // of the command, without those of ours
+  bool synchronized;
+};
+
 FixWallGranInsitu::FixWallGranInsitu(LAMMPS *lmp, int narg, char **arg)
-    : FixWallGran(take_over(lmp), narg, arg), impl_(new Impl(lmp)) {
-  impl_->words = words_of(narg, arg);
+    : FixWallGranInsitu(lmp, Words(lmp, narg, arg)) {}
+
+FixWallGranInsitu::FixWallGranInsitu(LAMMPS *lmp, Words words)
+    : FixWallGran(take_over(lmp), words.all.size(), words.all.data()), impl_(new Impl(lmp)) {
+  impl_->words = words_of(words.all.size(), words.all.data());
   const std::unique_ptr<Deferred> deferred(dynamic_cast<Deferred *>(impl));
   impl = nullptr;  // until there is another: making it may end the run
   if (!deferred) error->fix_error(FLERR, this, "its contact models were not made by this program");
   impl = grainscope::create_observed_wall(deferred->hash, lmp, this);
   impl->settings(deferred->words.size(), deferred->words.data(), this);
+  if (words.synchronized) synchronize();
   const PairGranInsitu *const pair = dynamic_cast<PairGranInsitu *>(force->pair);
   if (!pair || !pair->keeps_past()) return;
   impl_->past_column = impl_->columns.size();
@@ -128,6 +143,27 @@ FixWallGranInsitu::FixWallGranInsitu(LAMMPS *lmp, int narg, char **arg)
 }
 
 FixWallGranInsitu::~FixWallGranInsitu() {}
+
+/** Once the models are made. */
+void FixWallGranInsitu::synchronize() {
+  const ContactLaw law = law_of_models();
+  const std::string why = grainscope::TimeLevel::why_not(law);
+  if (!why.empty())
+    grainscope::end_run(lmp, who() + "'time_level synchronized' " + why + ", got '" + impl_->words + "'");
+  grainscope::TimeLevel::Columns columns;
+  columns.kept = impl_->columns.size();
+  if (law.tangential == TangentialLaw::spring) columns.spring = impl_->column_of("shearx");
+  grainscope::TimeLevel::add_columns(*this);
+  impl_->time_level.set(true, columns, !contact_match("surface", "default"));
+  impl_->level = &impl_->time_level;
+}
+
+std::string FixWallGranInsitu::who() const { return "fix " + std::string(id) + " (wall/gran): "; }
+
+ContactLaw FixWallGranInsitu::law_of_models() {
+  return grainscope::law_of_models(impl_->words,
+                                   [this](const char *kind, const char *name) { return contact_match(kind, name); });
+}
 
 grainscope::WallContacts &FixWallGranInsitu::wall_contacts() { return *impl_; }
 
@@ -151,14 +187,14 @@ void FixWallGranInsitu::init() {
   impl_->pair = dynamic_cast<PairGranInsitu *>(force->pair);
   if (!impl_->pair) return;
   if (domain->dimension == 2) require_across_plane();
-  ContactLaw law = grainscope::law_of_models(
-      impl_->words, [this](const char *kind, const char *name) { return contact_match(kind, name); });
+  ContactLaw law = law_of_models();
   law.exponent = impl_->exponent;
   if (impl_->pair->keeps_past() && impl_->past_column < 0)
-    error->all(FLERR, ("fix " + std::string(id) +
-                       " (wall/gran): must be defined after 'pair_style gran/insitu ... ledger on', "
-                       "which keeps more numbers for each of its contacts, got it before")
-                          .c_str());
+    grainscope::end_run(lmp, who() + "must be defined after 'pair_style gran/insitu ... ledger on', which keeps more "
+                                     "numbers for each of its contacts, got it before");
+  if (impl_->pair->keeps_past() && impl_->level)
+    grainscope::end_run(lmp, who() + "'time_level synchronized' needs pair_style gran/insitu with 'ledger off', got "
+                                     "'ledger on'");
   if (impl_->pair->keeps_past()) law.past_column = impl_->past_column;
   if (law.tangential == TangentialLaw::spring) law.spring_column = impl_->column_of("shearx");
   if (law.tangential == TangentialLaw::viscous || law.tangential == TangentialLaw::spring) {
@@ -213,7 +249,9 @@ void FixWallGranInsitu::setup(int vflag) {
   impl_->velocities.restore(meshes());
   {
     const grainscope::KeptWallHistory kept(*this, fix_history_primitive_, atom->nlocal);
+    impl_->time_level.set_repeats(true);
     FixWallGran::setup(vflag);
+    impl_->time_level.set_repeats(false);
   }
   memory->swap();
 }

@@ -53,7 +53,13 @@ class FixWallGranInsitu : public FixWallGran, public grainscope::WallContactsOwn
 
  private:
   struct Impl;
+  struct Words;
   std::unique_ptr<Impl> impl_;
+
+  FixWallGranInsitu(class LAMMPS *lmp, Words words);
+  void synchronize();
+  std::string who() const;
+  grainscope::ContactLaw law_of_models();
 
   std::vector<TriMesh *> meshes();
   void require_across_plane();

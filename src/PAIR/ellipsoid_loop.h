@@ -72,6 +72,8 @@ void EllipsoidLoop<Model>::evaluate() {
   follow_motion();
   lanes_solve_all_ = bodies_.only_spheres() || (!bodies_.some_spheres() && !bodies_.some_triaxial());
   bodies_.counts.listed += near_.listed();
+  this->push_ = bodies_.only_spheres() ? (this->law_.synchronized() ? push_round_synchronized : push_round)
+                                       : (this->law_.synchronized() ? push_ellipsoids_synchronized : push_ellipsoids);
   near_.go_through(this->lists(), CHUNK, [this](const Pair *pairs, std::size_t n) {
     gather(pairs, n);
     work_on();
@@ -248,7 +250,7 @@ bool EllipsoidLoop<Model>::push(const Candidate *candidates, int n) {
     for (int k = 0; k < n; k++)
       if (bodies_.is_sphere(group_.i[k]) && bodies_.is_sphere(group_.j[k])) return false;
   this->set_law_of_pairs();
-  (round ? push_round : push_ellipsoids)(scene_.grains(), group_, geometry_, this->group_law_, this->kept_);
+  this->push_(scene_.grains(), group_, geometry_, this->group_law_, this->kept_);
   this->follow_up([candidates](int k) -> const Pair & { return *candidates[k].pair; }, n);
   return true;
 }

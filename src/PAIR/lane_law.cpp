@@ -27,6 +27,7 @@ const std::map<std::string, PairLaw::Tangential> TANGENTIALS = {{"off", PairLaw:
 /** False where a word is not known here, or asks for more than a PairLaw has. */
 bool LaneLaw::read(const std::string &models) {
   law_ = PairLaw();
+  synchronized_ = false;
   std::istringstream words(models);
   std::string name, value;
   while (words >> name >> value) {

@@ -17,6 +17,12 @@ class LaneLaw : private LAMMPS_NS::Pointers {
   /** Before a run; all ranks together. `models`: the words of the command. `spring_in_place`: in the contact history the
    *  tangential spring is where the lanes look for it, behind lambda or, without one, in the first columns. */
   void connect(const std::string &models, bool spring_in_place);
+  /** `time_level synchronized`; `kept`: what is kept of a contact, behind lambda. */
+  void synchronize(int kept) {
+    synchronized_ = true;
+    law_.kept = kept;
+  }
+  bool synchronized() const { return synchronized_; }
   bool covers() const { return covers_; }
   /** Material properties and time step as they are now. */
   void refresh();
@@ -26,7 +32,7 @@ class LaneLaw : private LAMMPS_NS::Pointers {
   }
 
  private:
-  bool covers_ = false;
+  bool covers_ = false, synchronized_ = false;
   PairLaw law_;
   // of the host, for each pair of atom types
   double **young_ = nullptr, **shear_ = nullptr, **beta_ = nullptr, **log_restitution_ = nullptr, **friction_ = nullptr,

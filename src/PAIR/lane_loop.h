@@ -90,6 +90,8 @@ class LaneLoop : public LIGGGHTS::PairStyles::Granular<Model>, public ResetsOpen
   GroupLaw group_law_{};
   GroupForces *kept_ = nullptr;  // forces_ where somebody asks for them
   PastLanes past_;
+  /** Of these grains, by this law. */
+  void (*push_)(const PackedGrains &, const PairGroup &, const GroupGeometry &, const GroupLaw &, GroupForces *);
 
  private:
   /** For the whole of a run. */

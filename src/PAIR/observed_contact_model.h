@@ -4,11 +4,12 @@
 
 #include "contact_reader.h"
 #include "pair_gran_insitu.h"
+#include "time_level.h"
 #include "contact_models.h"
 
 namespace grainscope {
 
-/** A LIGGGHTS contact model with a reader around it. It shadows two members of the model that the host's pair loop
+/** A LIGGGHTS contact model with a reader around it. It shadows members of the model that the host's pair loop
  *  calls, so the loop stays the host's own. It also restores sidata.delta = x_i - x_j, which the surface model of
  *  non-spherical grains overwrites with the overlap vector and the host's virial then takes for the branch vector. */
 template <class ContactModel>
@@ -19,14 +20,16 @@ class Observed : public ContactModel, public ObservedModel {
 
   Observed(LAMMPS_NS::LAMMPS *lmp, LIGGGHTS::IContactHistorySetup *setup, bool is_wall, const int64_t hash)
       : ContactModel(lmp, setup, is_wall, hash), x_(&lmp->atom->x),
-        reader_(static_cast<LAMMPS_NS::PairGranInsitu *>(static_cast<LAMMPS_NS::PairGran *>(setup))->reader()),
-        observer_(reader_.observer()) {
+        style_(*static_cast<LAMMPS_NS::PairGranInsitu *>(static_cast<LAMMPS_NS::PairGran *>(setup))),
+        reader_(style_.reader()), observer_(reader_.observer()), level_(style_.time_level()) {
     reader_.set_model(this);  // the host's loop keeps its model to itself
   }
 
   void surfacesIntersect(Surfaces &s, Forces &i, Forces &j) {
+    if (level_.synchronized()) level_.enter(s);
     if (observer_.active()) reader_.before(s);
     ContactModel::surfacesIntersect(s, i, j);
+    if (level_.synchronized()) level_.leave(s);
   }
 
   void endSurfacesIntersect(Surfaces &s, LAMMPS_NS::TriMesh *mesh, Forces &i, Forces &j) {
@@ -36,10 +39,17 @@ class Observed : public ContactModel, public ObservedModel {
     if (observer_.active()) reader_.after(s, i);
   }
 
+  void surfacesClose(LIGGGHTS::ContactModels::SurfacesCloseData &s, Forces &i, Forces &j) {
+    ContactModel::surfacesClose(s, i, j);
+    if (level_.synchronized()) level_.forget(s.contact_history);
+  }
+
  private:
   double ***x_;
+  LAMMPS_NS::PairGranInsitu &style_;
   ContactReader &reader_;
   const ContactObserver &observer_;
+  TimeLevel &level_;
 };
 
 }

@@ -30,13 +30,20 @@ class ObservedWall : public Model {
   }
 
   void surfacesIntersect(Surfaces &s, Forces &i, Forces &j) {
+    if (wall_.level) wall_.level->enter(s);
     if (wall_.reader) wall_.reader->before(s);
     Model::surfacesIntersect(s, i, j);
+    if (wall_.level) wall_.level->leave(s);
   }
 
   void endSurfacesIntersect(Surfaces &s, LAMMPS_NS::TriMesh *mesh, Forces &i, Forces &j) {
     Model::endSurfacesIntersect(s, mesh, i, j);
     if (wall_.reader) wall_.reader->after_wall(s, i, wall_.partner(s));
+  }
+
+  void surfacesClose(LIGGGHTS::ContactModels::SurfacesCloseData &s, Forces &i, Forces &j) {
+    Model::surfacesClose(s, i, j);
+    if (wall_.level) wall_.level->forget(s.contact_history);
   }
 
  private:

@@ -3,6 +3,7 @@
 #define GRAINSCOPE_OBSERVED_WALL_H
 
 #include "contact_reader.h"
+#include "time_level.h"
 #include "granular_wall.h"
 #include "tri_mesh.h"
 #include <algorithm>
@@ -14,6 +15,7 @@ namespace grainscope {
 /** Between a fix wall/gran and the contact model that it runs. */
 struct WallContacts {
   ContactReader *reader = nullptr;                        // while contacts are to be read; else null
+  TimeLevel *level = nullptr;                             // with `time_level synchronized`; else null
   PartnerWall first;                                      // the wall, or that of the first mesh
   std::vector<const LAMMPS_NS::FixMeshSurface *> meshes;  // in order; none of a primitive wall
   double exponent = 0.0;  // of the elastic normal force; known to the model alone, which sets it

@@ -37,24 +37,23 @@ struct RestartData : Modify {
 
 }
 
-void PairChecks::require_same_columns_in_restart(int wanted, int past, bool ledger) const {
+void PairChecks::require_same_columns_in_restart(int wanted, std::initializer_list<ColumnSetting> settings) const {
   const char *state = RestartData::of(modify, "contacthistory");
   if (!state) return;
   double columns[2];  // the host writes the number of columns, and one more
   memcpy(columns, state, sizeof columns);
   const int found = static_cast<int>(whole_count(columns[0], 1e6));
-  const std::string numbers =
-      std::to_string(found) + " numbers per contact, and this pair_style has " + std::to_string(wanted) + ": ";
-  if (found == wanted) return;
-  if (found == wanted - past && ledger)
-    error->all(FLERR, ("pair_style gran/insitu: the restart file holds " + numbers +
-                       "it was written without 'ledger on', so the ledger cannot "
-                       "be continued from it. Say 'ledger off', or write the restart file with 'ledger on'")
-                          .c_str());
-  if (found == wanted + past && !ledger)
-    error->all(FLERR, ("pair_style gran/insitu: the restart file holds " + numbers +
-                       "it was written with 'ledger on'. Say 'ledger on'")
-                          .c_str());
+  for (const ColumnSetting &setting : settings) {
+    if (found != wanted + (setting.on ? -setting.columns : setting.columns)) continue;
+    const std::string with = std::string("'") + setting.keyword + " " + setting.with + "'",
+                      without = std::string("'") + setting.keyword + " " + setting.without + "'";
+    error->all(FLERR,
+               ("pair_style gran/insitu: the restart file holds " + std::to_string(found) +
+                " numbers per contact, and this pair_style has " + std::to_string(wanted) + ": it was written with" +
+                (setting.on ? "out " + with + ". Say " + without + ", or write the restart file with " + with
+                            : " " + with + ". Say " + with))
+                   .c_str());
+  }
 }
 
 void PairChecks::warn_of_stale_springs() {

@@ -3,6 +3,7 @@
 #define GRAINSCOPE_PAIR_CHECKS_H
 
 #include "pointers.h"
+#include <initializer_list>
 #include <string>
 
 namespace grainscope {
@@ -13,9 +14,14 @@ class PairChecks : private LAMMPS_NS::Pointers {
  public:
   explicit PairChecks(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
 
-  /** The restart file that is to be continued must hold `wanted` numbers per contact; `past`: those of them that
-   *  `ledger on` adds. */
-  void require_same_columns_in_restart(int wanted, int past, bool ledger) const;
+  /** A setting that adds columns to the contact history. */
+  struct ColumnSetting {
+    const char *keyword, *with, *without;
+    int columns;
+    bool on;
+  };
+  /** The restart file that is to be continued must hold `wanted` numbers per contact, those of `settings` among them. */
+  void require_same_columns_in_restart(int wanted, std::initializer_list<ColumnSetting> settings) const;
   /** Contact history is keyed by grain ID: with two images of one grain within reach of another it is ambiguous. */
   void require_box_large_enough() const;
   /** With `dimension 2`: spheres in one plane across z, which nothing makes leave it. */

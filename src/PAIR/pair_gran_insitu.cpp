@@ -14,7 +14,9 @@
 #include "stop_signal.h"
 #include "superquadric_columns.h"
 #include "surface_required.h"
+#include "taken_setting.h"
 #include "tangential_bound.h"
+#include "time_level.h"
 #include "time_step_watch.h"
 #include "atom.h"
 #include "comm.h"
@@ -36,10 +38,12 @@ using grainscope::TangentialBound;
 using grainscope::TangentialLaw;
 
 struct PairGranInsitu::Impl {
-  explicit Impl(LAMMPS *lmp) : observer(lmp), reader(observer), lane_law(lmp), bodies(lmp), watch(lmp), checks(lmp) {}
+  explicit Impl(LAMMPS *lmp)
+      : observer(lmp), reader(observer), lane_law(lmp), level(lmp), bodies(lmp), watch(lmp), checks(lmp) {}
   ContactObserver observer;
   ContactReader reader;
   grainscope::LaneLaw lane_law;
+  grainscope::TimeLevel level;
   grainscope::EllipsoidBodies bodies;
   grainscope::EllipsoidSurface surface;
   grainscope::TimeStepWatch watch;
@@ -76,6 +80,8 @@ ContactReader &PairGranInsitu::reader() { return impl_->reader; }
 
 grainscope::LaneLaw &PairGranInsitu::lane_law() { return impl_->lane_law; }
 
+grainscope::TimeLevel &PairGranInsitu::time_level() { return impl_->level; }
+
 const ContactLaw &PairGranInsitu::law() const { return impl_->reader.law(); }
 
 bool PairGranInsitu::keeps_past() const { return impl_->ledger; }
@@ -102,8 +108,12 @@ PairGranInsitu *PairGranInsitu::required_by(LAMMPS *lmp, const char *who) {
 
 void PairGranInsitu::settings(int narg, char **arg) {
   std::vector<char *> words(arg, arg + narg);
-  impl_->ledger = take_setting(words, "ledger", "off", "on");
-  impl_->neutral = take_setting(words, "setup", "host", "neutral");
+  const auto take = [&](const char *keyword, const char *no, const char *yes) {
+    return grainscope::take_setting(lmp, "pair_style gran/insitu", words, keyword, no, yes);
+  };
+  impl_->ledger = take("ledger", "off", "on");
+  impl_->neutral = take("setup", "host", "neutral");
+  const bool synchronized = take("time_level", "host", "synchronized");
   if (force->pair != this)
     error->all(
         FLERR,
@@ -127,6 +137,8 @@ void PairGranInsitu::settings(int narg, char **arg) {
   dnum_pairgran = 0;
   impl_->loop.reset(grainscope::create_observed_loop(hash, lmp, this));
   impl_->loop->settings(narg, arg, this);
+  impl_->level.set(false, {}, false);
+  if (synchronized) synchronize();
   if (impl_->ledger) add_past_columns();
 
   grainscope::stop_signal::watch();
@@ -137,21 +149,28 @@ void PairGranInsitu::settings(int narg, char **arg) {
   strcpy(force->pair_style, "gran");
 }
 
-/** Takes `keyword no|yes` out of the words, which are otherwise the host's; whether it was yes. */
-bool PairGranInsitu::take_setting(std::vector<char *> &words, const char *keyword, const char *no, const char *yes) {
-  const auto is_keyword = [keyword](const char *word) { return !strcmp(word, keyword); };
-  const auto at = std::find_if(words.begin(), words.end(), is_keyword);
-  if (at == words.end()) return false;
-  const bool ends = at + 1 == words.end();
-  const std::string got = ends ? "" : at[1];
-  const std::string about = std::string("pair_style gran/insitu: '") + keyword + "' ";
-  if (got != no && got != yes) {
-    const std::string received = ends ? "the end of the command" : "'" + got + "'";
-    error->all(FLERR, (about + "must be " + yes + " or " + no + ", got " + received).c_str());
+/** Once the models are made. */
+void PairGranInsitu::synchronize() {
+  const ContactLaw law = law_of_models();
+  const std::string why = grainscope::TimeLevel::why_not(law);
+  if (!why.empty())
+    error->all(FLERR,
+               ("pair_style gran/insitu: 'time_level synchronized' " + why + ", got '" + impl_->models + "'").c_str());
+  if (impl_->ledger)
+    error->all(FLERR, "pair_style gran/insitu: 'time_level synchronized' needs 'ledger off', got 'ledger on'");
+  const bool points = !contact_match("surface", "default");
+  grainscope::TimeLevel::Columns columns;
+  if (law.tangential == TangentialLaw::spring) columns.spring = column_of("shearx");
+  if (points) {
+    columns.kept = history_arg.size();
+    grainscope::TimeLevel::add_columns(*this);
   }
-  const auto next = words.erase(at, at + 2);
-  if (std::any_of(next, words.end(), is_keyword)) error->all(FLERR, (about + "is given twice").c_str());
-  return got == yes;
+  impl_->level.set(true, columns, points);
+}
+
+ContactLaw PairGranInsitu::law_of_models() {
+  return grainscope::law_of_models(impl_->models,
+                                   [this](const char *kind, const char *name) { return contact_match(kind, name); });
 }
 
 void PairGranInsitu::add_past_columns() {
@@ -172,16 +191,20 @@ void PairGranInsitu::init_style() {
   impl_->observer.begin_run();
   impl_->images_of_build = -1;
   if (history && !fix_history)
-    impl_->checks.require_same_columns_in_restart(columns_in_restart(), ContactReader::past_columns, impl_->ledger);
+    impl_->checks.require_same_columns_in_restart(
+        columns_in_restart(),
+        {{"ledger", "on", "off", ContactReader::past_columns, impl_->ledger},
+         {"time_level", "synchronized", "host", grainscope::TimeLevel::kept_columns, impl_->level.kept() >= 0}});
   impl_->renumbered = atom->natoms < impl_->grains && !grainscope::contacts_know_their_grains(lmp);
   if (impl_->renumbered && comm->me == 0)
     error->warning(FLERR, "grains were given other IDs, and the host keeps tangential springs by ID: some are now "
                           "those of other contacts. Say "
                           "'compress no' to delete_atoms");
-  const std::string ledger = impl_->ledger ? " ledger on" : "", setup = impl_->neutral ? " setup neutral" : "";
-  grainscope::require_surface_models(lmp, this, impl_->models + ledger + setup);
+  const std::string words = impl_->models + (impl_->ledger ? " ledger on" : "") +
+                            (impl_->level.synchronized() ? " time_level synchronized" : "");
+  grainscope::require_surface_models(lmp, this, words + (impl_->neutral ? " setup neutral" : ""));
   PairGranProxy::init_style();
-  grainscope::run_fixes::make_guard(lmp, impl_->models + (impl_->ledger ? " ledger on" : ""));
+  grainscope::run_fixes::make_guard(lmp, words);
   if (impl_->neutral) impl_->memory = grainscope::run_fixes::make_setup_memory(lmp);
   const auto *loop = dynamic_cast<grainscope::ResetsOpenedSprings *>(impl_->loop.get());
   if (law().tangential == TangentialLaw::spring && !(loop && loop->resets_springs()))
@@ -192,13 +215,13 @@ void PairGranInsitu::init_style() {
 
 void PairGranInsitu::init_granular() {
   impl_->loop->init_granular();
-  ContactLaw law = grainscope::law_of_models(
-      impl_->models, [this](const char *kind, const char *name) { return contact_match(kind, name); });
+  ContactLaw law = law_of_models();
   law.exponent = stressStrainExponent();
   law.past_column = impl_->past_column;
   if (law.tangential == TangentialLaw::spring) law.spring_column = column_of("shearx");
   const int place = contact_match("surface", "ellipsoid") ? grainscope::EllipsoidSurface::lambda + 1 : 0;
   impl_->lane_law.connect(impl_->models, law.spring_column == place);
+  if (impl_->level.synchronized()) impl_->lane_law.synchronize(impl_->level.kept() - grainscope::EllipsoidSurface::lambda);
   impl_->friction = nullptr;
   if (law.tangential == TangentialLaw::viscous || law.tangential == TangentialLaw::spring) {
     force->registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
@@ -248,7 +271,9 @@ void PairGranInsitu::compute(int eflag, int vflag) {
     const grainscope::KeptHistory kept(repeats ? listgranhistory : nullptr, list, dnum());
     if (impl_->observer.begin(!update->setupflag, repeats)) update_image_shifts();
     set_tangential_bound();
+    impl_->level.set_repeats(repeats);
     PairGran::compute(eflag, vflag);
+    impl_->level.set_repeats(false);
     impl_->observer.end();
   }
   if (repeats) memory->swap();

@@ -19,6 +19,7 @@ class ContactObserver;
 class ContactReader;
 class EvaluationMemory;
 class LaneLaw;
+class TimeLevel;
 struct ContactLaw;
 }
 
@@ -52,6 +53,7 @@ class PairGranInsitu : public PairGranProxy, public grainscope::EllipsoidOwner {
   grainscope::ContactObserver &observer();
   grainscope::ContactReader &reader();
   grainscope::LaneLaw &lane_law();
+  grainscope::TimeLevel &time_level();
   /** Of the run that was set up last. */
   const grainscope::ContactLaw &law() const;
   /** `ledger on`. */
@@ -69,7 +71,8 @@ class PairGranInsitu : public PairGranProxy, public grainscope::EllipsoidOwner {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 
-  bool take_setting(std::vector<char *> &words, const char *keyword, const char *no, const char *yes);
+  void synchronize();
+  grainscope::ContactLaw law_of_models();
   void add_past_columns();
   int columns_in_restart() const;
   int column_of(const std::string &name) const;

@@ -43,6 +43,7 @@ class SphereLoop : public LaneLoop<Model> {
 template <class Model>
 void SphereLoop<Model>::evaluate() {
   scene_.load_spheres();
+  this->push_ = this->law_.synchronized() ? push_spheres_synchronized : push_spheres;
   group_.size = 0;
   const LAMMPS_NS::NeighList *list = pair_->list;
   // More grains than the second cache holds.
@@ -98,7 +99,7 @@ void SphereLoop<Model>::work() {
   meet_spheres(scene_.grains(), group_, geometry_);
   if (this->in_lanes()) {
     this->set_law_of_pairs();
-    push_spheres(scene_.grains(), group_, geometry_, this->group_law_, this->kept_);
+    this->push_(scene_.grains(), group_, geometry_, this->group_law_, this->kept_);
     this->follow_up(pair, n);
   } else {
     for (int k = 0; k < n; k++) this->enter(pair(k), k);

@@ -415,6 +415,11 @@ STYLES = [
             Keyword(
                 "setup", choice("neutral", "host"), ends="'setup' must be neutral or host, got the end of the command"
             ),
+            Keyword(
+                "time_level",
+                choice("synchronized", "host"),
+                ends="'time_level' must be synchronized or host, got the end of the command",
+            ),
         ],
         others=True,
     ),

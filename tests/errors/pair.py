@@ -5,7 +5,7 @@ from dataclasses import replace
 from case import main, require
 from deck import Deck
 from packing import dense_packing
-from refusal import refusal
+from refusal import refusal, require_refused
 from run import run, tail
 
 
@@ -38,6 +38,7 @@ def boxy_without_surface():
     return spheroids(" surface superquadric", "").replace("blockiness 2.0 2.0", "blockiness 2.0 3.0", 1)
 
 
+SYNCHRONIZED = "time_level synchronized"
 MODEL = "model hertz tangential history"
 WALL = f"fix floor all wall/gran {MODEL} primitive type 1 zplane -1.0"
 BOUNDING = (
@@ -54,6 +55,23 @@ def warned_under_gran(ranks):
     require(output.count("bounding spheres") == 1, "it was said more than once")
     for right in (spheroids(pair="gran"), deck(pair="gran")):
         require("bounding spheres" not in run(right, ranks).output, "warned of without a reason")
+
+
+def continued_otherwise(ranks):
+    """Of grains that are no spheres more is kept; of spheres not, and either level goes on from the other."""
+    for style, refused in (("superquadric", True), ("sphere", False)):
+        packing = dense_packing(1.5 if refused else 1.0, atom_style=style)
+        with_it, without = (Deck(packing, surface="ellipsoid", extra=words) for words in (SYNCHRONIZED, ""))
+        for first, second, said in (
+            (with_it, without, "it was written with 'time_level synchronized'. Say 'time_level synchronized'"),
+            (without, with_it, "it was written without 'time_level synchronized'. Say 'time_level host'"),
+        ):
+            file = run(replace(first, body=["run 3", "write_restart a.restart"]), ranks).folder / "a.restart"
+            again = second.restarted(file, ["run 3"])
+            if refused:
+                require_refused(again, ranks, said)
+            else:
+                require("the restart file was written with" in " ".join(run(again, ranks).output.split()), "not said")
 
 
 CASES = {
@@ -95,6 +113,63 @@ CASES = {
         lambda: as_text("tangential history", "tangential history setup host setup neutral"),
         "pair_style gran/insitu: 'setup' is given twice",
     ),
+    **{
+        f"synchronized-{name}": refusal(make, f"pair_style gran/insitu: 'time_level synchronized' {requirement}", got)
+        for name, make, requirement, got in (
+            ("cohesion", lambda: deck(extra=SYNCHRONIZED, cohesion="sjkr"), "knows 'cohesion' off only", "sjkr"),
+            (
+                "rolling",
+                lambda: deck(extra=SYNCHRONIZED, rolling="cdt"),
+                "knows 'rolling_friction' off only",
+                "rolling_friction cdt",
+            ),
+            (
+                "without-friction",
+                lambda: deck(extra=SYNCHRONIZED, tangential="off"),
+                "knows 'tangential' history and no_history only",
+                "tangential off",
+            ),
+            (
+                "surface",
+                lambda: as_text("tangential history", f"tangential history surface multicontact {SYNCHRONIZED}"),
+                "knows 'surface' default, superquadric and ellipsoid only",
+                "surface multicontact",
+            ),
+            (
+                "normal",
+                lambda: as_text("model hertz", "model hooke/hysteresis", "run 1").replace(
+                    "history", f"history {SYNCHRONIZED}"
+                ),
+                "knows the normal models hertz, hooke, hertz/stiffness and hooke/stiffness only",
+                "hooke/hysteresis",
+            ),
+            ("ledger", lambda: deck(extra=SYNCHRONIZED + " ledger on"), "needs 'ledger off'", "got 'ledger on'"),
+        )
+    },
+    "synchronized-wall": refusal(
+        lambda: Deck(
+            replace(dense_packing(atom_style="sphere"), triclinic=False),
+            body=[f"fix floor all wall/gran {MODEL} rolling_friction cdt primitive type 1 zplane -1 {SYNCHRONIZED}"],
+            boundary="p p f",
+        ),
+        "fix floor (wall/gran): 'time_level synchronized' knows 'rolling_friction' off only",
+        "rolling_friction cdt",
+    ),
+    "synchronized-wall-misspelt": refusal(
+        lambda: deck(f"{WALL} time_level synchronised"),
+        "fix floor (wall/gran): 'time_level' must be synchronized or host, got 'synchronised'",
+    ),
+    "synchronized-wall-with-ledger": refusal(
+        lambda: Deck(
+            replace(dense_packing(atom_style="sphere"), triclinic=False),
+            body=[f"{WALL} {SYNCHRONIZED}", "run 1"],
+            boundary="p p f",
+            extra="ledger on",
+        ),
+        "fix floor (wall/gran): 'time_level synchronized' needs pair_style gran/insitu with 'ledger off'",
+    ),
+    "synchronized-under-gran": refusal(lambda: deck(extra=SYNCHRONIZED, pair="gran"), "time_level"),
+    "synchronized-restart": continued_otherwise,
     "guard-by-hand": refusal(
         lambda: deck("fix gran_insitu_guard all run/guard", "run 1"), "fix run/guard: is made by pair_style gran/insitu"
     ),
