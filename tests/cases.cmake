@@ -763,7 +763,7 @@ add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insi
 add_cases(gran/insitu-time-level cases/time_level.py LABEL long STYLES gran/insitu CASES neck-tiny)
 add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu surface/ellipsoid CASES
   order-normal order-normal-damped order-tangential order-rolling order-all order-all-damped order-ellipsoids
-  order-spheroids lanes-spheres lanes-spheroids lanes-balls lanes-viscous)
+  order-spheroids order-cylinder order-cylinder-ellipsoid lanes-spheres lanes-spheroids lanes-balls lanes-viscous)
 add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu surface/ellipsoid RANKS 2
   LONG_RANKS 4 CASES ranks-spheres ranks-spheroids)
 add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu wall/gran setup/memory read_restart

@@ -130,12 +130,18 @@ def ended(pair, level, steps, ranks, style="sphere", shapes=None):
     deck = Deck(packing, boundary="f f f", normal="hooke/stiffness", surface="ellipsoid")
     deck = replace(deck, material=Material(friction=(1e9,)), timestep=DURATION / steps)
     deck.extra = f"time_level {level}" + ("" if pair.gamma_t else " tangential_damping off")
-    deck.body = [*dump_grains(packing, steps), f"run {steps}"]
     constants = {"kn": pair.k_n, "kt": pair.k_t, "gamman": pair.gamma_n, "gammat": pair.gamma_t}
+    return state_of(deck, steps, constants, ranks)
+
+
+def state_of(deck, steps, constants, ranks):
+    """Places, velocities and spins after so many steps."""
+    deck = replace(deck, body=[*deck.body, *dump_grains(deck.packing, steps), f"run {steps}"])
     lines = [f"fix {k} all property/global {k} peratomtypepair 1 {v!r}\n" for k, v in constants.items()]
     text = deck.text().replace("pair_style", "".join(lines) + "pair_style", 1)
     _, found = run(text, ranks).dump("grains.dump")[-1]
-    return np.array([[[found[p + c][k] for c in "xyz"] for k in (0, 1)] for p in ("", "v", "omega")])
+    grains = range(len(deck.packing.grains))
+    return np.array([[[found[p + c][k] for c in "xyz"] for k in grains] for p in ("", "v", "omega")])
 
 
 def order_of(motion, host, synchronized, damping=0.0, style="sphere"):
@@ -168,12 +174,40 @@ SPHEROIDS = [((0.9, 0.9, 1.4), across_z(0.6)), ((0.2, 0.2, 0.3), across_z(1.9))]
 
 
 def order_of_spheroids(ranks):
-    """Nobody knows where they go; but both levels go to the same limit, each by its order. In a plane: the spin of a
-    spheroid that wobbles is, to the models, that of its orientation at the beginning of a step."""
+    """In a plane: the spin of a spheroid that wobbles is, to the models, that of its orientation at the beginning of a
+    step."""
     pair = replace(pair_of("rolling", 0.0), places=(REST, (0.714, 1.05, 0.0)))
+    require_orders(lambda level, steps: ended(pair, level, steps, ranks, "superquadric", SPHEROIDS))
+
+
+def order_in_a_cylinder(style):
+    """A ball that rolls along and around on the inside, and spins about the normal."""
+
+    def case(ranks):
+        grain = Grain((0.0, 2.0, 0.0), velocity=(2.0, 0.1, 0.7), omega=(3.0, -5.0, 6.0))
+        packing = Packing((12.0, 12.0, 12.0), [grain], atom_style=style, origin=(-6.0, -6.0, -6.0), triclinic=False)
+        stiffness = 4000.0 * grain.mass()
+        constants = {"kn": stiffness, "kt": 0.5 * stiffness, "gamman": 0.0, "gammat": 0.0}
+
+        def end(level, steps):
+            deck = Deck(packing, boundary="f f f", normal="hooke/stiffness", surface="ellipsoid")
+            deck = replace(deck, material=Material(friction=(1e9,)), timestep=DURATION / steps)
+            wall = f"fix tube all wall/gran {deck.model()} primitive type 1 zcylinder 2.99 0 0"
+            deck.body = [f"{wall} time_level {level} tangential_damping off"]
+            deck.extra = "tangential_damping off"
+            return state_of(deck, steps, constants, ranks)
+
+        require_orders(end)
+
+    return case
+
+
+def require_orders(end):
+    """Nobody knows where the grains go; but both levels go to the same limit, each by its order. `end(level, steps)` is
+    the state after so many steps."""
     limits = {}
     for level, order in (("host", 1.0), ("synchronized", 2.0)):
-        ends = [ended(pair, level, steps, ranks, "superquadric", SPHEROIDS) for steps in (400, 800, 1600, 3200)]
+        ends = [end(level, steps) for steps in (400, 800, 1600, 3200)]
         changes = np.array([np.abs(b - a).max(axis=(1, 2)) for a, b in zip(ends, ends[1:])])
         found = np.log2(changes[:-1] / changes[1:])
         require_close(found[-1], np.full(3, order), NEAR[order], f"order, {level}", 1.0)
@@ -195,6 +229,13 @@ def lanes_as_one_by_one(packing, **choices):
             for more in ("", " heating_tracking on")
         )
         require_same_snapshots(one, other, "lanes against one by one")
+        watched = [
+            "compute loss all dissipation",
+            "compute stress all stress/contact",
+            *thermo(1, "c_stress", "c_loss"),
+        ]
+        seen = run(replace(deck, extra=SYNCHRONIZED, body=[*watched, *deck.body]), ranks).dump("grains.dump")
+        require_same_snapshots(seen, one, "watched against not")
         host = run(deck, ranks).dump("grains.dump")
         apart = np.abs(host[-1][1]["vx"] - one[-1][1]["vx"]).max()
         require(apart > 1e-6, f"the levels differ by {apart} only: nothing is proved")
@@ -318,6 +359,8 @@ if __name__ == "__main__":
             "order-all-damped": order_of("all", 1.0, 1.0, 10.0),
             "order-ellipsoids": order_of("all", 1.0, 2.0, style="superquadric"),
             "order-spheroids": order_of_spheroids,
+            "order-cylinder": order_in_a_cylinder("sphere"),
+            "order-cylinder-ellipsoid": order_in_a_cylinder("superquadric"),
             "lanes-spheres": lanes_as_one_by_one(dense_packing(atom_style="sphere", sizes=SIZES)),
             "lanes-spheroids": lanes_as_one_by_one(dense_packing(1.5)),
             "lanes-balls": lanes_as_one_by_one(dense_packing(1.0)),
