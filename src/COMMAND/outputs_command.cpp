@@ -146,7 +146,8 @@ std::string table_of(const Source &source, const std::vector<Line> &lines) {
   return text;
 }
 
-/** The variables that this command defined, with their formulas: of a compute that has changed since, they are replaced. */
+/** The variables that this command defined, with their formulas: of a compute that has changed since, they are
+ * replaced. */
 std::map<std::string, std::string> &defined_here() {
   static std::map<std::string, std::string> formulas;
   return formulas;

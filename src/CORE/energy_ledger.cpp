@@ -61,7 +61,8 @@ void EnergyLedger::set_laws(const ContactLaw &between_grains, const std::vector<
 
 void EnergyLedger::begin_evaluation(int n_local, bool repeats) {
   const std::size_t row = 8 * slots_;
-  if (std::any_of(filled_, filled_ + slots_, [](bool filled) { return filled; })) wrenches_.clear();
+  // Whose membership ends between two steps is not shown to start_of_step(), which empties rows.
+  if (emptied_ != own_ || std::any_of(filled_, filled_ + slots_, [](bool filled) { return filled; })) wrenches_.clear();
   else if (!wrenches_.empty()) std::fill(wrenches_.end() - row, wrenches_.end(), 0.0);  // that of ghosts
   own_ = n_local;
   wrenches_.resize((own_ + std::size_t(1)) * row, 0.0);
@@ -228,6 +229,7 @@ void EnergyLedger::end_of_step(const Grain &g, const double omega[3], const doub
 
 void EnergyLedger::begin_start_of_step(const LedgerFrame &frame) {
   next_ = frame;
+  emptied_ = 0;
   carried_ = carried(frame_, next_);
   moved_ = stepped_ && !(frame_ == carried_);
   driven_ = stepped_ && !(carried_ == next_);
@@ -265,6 +267,7 @@ void EnergyLedger::start_of_step(const Grain &g, const double omega_after[3], co
     std::fill(part, part + 8, 0.0);
   }
   add_to(starts_.other, other);
+  emptied_++;
 
   // The coming drift in the frame: noted before it, because a grain that is wrapped afterwards takes on another
   // velocity.

@@ -24,9 +24,9 @@ struct LedgerFrame : AffineFlow {
  *  its own lever arms, is exactly the change of K = sum m v^2/2 - dt^2 F^2/8m, and likewise for rotations. Velocities
  *  are peculiar, p = v - L (x - x_c); in terms of contact velocities u, sum_grains F.p + T.w = sum_contacts F.u -
  *  F.L r. A contact with a wall that moves with V at the contact point c: F.p + T.w = F.u - F.L r + F.P, r = x - c and
- *  P = V - L (c - x_c) the wall's velocity against the flow. F.P is what the wall does: W_wall. A wall's velocity at the
- *  end of a step is that of the whole step, as it moves before forces are evaluated; where a contact goes on, both of
- *  the step's forces are paired with it.
+ *  P = V - L (c - x_c) the wall's velocity against the flow. F.P is what the wall does: W_wall. A wall's velocity at
+ * the  end of a step is that of the whole step, as it moves before forces are evaluated; where a contact goes on, both
+ * of  the step's forces are paired with it.
  *
  *  Per contact, s the tangential spring, 0 and 1 the two ends of the step, `cut` what friction takes from the spring:
  *    D_t = (k0 s0 + k1 s1)/2 . cut          G_k = -(k1 - k0)/2 s0.s1          (k_t follows the overlap,
@@ -44,8 +44,8 @@ struct LedgerFrame : AffineFlow {
 class EnergyLedger {
  public:
   /** Rows of the account, each an energy. Those with _w are the share of contacts with walls, G_w that of all G; those
-   *  with _x, _y, _z the share of the edges along one axis in W_box: what the diagonal element of L there does. They are
-   *  made of the components along that axis alone, F_a r_a and m p_a v_a, and of the change of sum m p_a^2/2. */
+   *  with _x, _y, _z the share of the edges along one axis in W_box: what the diagonal element of L there does. They
+   * are  made of the components along that axis alone, F_a r_a and m p_a v_a, and of the change of sum m p_a^2/2. */
   enum Entry {
     W_shear,
     W_box,
@@ -248,6 +248,7 @@ class EnergyLedger {
   int slot_[partners][parts];     // of a part in a grain's wrenches, or -1
   int slots_ = 0, kinds_ = 1;     // kinds: of partners that there are
   int own_ = 0;                   // grains
+  int emptied_ = 0;               // of these, by the last step
   std::vector<double> wrenches_;  // eight numbers for each part on each of them, and on one more, which is all ghosts
   bool filled_[partners * parts] = {};  // slots that are not 0
   Evaluation now_, before_;

@@ -230,7 +230,9 @@ GRAINSCOPE_CLONES
 int EnergyLedger::start_of_step(const Grains &grains, int i, double dt) {
   const Grains g = grains;
   LaneStarts sums(next_, frame_, carried_);
+  const int first = i;
   while (g.four_free(i) && start_four(g, i, dt, sums)) i += LANES;
+  emptied_ += i - first;
   sums.move_to(starts_);
   return i;
 }

@@ -17,8 +17,8 @@ class FieldCells {
   using Numbers = std::array<int, 3>;
 
   FieldCells() = default;
-  /** Between the edges, in columns of an upper triangular matrix, of a block. Across axis k with `open[k]` the first and the last cell hold what lies
-   *  beyond them too. */
+  /** Between the edges, in columns of an upper triangular matrix, of a block. Across axis k with `open[k]` the first
+   * and the last cell hold what lies  beyond them too. */
   static FieldCells blocks(const Eigen::Vector3d &corner, const Eigen::Matrix3d &edges, const Numbers &numbers,
                            const std::array<bool, 3> &open);
   /** About the line along x, y or z (0, 1, 2) through `centre`, between two radii and two places along the axis, from
@@ -61,8 +61,8 @@ class FieldCells {
     return {m(0, 0) * d[0] + m(0, 1) * d[1] + m(0, 2) * d[2], m(1, 1) * d[1] + m(1, 2) * d[2], m(2, 2) * d[2]};
   }
 
-  /** Calls use(cell, first, last) for the parts of a line that lie in one cell each, of what is between `low` and `high`
-   *  of it: from 0, its beginning, to 1, its end. */
+  /** Calls use(cell, first, last) for the parts of a line that lie in one cell each, of what is between `low` and
+   * `high`  of it: from 0, its beginning, to 1, its end. */
   template <class Use>
   void for_each_part(const Eigen::Vector3d &from, const Eigen::Vector3d &to, double low, double high,
                      const Use &use) const {

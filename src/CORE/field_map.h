@@ -23,8 +23,8 @@ class FieldMap {
   };
 
   FieldMap() = default;
-  /** `with_box`: the cells divide the box, or a part of it, along its own edges. `whole`: axes of space along which they
-   *  are one whole period, so that each point and each part of a line has one image there. `width`: of a smooth
+  /** `with_box`: the cells divide the box, or a part of it, along its own edges. `whole`: axes of space along which
+   * they  are one whole period, so that each point and each part of a line has one image there. `width`: of a smooth
    *  kernel. */
   FieldMap(const FieldCells &cells, const Space &space, bool with_box, const std::array<bool, 3> &whole,
            FieldKernel::Kind kind, double width);
@@ -84,8 +84,8 @@ class FieldMap {
   FieldKernel kernel_;
   std::array<bool, 3> divided_{{true, true, true}}, open_{{false, false, false}};
   std::array<bool, 3> cut_{{false, false, false}};  // axes of space along which images are cut at their ends
-  // Coordinates that images are found in: with the box its fractions, else x, y, z. Images are moved by whole numbers of
-  // the lattice's columns; axis k of an image does not depend on lower ones.
+  // Coordinates that images are found in: with the box its fractions, else x, y, z. Images are moved by whole numbers
+  // of the lattice's columns; axis k of an image does not depend on lower ones.
   Eigen::Matrix3d to_view_ = Eigen::Matrix3d::Identity(), lattice_ = Eigen::Matrix3d::Identity();
   Eigen::Vector3d low_ = Eigen::Vector3d::Zero(), high_ = Eigen::Vector3d::Ones();  // what is seen, there
   Eigen::Matrix3d across_ = Eigen::Matrix3d::Identity();

@@ -5,9 +5,9 @@
 #include "lanes.h"
 
 /** `time_level synchronized`. Velocity Verlet forms forces at x_n with the velocities of the middle of the step before.
- *  With normal and arms of x_n two surfaces that roll on each other then seem to slip: here normal and arms are those of
- *  the middle, too. The velocity of the surfaces against each other is turned from the normal of the middle to that of
- *  x_n, where the force acts, and the tangential spring from the normal of the step before: each by the shortest
+ *  With normal and arms of x_n two surfaces that roll on each other then seem to slip: here normal and arms are those
+ * of  the middle, too. The velocity of the surfaces against each other is turned from the normal of the middle to that
+ * of  x_n, where the force acts, and the tangential spring from the normal of the step before: each by the shortest
  *  rotation, which keeps its length. */
 namespace grainscope { namespace half_step {
 

@@ -6,8 +6,8 @@
 
 namespace grainscope {
 
-/** Where places lie in a cell: in units of its edges, from its centre on. `inverse`: of the matrix of its edges, which is
- *  upper triangular. */
+/** Where places lie in a cell: in units of its edges, from its centre on. `inverse`: of the matrix of its edges, which
+ * is  upper triangular. */
 struct CellFrame {
   double inverse[3][3], centre[3];
 
@@ -20,8 +20,8 @@ struct CellFrame {
   }
 };
 
-/** The first of the places `begin` to n - 1 that is not inside the cell, or n. Places: rows of three numbers; what is no
- *  number is outside. */
+/** The first of the places `begin` to n - 1 that is not inside the cell, or n. Places: rows of three numbers; what is
+ * no  number is outside. */
 int next_outside(const CellFrame &cell, const double *places, int begin, int n);
 
 }

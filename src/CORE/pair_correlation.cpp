@@ -46,7 +46,8 @@ class PairTable {
  public:
   PairTable(int bins, int sets) : bins_(bins), rows_(row_of(bins + 1)), sums_(bins, sets) {}
 
-  /** Pairs of point i with `n` points from j on. set_squared(m, r2): the squared distances of four of these, from m on. */
+  /** Pairs of point i with `n` points from j on. set_squared(m, r2): the squared distances of four of these, from m
+   * on. */
   template <class SetSquared>
   GRAINSCOPE_INLINE void add(const Columns &points, std::size_t i, std::size_t j, int n, SetSquared set_squared) {
     double mine[SETS];

@@ -10,7 +10,8 @@ namespace grainscope {
 /** What the grains say to a plate that moves along an axis a, over its contacts in one evaluation, or over its area and
  *  summed over several. Were the grains held, a plate that moves by dx at the velocity v would change its force by
  *  (stiffness) dx + (damping) v:
- *  stiffness = sum k n_a^2 + k_t (1 - n_a^2), damping = sum gamma_n n_a^2 + gamma_t (1 - n_a^2), by ContactStiffness. */
+ *  stiffness = sum k n_a^2 + k_t (1 - n_a^2), damping = sum gamma_n n_a^2 + gamma_t (1 - n_a^2), by
+ * ContactStiffness. */
 struct PlateResponse {
   double force = 0.0;  // of the grains on the plate, along the axis
   double stiffness = 0.0;

@@ -9,7 +9,8 @@ namespace grainscope {
 
 /** Sums over all pairs of points by Fourier transforms: each point's value, and 1, is given to the mesh cell that holds
  *  it; the autocorrelation of the mesh is the sum over pairs at each lag, whose length stands for the pairs' distances.
- *  Box periodic in all edges, in two dimensions in those of the plane. The ranks share the mesh in slabs. Collective. */
+ *  Box periodic in all edges, in two dimensions in those of the plane. The ranks share the mesh in slabs.
+ * Collective. */
 class MeshCorrelation {
  public:
   explicit MeshCorrelation(MPI_Comm world);

@@ -23,7 +23,8 @@ bool ends_are_unseen(LAMMPS_NS::Region *region);
  *  a style whose shape is not known. */
 bool shape_of(const LAMMPS_NS::Domain &domain, LAMMPS_NS::Region *region, Solid &solid, std::string &why);
 
-/** Whether it is a block that does not move, not turned inside out; between which corners, infinite ones beyond 1e19. */
+/** Whether it is a block that does not move, not turned inside out; between which corners, infinite ones beyond
+ * 1e19. */
 bool is_standing_block(LAMMPS_NS::Region *region, Eigen::Vector3d &low, Eigen::Vector3d &high);
 
 }

@@ -13,9 +13,9 @@ namespace grainscope {
 
 /** Between the solver and the host's contact data and history: what `surface ellipsoid` means, whichever loop asks. */
 struct EllipsoidSurface {
-  // Column of the contact history, before those of all other models: less 1/2, so that it changes its sign when the host
-  // swaps i and j; 0: none. Restart files have it as the last column of `surface superquadric`: what one surface left is
-  // a start for the other or no start, never a wrong one.
+  // Column of the contact history, before those of all other models: less 1/2, so that it changes its sign when the
+  // host swaps i and j; 0: none. Restart files have it as the last column of `surface superquadric`: what one surface
+  // left is a start for the other or no start, never a wrong one.
   static constexpr int lambda = 0;
   double curvature_limit = 0.0;
   bool mean = false, gaussian = false;

@@ -10,7 +10,8 @@
 namespace grainscope {
 
 /** Of the pairs of a neighbour list, in its order, those that touch or may soon: the others are surely apart for some
- *  steps, and are not even visited. They are chosen again when the grains have moved as far as the choice allows for. */
+ *  steps, and are not even visited. They are chosen again when the grains have moved as far as the choice allows
+ * for. */
 class NearPairs {
  public:
   static constexpr std::size_t AHEAD = 16;  // how far one may look beyond the last
@@ -37,7 +38,8 @@ class NearPairs {
   void choose(const Lists &lists, const SeparationMemory &apart);
   int listed() const { return listed_; }
 
-  /** use(pairs, n) gets all near pairs in order, at most `many` at a time. Behind each lot AHEAD more may be looked at. */
+  /** use(pairs, n) gets all near pairs in order, at most `many` at a time. Behind each lot AHEAD more may be looked
+   * at. */
   template <class Use>
   void go_through(const Lists &lists, std::size_t many, const Use &use);
 

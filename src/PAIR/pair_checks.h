@@ -20,7 +20,8 @@ class PairChecks : private LAMMPS_NS::Pointers {
     int columns;
     bool on;
   };
-  /** The restart file that is to be continued must hold `wanted` numbers per contact, those of `settings` among them. */
+  /** The restart file that is to be continued must hold `wanted` numbers per contact, those of `settings` among
+   * them. */
   void require_same_columns_in_restart(int wanted, std::initializer_list<ColumnSetting> settings) const;
   /** Contact history is keyed by grain ID: with two images of one grain within reach of another it is ambiguous. */
   void require_box_large_enough() const;

@@ -221,7 +221,8 @@ void PairGranInsitu::init_granular() {
   if (law.tangential == TangentialLaw::spring) law.spring_column = column_of("shearx");
   const int place = contact_match("surface", "ellipsoid") ? grainscope::EllipsoidSurface::lambda + 1 : 0;
   impl_->lane_law.connect(impl_->models, law.spring_column == place);
-  if (impl_->level.synchronized()) impl_->lane_law.synchronize(impl_->level.kept() - grainscope::EllipsoidSurface::lambda);
+  if (impl_->level.synchronized())
+    impl_->lane_law.synchronize(impl_->level.kept() - grainscope::EllipsoidSurface::lambda);
   impl_->friction = nullptr;
   if (law.tangential == TangentialLaw::viscous || law.tangential == TangentialLaw::spring) {
     force->registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);

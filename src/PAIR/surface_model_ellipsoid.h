@@ -31,7 +31,8 @@ class SurfaceModel<SURFACE_ELLIPSOID> : public SurfaceModelBase {
     if (model->is_wall())
       for (const char *name : {"inequality_obb", "touching", "cpx", "cpy", "cpz", "a1"})
         setup->add_history_value(name, "0");
-    setup->add_history_value(Columns::kept, "1");
+    if (setup->add_history_value(Columns::kept, "1") != (model->is_wall() ? Columns::left_out : 0))
+      error->all(FLERR, "surface ellipsoid must have the first columns of the contact history");
     model->add_history_offset("contact_point_offset", Columns::contact_point);
     model->add_history_offset("alpha1_offset", Columns::first_depth);
     model->add_history_offset("alpha2_offset", Columns::second_depth);

@@ -12,8 +12,8 @@ namespace grainscope {
 
 struct ContactLaw;
 
-/** `time_level synchronized` around the host's contact models, one contact after the other: they are shown a grain whose
- *  velocity is that of the surfaces against each other (half_step.h) and that does not spin, and a spring that is
+/** `time_level synchronized` around the host's contact models, one contact after the other: they are shown a grain
+ * whose  velocity is that of the surfaces against each other (half_step.h) and that does not spin, and a spring that is
  *  turned already. First evaluations of a run are the host's: their velocities are those of x_n. */
 class TimeLevel : private LAMMPS_NS::Pointers {
  public:
