@@ -760,7 +760,7 @@ add_verified(verification_spheroids "gran/insitu;surface/ellipsoid;nve/spheroid;
 
 add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu surface/ellipsoid wall/gran CASES
   neck neck-equal neck-ellipsoids neck-superquadrics neck-one-by-one points points-ellipsoid sieve)
-add_cases(gran/insitu-time-level cases/time_level.py LABEL long STYLES gran/insitu CASES neck-tiny)
+add_cases(gran/insitu-time-level cases/time_level.py LABEL long STYLES gran/insitu CASES neck-tiny neck-hundred)
 add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu surface/ellipsoid CASES
   order-normal order-normal-damped order-tangential order-rolling order-all order-all-damped order-ellipsoids
   order-spheroids order-cylinder order-cylinder-ellipsoid lanes-spheres lanes-spheroids lanes-balls lanes-viscous)

@@ -72,12 +72,12 @@ def on_points(level, model):
     ]
 
 
-def neck_of(radii, points=False, wrong=1.0, **choices):
+def neck_of(radii, points=False, wrong=1.0, frictions=FRICTION, **choices):
     """`wrong`: by how much LIGGGHTS's way is at the largest friction, in degrees, or it never leaves."""
 
     def case(ranks):
         for radius in radii:
-            for friction in FRICTION:
+            for friction in frictions:
                 neck = Neck(radius, friction, points)
                 expected, steps = neck.leaves_at(STEPS)
                 found = {}
@@ -351,6 +351,7 @@ if __name__ == "__main__":
             "neck-superquadrics": neck_of((0.1,), style="superquadric", surface="superquadric"),
             "neck-one-by-one": neck_of((0.1,), extra="heating_tracking on"),
             "neck-tiny": neck_of((0.02,)),
+            "neck-hundred": neck_of((0.01,), frictions=(0.5,)),  # with more it hangs on beneath
             "order-normal": order_of("normal", 2.0, 2.0),
             "order-normal-damped": order_of("normal", 1.0, 1.0, 10.0),
             "order-tangential": order_of("tangential", 1.0, 2.0),
