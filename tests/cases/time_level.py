@@ -94,7 +94,7 @@ def neck_of(radii, points=False, wrong=1.0, frictions=FRICTION, **choices):
     return case
 
 
-# Two balls of 1 and 0.2 in contact at an overlap of 0.01, for a third of a contact's duration; k_n and k_t in units of
+# Two balls of 1 and 0.2 in contact at an overlap of 0.01, for 0.4 of a collision; k_n and k_t in units of
 # the effective mass.
 RADII, PLACES, DURATION = (1.0, 0.2), ((0.0, 0.0, 0.0), (0.714, 0.952, 0.0)), 0.02
 REST = (0.0, 0.0, 0.0)
