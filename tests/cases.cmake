@@ -768,3 +768,5 @@ add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insi
   LONG_RANKS 4 CASES ranks-spheres ranks-spheroids)
 add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu wall/gran setup/memory read_restart
   RANKS 1 2 LONG_RANKS 4 CASES restart-spheres restart-spheroids)
+add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu wall/gran setup/memory CASES
+  repeated-spheres repeated-spheroids)

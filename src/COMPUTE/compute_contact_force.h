@@ -16,7 +16,7 @@ namespace LAMMPS_NS {
 
 /** Statistics of contact forces: mean, rms and largest F_n and |F_t|; the density P(f) of f = F_n/<F_n>, integral 1;
  *  its exponents of largest likelihood, P ~ exp(-beta f) beyond `tail` and P ~ f^-alpha below 1; strong contacts, f >
- * 1,  what they carry, and the clusters of grains that they connect.
+ *  1, what they carry, and the clusters of grains that they connect.
  *  scalar: <F_n> [force], intensive. Array: bins rows. All 0 for an empty group, but f.
  *  Sources: Radjai, Jean, Moreau & Roux 1996, doi 10.1103/PhysRevLett.77.274; Mueth, Jaeger & Nagel 1998, doi
  *  10.1103/PhysRevE.57.3164; Radjai, Wolf, Jean & Moreau 1998, doi 10.1103/PhysRevLett.80.61. */

@@ -35,7 +35,7 @@ class ContactNetworkCompute : public ContactCompute {
   /** How many numbers there are. Collective. */
   int numbers_of_grains() const;
   /** By these numbers: the lowest ID in the set of grains that `links` connect, 0 where none ends; a clump has the
-   * lowest  ID of its spheres. A wall connects no grains. Collective. */
+   *  lowest ID of its spheres. A wall connects no grains. Collective. */
   std::vector<double> clusters(const std::vector<Link> &links);
   int local_and_ghosts() const;
   /** From the owners of grains to their ghosts. Collective. */

@@ -8,7 +8,7 @@
 namespace grainscope {
 
 /** Contacts between grains, side by side, as a Contact tells them one by one. In lanes that hold none all of `forces`
- * is  0, `forces.weight` too; `forces.motion` says whether all of it is there. */
+ *  is 0, `forces.weight` too; `forces.motion` says whether all of it is there. */
 struct ContactLanes {
   const PairGroup &group;
   const GroupGeometry &geometry;

@@ -25,8 +25,8 @@ struct LedgerFrame : AffineFlow {
  *  are peculiar, p = v - L (x - x_c); in terms of contact velocities u, sum_grains F.p + T.w = sum_contacts F.u -
  *  F.L r. A contact with a wall that moves with V at the contact point c: F.p + T.w = F.u - F.L r + F.P, r = x - c and
  *  P = V - L (c - x_c) the wall's velocity against the flow. F.P is what the wall does: W_wall. A wall's velocity at
- * the  end of a step is that of the whole step, as it moves before forces are evaluated; where a contact goes on, both
- * of  the step's forces are paired with it.
+ *  the end of a step is that of the whole step, as it moves before forces are evaluated; where a contact goes on, both
+ *  of the step's forces are paired with it.
  *
  *  Per contact, s the tangential spring, 0 and 1 the two ends of the step, `cut` what friction takes from the spring:
  *    D_t = (k0 s0 + k1 s1)/2 . cut          G_k = -(k1 - k0)/2 s0.s1          (k_t follows the overlap,
@@ -45,7 +45,7 @@ class EnergyLedger {
  public:
   /** Rows of the account, each an energy. Those with _w are the share of contacts with walls, G_w that of all G; those
    *  with _x, _y, _z the share of the edges along one axis in W_box: what the diagonal element of L there does. They
-   * are  made of the components along that axis alone, F_a r_a and m p_a v_a, and of the change of sum m p_a^2/2. */
+   *  are made of the components along that axis alone, F_a r_a and m p_a v_a, and of the change of sum m p_a^2/2. */
   enum Entry {
     W_shear,
     W_box,

@@ -18,7 +18,7 @@ class FieldCells {
 
   FieldCells() = default;
   /** Between the edges, in columns of an upper triangular matrix, of a block. Across axis k with `open[k]` the first
-   * and the last cell hold what lies  beyond them too. */
+   *  and the last cell hold what lies beyond them too. */
   static FieldCells blocks(const Eigen::Vector3d &corner, const Eigen::Matrix3d &edges, const Numbers &numbers,
                            const std::array<bool, 3> &open);
   /** About the line along x, y or z (0, 1, 2) through `centre`, between two radii and two places along the axis, from
@@ -62,7 +62,7 @@ class FieldCells {
   }
 
   /** Calls use(cell, first, last) for the parts of a line that lie in one cell each, of what is between `low` and
-   * `high`  of it: from 0, its beginning, to 1, its end. */
+   *  `high` of it: from 0, its beginning, to 1, its end. */
   template <class Use>
   void for_each_part(const Eigen::Vector3d &from, const Eigen::Vector3d &to, double low, double high,
                      const Use &use) const {

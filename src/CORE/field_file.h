@@ -40,9 +40,9 @@ bool is_orthogonal(const FieldTable &table);
 std::string field_csv(const FieldTable &table);
 
 /** VTK XML, cell data, with the time as TimeValue. Columns p_x p_y p_z are one vector p, the nine p_xx p_xy ... p_zz
- * one  tensor p row by row, and p_xx p_yy p_zz p_xy p_xz p_yz one symmetric tensor p in VTK's order xx yy zz xy yz xz;
- * they  stay apart where a column is called p, and where p has other such components too or lacks some. Errors are
- * arrays  <name>_error. All is ASCII; VTK 9.1 reads nan in it, older versions may not. */
+ *  one tensor p row by row, and p_xx p_yy p_zz p_xy p_xz p_yz one symmetric tensor p in VTK's order xx yy zz xy yz xz;
+ *  they stay apart where a column is called p, and where p has other such components too or lacks some. Errors are
+ *  arrays <name>_error. All is ASCII; VTK 9.1 reads nan in it, older versions may not. */
 
 /** An image (.vti), of orthogonal grids only; others are refused by std::invalid_argument. */
 std::string field_vti(const FieldTable &table);

@@ -9,7 +9,7 @@
 namespace grainscope {
 
 /** The mean motion about each cell of a field, v(x) = v_k + G_k (x - c_k): v_k the mean velocity of the cell by mass,
- * c_k  the centre of its mass, and G_k the gradient that fits v of the cell and its neighbours along each axis that is
+ *  c_k the centre of its mass, and G_k the gradient that fits v of the cell and its neighbours along each axis that is
  *  divided, least squares by mass. So an affine flow has no motion against it. */
 class FieldMotion {
  public:

@@ -24,7 +24,7 @@ class FieldMap {
 
   FieldMap() = default;
   /** `with_box`: the cells divide the box, or a part of it, along its own edges. `whole`: axes of space along which
-   * they  are one whole period, so that each point and each part of a line has one image there. `width`: of a smooth
+   *  they are one whole period, so that each point and each part of a line has one image there. `width`: of a smooth
    *  kernel. */
   FieldMap(const FieldCells &cells, const Space &space, bool with_box, const std::array<bool, 3> &whole,
            FieldKernel::Kind kind, double width);

@@ -6,8 +6,8 @@
 
 /** `time_level synchronized`. Velocity Verlet forms forces at x_n with the velocities of the middle of the step before.
  *  With normal and arms of x_n two surfaces that roll on each other then seem to slip: here normal and arms are those
- * of  the middle, too. The velocity of the surfaces against each other is turned from the normal of the middle to that
- * of  x_n, where the force acts, and the tangential spring from the normal of the step before: each by the shortest
+ *  of the middle, too. The velocity of the surfaces against each other is turned from the normal of the middle to that
+ *  of x_n, where the force acts, and the tangential spring from the normal of the step before: each by the shortest
  *  rotation, which keeps its length. */
 namespace grainscope { namespace half_step {
 
@@ -80,7 +80,10 @@ GRAINSCOPE_INLINE void of_kept(const Moment<Real> &now, bool wall, const Motion<
   Real sum[3], arm_i[3], arm_j[3], turn_i[3], turn_j[3] = {}, v[3];
   for (int k = 0; k < 3; k++) sum[k] = kept[kept_normal + k] + now.normal[k];
   const Real length = root(inner(sum, sum));
-  const auto goes_on = inner(kept + kept_normal, now.normal) > 0.0;  // else it is a new contact
+  const Real *const normal_before = kept + kept_normal;
+  const Real off = inner(normal_before, normal_before) - 1.0;
+  // else it is a new contact
+  const auto goes_on = (absolute(off) < 1e-6) & (inner(normal_before, now.normal) > 0.0);
   for (int k = 0; k < 3; k++) {
     const Real branch = now.arm_j[k] - now.arm_i[k], aside = 0.5 * (branch - (0.5 * dt) * motion.velocity[k]);
     const Real point = wall ? now.arm_i[k] : 0.5 * (now.arm_i[k] + now.arm_j[k]);

@@ -17,7 +17,7 @@ int fast_length(int at_least);
 std::array<int, 3> mesh_size(const PeriodicCell &cell, const DistanceBins &bins, int per_bin, double most);
 
 /** A mesh of equal cells along the edges of a box that is periodic in all that are divided, and the slab of it that one
- * rank  holds: whole planes across the first edge, in rows along the last that are padded to `row` numbers. */
+ *  rank holds: whole planes across the first edge, in rows along the last that are padded to `row` numbers. */
 struct LagMesh {
   std::array<int, 3> size;
   std::ptrdiff_t first_plane, planes, row;

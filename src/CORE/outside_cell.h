@@ -7,7 +7,7 @@
 namespace grainscope {
 
 /** Where places lie in a cell: in units of its edges, from its centre on. `inverse`: of the matrix of its edges, which
- * is  upper triangular. */
+ *  is upper triangular. */
 struct CellFrame {
   double inverse[3][3], centre[3];
 
@@ -21,7 +21,7 @@ struct CellFrame {
 };
 
 /** The first of the places `begin` to n - 1 that is not inside the cell, or n. Places: rows of three numbers; what is
- * no  number is outside. */
+ *  no number is outside. */
 int next_outside(const CellFrame &cell, const double *places, int begin, int n);
 
 }

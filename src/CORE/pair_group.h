@@ -64,7 +64,7 @@ void meet_spheroids(const PackedGrains &grains, const PairGroup &group, GroupGeo
  *  of others nothing is known. Fills in `gap` and `reachable` beside. */
 void part_spheroids(const PackedGrains &grains, const PairGroup &group, GroupGeometry &geometry);
 /** Which of at most 64 grains have a bounding sphere that overlaps that of grain i: a bit for each. The number of a
- * grain  is others[k] & mask. */
+ *  grain is others[k] & mask. */
 std::uint64_t within_reach(const PackedGrain *grains, int i, const int *others, int mask, int count);
 /** sphere_contact(), of grains that have the radius of the contact in axis[0]. */
 void meet_round(const PackedGrains &grains, const PairGroup &group, GroupGeometry &geometry, SolverTally &tally);

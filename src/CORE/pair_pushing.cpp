@@ -183,7 +183,7 @@ GRAINSCOPE_INLINE void enter_velocity(const Lanes *v, Approach<Lanes> &a) {
 }
 
 /** Everything from the approach on. `lambda`: of the history from now on; what it was where null. `half`: the normal in
- * the  middle of the step with `time_level synchronized`; else null. */
+ *  the middle of the step with `time_level synchronized`; else null. */
 template <class History, class Torques>
 GRAINSCOPE_INLINE void push(const PackedGrains &grains, const PairGroup &group, const GroupGeometry &g,
                             const GroupLaw &law, const Approach<Lanes> &a, const Place &place, const Lanes *lambda,

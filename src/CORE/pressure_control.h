@@ -109,7 +109,7 @@ struct PressureControl {
   }
 
   /** Of a mode whose rate need not end at zero: `base`, a rate, is added to what the error asks for and takes a tenth
-   * of  the elastic share K T/D of that at each input, slowly against the loop; it stays while the rate is clipped.
+   *  of the elastic share K T/D of that at each input, slowly against the loop; it stays while the rate is clipped.
    *  `elastic`: K T. */
   Input input_with_base(double error, double resistance, double elastic, double length, double interval,
                         double &base) const {

@@ -10,7 +10,7 @@ namespace grainscope {
  *  tensor. Eigenvalues closer than 1e-10 of the largest magnitude are equal; their eigenvectors are then chosen by a
  *  rule, so that rounding does not turn them: in a degenerate plane the first is nearest to the laboratory axis that
  *  lies most in that plane, and an isotropic tensor has x, y, z. With `dimension` 2 the first two are in the plane x,
- * y,  where the tensor has its components, and the third is z. */
+ *  y, where the tensor has its components, and the third is z. */
 struct PrincipalAxes {
   explicit PrincipalAxes(const Eigen::Matrix3d &tensor, int dimension = 3);
 

@@ -20,8 +20,8 @@ namespace grainscope {
 class SeparationMemory {
  public:
   /** A new neighbour list: nothing is known. Pairs of it are at most `reach` apart, centre to centre. slope(i): how
-   * much  nearer a small change of the last row of PackedGrain (axis or quaternion) may bring the surface of grain i,
-   * or with  `alike` of any, over the length of that change. */
+   *  much nearer a small change of the last row of PackedGrain (axis or quaternion) may bring the surface of grain i,
+   *  or with `alike` of any, over the length of that change. */
   template <class Slope>
   void restart(int grains, int pairs, double reach, bool alike, Slope slope) {
     known_ = false;

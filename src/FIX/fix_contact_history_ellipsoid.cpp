@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_contact_history_ellipsoid.h"
+#include "checksum.h"
 #include "superquadric_columns.h"
 #include "atom.h"
 #include "comm.h"
+#include "error.h"
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <string>
 #include <vector>
 
 using namespace LAMMPS_NS;
@@ -14,9 +19,21 @@ int FixContactHistoryEllipsoid::more() const {
   return dnum_ > 0 && !strcmp(history_id_[0], SuperquadricColumns::kept) ? SuperquadricColumns::left_out : 0;
 }
 
+/** In [2^-24, 1): by the names of the columns that are not the surface's. */
+double FixContactHistoryEllipsoid::mark() const {
+  const bool whole = dnum_ > 0 && !strcmp(history_id_[0], SuperquadricColumns::first);
+  std::string names;
+  for (int k = whole ? SuperquadricColumns::count : more() > 0 ? 1 : 0; k < dnum_; k++)
+    names += std::string(history_id_[k]) + ' ';
+  const std::uint64_t marks = 1u << 24;
+  return static_cast<double>(grainscope::checksum(names.data(), names.size()) % (marks - 1) + 1) / marks;
+}
+
+/** The host reads the first number alone. The second ends with the mark of the columns; it has none in files of the
+ *  host and of grainscope before. */
 void FixContactHistoryEllipsoid::write_restart(FILE *file) {
   if (comm->me != 0) return;
-  const double state[] = {static_cast<double>(dnum_ + more()), static_cast<double>(maxtouch_)};
+  const double state[] = {static_cast<double>(dnum_ + more()), maxtouch_ + mark()};
   const int size = sizeof state;
   fwrite(&size, sizeof size, 1, file);
   fwrite(state, sizeof state, 1, file);
@@ -27,6 +44,12 @@ void FixContactHistoryEllipsoid::restart(char *buffer) {
   memcpy(state, buffer, sizeof state);
   state[0] -= more();
   FixContactHistory::restart(reinterpret_cast<char *>(state));
+  const double marked = state[1] - std::floor(state[1]);
+  if (marked != 0.0 && marked != mark())
+    error->all(FLERR, ("the restart file holds " + std::to_string(dnum_ + more()) +
+                       " numbers per contact, as many as this pair_style has, but other ones: give the contact models, "
+                       "'ledger' and 'time_level' that it was written with")
+                          .c_str());
 }
 
 int FixContactHistoryEllipsoid::size_restart(int i) {

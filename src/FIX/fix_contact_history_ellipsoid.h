@@ -13,7 +13,8 @@ FixStyle(contacthistory,FixContactHistoryEllipsoid)
 namespace LAMMPS_NS {
 
 /** The host's contact history, whose restart data have the columns of `surface superquadric` also where `surface
- *  ellipsoid` keeps one of them: 0 stands in those that it leaves out. So either surface reads what the other wrote. */
+ *  ellipsoid` keeps one of them: 0 stands in those that it leaves out. So either surface reads what the other wrote.
+ *  Data of other columns, though as many, are refused. */
 class FixContactHistoryEllipsoid : public FixContactHistory {
  public:
   using FixContactHistory::FixContactHistory;
@@ -27,6 +28,7 @@ class FixContactHistoryEllipsoid : public FixContactHistory {
  private:
   /** Columns that restart data have beyond those in memory. */
   int more() const;
+  double mark() const;
 };
 
 }

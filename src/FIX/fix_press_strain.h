@@ -26,7 +26,7 @@ namespace LAMMPS_NS {
 /** Deforms the box along a path: each edge is fixed, moves at a true rate, or so that the pressure along it (or, with
  *  others, the mean pressure) is held; each tilt is sheared at a true rate, or so that a shear stress is held. Stresses
  *  are controlled at strain, time or step intervals. Scalar: pressure averaged over the last completed interval. It is
- * a  fix deform to the host, which then remaps velocities across the moving faces. Source: Bilotto, Trulsson & Molinari
+ *  a fix deform to the host, which then remaps velocities across the moving faces. Source: Bilotto, Trulsson & Molinari
  *  2025, Sec. II; doi 10.1103/tj41-6qqk. */
 class FixPressStrain : public FixDeform, public grainscope::DeclaresOutputs, public grainscope::ContactSink {
  public:

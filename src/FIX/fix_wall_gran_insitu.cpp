@@ -249,7 +249,7 @@ void FixWallGranInsitu::setup(int vflag) {
   impl_->velocities.restore(meshes());
   {
     const grainscope::KeptWallHistory kept(*this, fix_history_primitive_, atom->nlocal);
-    impl_->time_level.set_repeats(true);
+    impl_->time_level.set_repeats(memory->repeats_a_step());
     FixWallGran::setup(vflag);
     impl_->time_level.set_repeats(false);
   }

@@ -106,8 +106,8 @@ double FixPressStrain::mean_stiffness(const NetworkResponse &mean) const {
 }
 
 /** Of a shear: h sqrt(rho K), h the edge along its gradient, rho the mass per volume of the box: that of a time in
- * which  sound crosses the box. Tangential springs need not be damped, and inputs in step with their vibrations would
- * feed  them. Collective. */
+ *  which sound crosses the box. Tangential springs need not be damped, and inputs in step with their vibrations would
+ *  feed them. Collective. */
 double FixPressStrain::inertial_resistance(const NetworkResponse &mean, int mode) const {
   double mass = 0.0;
   for (int i = 0; i < atom->nlocal; i++) mass += atom->rmass[i];

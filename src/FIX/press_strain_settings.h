@@ -49,7 +49,7 @@ struct PressStrainSettings {
   PressStrainSettings(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
   /** The edge that the first elements of the output are about: the first with a target, or the first that moves with
-   * the  mean; -1 without either. */
+   *  the mean; -1 without either. */
   int main_edge() const;
   /** Modes whose stiffness the controller asks for: those with a target, and all edges with a mean. */
   std::vector<int> controlled_modes(int dimension) const;

@@ -42,7 +42,7 @@ class Bodies : private LAMMPS_NS::Pointers {
 
   bool any() const { return fix_; }
   /** All bodies as they are now, on all ranks. Errors where the group has some spheres of a clump and not all, and
-   * where  a clump is larger than half the box along a periodic edge. Collective. */
+   *  where a clump is larger than half the box along a periodic edge. Collective. */
   void update(const BoxState &box, int groupbit);
   /** Errors where clumps break, for what follows each of them by the sphere that stands for it. */
   void require_lasting() const;

@@ -30,7 +30,7 @@ struct ChosenGrains {
 
 /** What is taken for the mean flow: the affine flow of the box; nothing; a given rate; the straight line fitted to the
  *  velocities; the velocity gradient fitted to them; the mean of each of `layers` layers across the gradient; or of
- * each  cell of the box. The grains' mean (by mass) is taken out in each case. */
+ *  each cell of the box. The grains' mean (by mass) is taken out in each case. */
 struct MeanFlow {
   enum class Kind { box, none, rate, fit, gradient, layers, cells } kind = Kind::box;
   double rate = 0.0;
@@ -63,8 +63,8 @@ class Fluctuations {
   Fluctuations(LAMMPS_NS::LAMMPS *lmp, const ChosenGrains &chosen, const BoxState &box);
   Fluctuations(LAMMPS_NS::LAMMPS *lmp, const ChosenGrains &chosen, const BoxState &box, const MeanFlow &flow);
   /** Of what grains have come by, in place of velocities: `moved` holds it as u, less the flow of the box where the
-   * mean  flow is of box, layers or cells; `places`, by local index, where. `flow rate` is a strain here. Spins are not
-   * asked  for. */
+   *  mean flow is of box, layers or cells; `places`, by local index, where. `flow rate` is a strain here. Spins are not
+   *  asked for. */
   Fluctuations(LAMMPS_NS::LAMMPS *lmp, const std::string &who, std::vector<Grain> moved,
                std::vector<Eigen::Vector3d> places, const BoxState &box, const MeanFlow &flow);
 
@@ -117,7 +117,7 @@ class Fluctuations {
 };
 
 /** Sum of m dv dv of grains against the affine flow of the box, less their mean: what Fluctuations say, and faster
- * where  all grains are counted. */
+ *  where all grains are counted. */
 struct MomentumFlux {
   Eigen::Matrix3d sum;
   double grains;  // how many; both over all ranks

@@ -11,7 +11,7 @@
 namespace grainscope {
 
 /** Errors unless grains have a radius or semi-axes, and spins; with `dimension 2` a radius. In the constructor, once
- * the words are read, and in  init(): before there is a box the atom style may change. */
+ *  the words are read, and in init(): before there is a box the atom style may change. */
 inline void require_grains(LAMMPS_NS::LAMMPS *lmp, const Arguments &errors) {
   if (!lmp->atom->superquadric_flag && !lmp->atom->sphere_flag)
     errors.fail("needs atom_style superquadric or sphere, got '" + std::string(lmp->atom->atom_style) + "'");

@@ -21,7 +21,7 @@ struct Tilt {
 inline const Tilt tilts[3] = {{5, 0, 1, "xy"}, {4, 0, 2, "xz"}, {3, 1, 2, "yz"}};
 
 /** How fast the box deforms, in the host's order: of the edges x, y, z the change of length, dL/dt; of the tilts yz,
- * xz,  xy the true shear rate. */
+ *  xz, xy the true shear rate. */
 using BoxRates = std::array<double, 6>;
 
 /** Moves the host's box: its edge lengths at given speeds, symmetrically about its middle, and its tilts at given shear
@@ -38,7 +38,7 @@ class ShearedBox : private LAMMPS_NS::Pointers {
   /** Rates of the box as it is, dH/dt = L H with L_ab the shear rate in the plane ab and L_aa = (dL_a/dt)/L_a. */
   void set_rates(const BoxRates &rates);
   /** One time step, to a box that has these rates: H grows by exactly dH/dt dt, the velocities of images by which
-   * grains  are wrapped after it. */
+   *  grains are wrapped after it. */
   void advance(const BoxRates &rates);
   /** A tilt beyond half the box is due to be turned back by one edge. */
   bool needs_flip() const;

@@ -10,7 +10,8 @@ struct SuperquadricColumns {
   static constexpr int count = 7;
   static constexpr int left_out = count - 1;  // of memory
   static constexpr int contact_point = 2, first_depth = 5, second_depth = 6;
-  static constexpr const char *kept = "lambda";  // the name of the one that memory holds
+  static constexpr const char *kept = "lambda";           // the name of the one that memory holds
+  static constexpr const char *first = "inequality_obb";  // of all of them
 };
 
 }

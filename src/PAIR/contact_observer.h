@@ -50,7 +50,7 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   void end();
   bool active() const { return active_; }
   /** Errors, in the name of `who`, while walls of the last evaluation are still to come: at the start of a run fixes
-   * may  ask before a wall that is defined after them. */
+   *  may ask before a wall that is defined after them. */
   void require_complete(const std::string &who) const;
   bool repeats() const { return repeats_; }
   /** Identifies the evaluation: contacts remember it. Negative where no spring moved. */

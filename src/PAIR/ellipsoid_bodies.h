@@ -76,7 +76,7 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
   bool is_sphere(int i) const { return shape(i).elongation == 0.0; }
   bool is_triaxial(int i) const { return shape(i).triaxial; }
   /** For SeparationMemory. A turn by phi brings a surface nearer by at most the elongation times phi; it changes an
-   * axis  by phi, a quaternion by phi/2. */
+   *  axis by phi, a quaternion by phi/2. */
   double turn_slope(int i) const { return shape(i).elongation * (is_triaxial(i) ? 2.0 : 1.0); }
 
   SolverCounts counts;

@@ -138,7 +138,7 @@ inline void EllipsoidLoop<Model>::fill(Candidates candidate, int n) {
 }
 
 /** Pairs that did not touch when they were looked at last do not now, as a rule, and exert no force, so that their
- * order  does not matter: those that are surely apart are dropped here, at a fraction of the solver's cost. */
+ *  order does not matter: those that are surely apart are dropped here, at a fraction of the solver's cost. */
 template <class Model>
 void EllipsoidLoop<Model>::part_strangers(std::size_t many) {
   for (std::size_t first = 0; first < many; first += LANES) {

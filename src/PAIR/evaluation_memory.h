@@ -20,6 +20,8 @@ class EvaluationMemory {
   /** Of the last evaluation; see ContactObserver. */
   virtual double stamp() const = 0;
   virtual void set_stamp(double stamp) = 0;
+  /** Not so after a first evaluation of a run. */
+  bool repeats_a_step() const { return repeats() && stamp() > 0.0; }
 };
 
 /** The fix that keeps one. */

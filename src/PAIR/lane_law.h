@@ -15,7 +15,7 @@ class LaneLaw : private LAMMPS_NS::Pointers {
   explicit LaneLaw(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
 
   /** Before a run; all ranks together. `models`: the words of the command. `spring_in_place`: in the contact history
-   * the  tangential spring is where the lanes look for it, behind lambda or, without one, in the first columns. */
+   *  the tangential spring is where the lanes look for it, behind lambda or, without one, in the first columns. */
   void connect(const std::string &models, bool spring_in_place);
   /** `time_level synchronized`; `kept`: what is kept of a contact, behind lambda. */
   void synchronize(int kept) {

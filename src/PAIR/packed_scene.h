@@ -19,7 +19,7 @@ class PackedScene : private LAMMPS_NS::Pointers {
   /** With a new neighbour list, for ellipsoids: what stays until the next. */
   void restart(const EllipsoidBodies &bodies);
   /** With every force evaluation: where the grains are and how they move, of all, or of `many` from the first of them
-   * on.  `bodies`: null for spheres that are no ellipsoids. */
+   *  on. `bodies`: null for spheres that are no ellipsoids. */
   void load(const EllipsoidBodies *bodies, int first, int many);
   void load_spheres();
   /** And the forces on them so far. */

@@ -44,15 +44,15 @@ void PairChecks::require_same_columns_in_restart(int wanted, std::initializer_li
   memcpy(columns, state, sizeof columns);
   const int found = static_cast<int>(whole_count(columns[0], 1e6));
   for (const ColumnSetting &setting : settings) {
-    if (found != wanted + (setting.on ? -setting.columns : setting.columns)) continue;
+    if (setting.columns == 0 || found != wanted + (setting.on ? -setting.columns : setting.columns)) continue;
     const std::string with = std::string("'") + setting.keyword + " " + setting.with + "'",
                       without = std::string("'") + setting.keyword + " " + setting.without + "'";
-    error->all(FLERR,
-               ("pair_style gran/insitu: the restart file holds " + std::to_string(found) +
-                " numbers per contact, and this pair_style has " + std::to_string(wanted) + ": it was written with" +
-                (setting.on ? "out " + with + ". Say " + without + ", or write the restart file with " + with
-                            : " " + with + ". Say " + with))
-                   .c_str());
+    error->all(FLERR, ("pair_style gran/insitu: the restart file holds " + std::to_string(found) +
+                       " numbers per contact, and this pair_style has " + std::to_string(wanted) +
+                       ": with the same contact models it was written with" +
+                       (setting.on ? "out " + with + ". Say " + without + ", or write the restart file with " + with
+                                   : " " + with + ". Say " + with))
+                          .c_str());
   }
 }
 

@@ -194,7 +194,8 @@ void PairGranInsitu::init_style() {
     impl_->checks.require_same_columns_in_restart(
         columns_in_restart(),
         {{"ledger", "on", "off", ContactReader::past_columns, impl_->ledger},
-         {"time_level", "synchronized", "host", grainscope::TimeLevel::kept_columns, impl_->level.kept() >= 0}});
+         {"time_level", "synchronized", "host",
+          contact_match("surface", "default") ? 0 : grainscope::TimeLevel::kept_columns, impl_->level.kept() >= 0}});
   impl_->renumbered = atom->natoms < impl_->grains && !grainscope::contacts_know_their_grains(lmp);
   if (impl_->renumbered && comm->me == 0)
     error->warning(FLERR, "grains were given other IDs, and the host keeps tangential springs by ID: some are now "
@@ -272,7 +273,7 @@ void PairGranInsitu::compute(int eflag, int vflag) {
     const grainscope::KeptHistory kept(repeats ? listgranhistory : nullptr, list, dnum());
     if (impl_->observer.begin(!update->setupflag, repeats)) update_image_shifts();
     set_tangential_bound();
-    impl_->level.set_repeats(repeats);
+    impl_->level.set_repeats(repeats && memory->repeats_a_step());
     PairGran::compute(eflag, vflag);
     impl_->level.set_repeats(false);
     impl_->observer.end();

@@ -35,13 +35,20 @@ void TimeLevel::set(bool synchronized, Columns columns, bool points) {
 
 void TimeLevel::enter(Surfaces &s) {
   const bool moves = s.computeflag && s.shearupdate;
-  lent_ = moves || repeats_;
+  lent_ = moves || (repeats_ && was_seen(s));
   if (!lent_) return;
   find_velocity(s, moves);
   double *const was[] = {s.v_i, s.v_j, s.omega_i, s.omega_j};
   std::copy(was, was + 4, lent_to_);
   s.v_i = velocity_;
   s.v_j = s.omega_i = s.omega_j = zero_;
+}
+
+/** In the evaluation that is repeated; what was not (a wall that is new) goes the host's way, as in a first one. */
+bool TimeLevel::was_seen(const Surfaces &s) const {
+  if (columns_.kept < 0) return true;
+  const double *const normal = s.contact_history + columns_.kept + half_step::kept_normal;
+  return half_step::inner(normal, normal) > 0.0;
 }
 
 void TimeLevel::leave(Surfaces &s) const {

@@ -13,7 +13,7 @@ namespace grainscope {
 struct ContactLaw;
 
 /** `time_level synchronized` around the host's contact models, one contact after the other: they are shown a grain
- * whose  velocity is that of the surfaces against each other (half_step.h) and that does not spin, and a spring that is
+ *  whose velocity is that of the surfaces against each other (half_step.h) and that does not spin, and a spring that is
  *  turned already. First evaluations of a run are the host's: their velocities are those of x_n. */
 class TimeLevel : private LAMMPS_NS::Pointers {
  public:
@@ -36,7 +36,8 @@ class TimeLevel : private LAMMPS_NS::Pointers {
   /** Why contacts of these models cannot be synchronized, or "". */
   static std::string why_not(const ContactLaw &law);
 
-  /** The evaluation repeats the last of the run before. */
+  /** The evaluation repeats the last of the run before, which was one of a step: a first one went the host's way, and
+   *  does so again. */
   void set_repeats(bool repeats) { repeats_ = repeats; }
 
   void enter(Surfaces &s);
@@ -53,6 +54,7 @@ class TimeLevel : private LAMMPS_NS::Pointers {
   double velocity_[3] = {}, zero_[3] = {};
   double *lent_to_[4] = {};
 
+  bool was_seen(const Surfaces &s) const;
   void find_velocity(const Surfaces &s, bool moves);
 };
 

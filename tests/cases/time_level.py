@@ -308,6 +308,26 @@ def restart_goes_on(style):
     return case
 
 
+def first_evaluation_repeated(style):
+    """With `setup neutral` a run repeats the last evaluation also where that one was a first one, which goes LIGGGHTS's
+    way: at the beginning, and after velocities were set. By then springs are at their limit, which a first evaluation
+    cuts them by; what is damped along the normal does not feel that."""
+
+    def case(ranks):
+        deck, lines, printed = with_walls(style)
+        deck.body = [*lines, *printed, "run 0", "run 0", "run 60", "velocity all set 0.1 0.0 -0.2", "run 0", "run 0"]
+        rows = run_with_meshes(deck, ranks, **FLOOR).thermo()
+        require(rows[3][C_LOSS["N_w"]][0] >= 8.0, "too few contacts with walls")
+        require(min(rows[3][name][0] for name in (C_LOSS["P_n"], C_LOSS["P_n_w"])) > 0.0, "nothing is damped")
+        for first, names in ((0, rows[0]), (3, (C_LOSS["P_n"], C_LOSS["P_n_w"]))):
+            for name in names:
+                values = rows[first][name]
+                scale = max(1.0, abs(values[0]))
+                require_close(rows[first + 1][name][0], values[0], 1e-9, f"run {first + 1}, {name}", scale)
+
+    return case
+
+
 def sieve(ranks):
     """Small balls, a twentieth of the large, are dropped onto a layer of large ones that is held fast, on a square
     lattice. Its holes are eight times as wide, and no ball rests on a neck: in twice the time that one takes to roll
@@ -369,6 +389,8 @@ if __name__ == "__main__":
             "sieve": sieve,
             "restart-spheres": restart_goes_on("sphere"),
             "restart-spheroids": restart_goes_on("superquadric"),
+            "repeated-spheres": first_evaluation_repeated("sphere"),
+            "repeated-spheroids": first_evaluation_repeated("superquadric"),
             "ranks-spheres": same_on_ranks(dense_packing(atom_style="sphere", sizes=SIZES)),
             "ranks-spheroids": same_on_ranks(dense_packing(1.5)),
             "points": neck_of((1.2, 1.05, 1.01), points=True),

@@ -74,6 +74,23 @@ def continued_otherwise(ranks):
                 require("the restart file was written with" in " ".join(run(again, ranks).output.split()), "not said")
 
 
+def continued_with_as_many_columns(ranks):
+    """Other numbers, though as many of each contact, are not taken for what they are not."""
+    made = Deck(dense_packing(1.5), surface="ellipsoid")
+    ledger, level = replace(made, extra="ledger on"), replace(made, extra=SYNCHRONIZED)
+    for first, second, many in (
+        (replace(level, tangential="no_history"), ledger, 16),
+        (replace(ledger, rolling="epsd2"), level, 19),
+    ):
+        for one, other in ((first, second), (second, first)):
+            file = run(replace(one, body=["run 3", "write_restart a.restart"]), ranks).folder / "a.restart"
+            require_refused(
+                other.restarted(file, ["run 3"]),
+                ranks,
+                f"holds {many} numbers per contact, as many as this pair_style has, but other ones",
+            )
+
+
 CASES = {
     "superquadrics-without-a-surface": refusal(
         lambda: spheroids(" surface superquadric", "", rolling="cdt", extra="tangential_damping off"),
@@ -170,6 +187,7 @@ CASES = {
     ),
     "synchronized-under-gran": refusal(lambda: deck(extra=SYNCHRONIZED, pair="gran"), "time_level"),
     "synchronized-restart": continued_otherwise,
+    "restart-of-other-columns": continued_with_as_many_columns,
     "guard-by-hand": refusal(
         lambda: deck("fix gran_insitu_guard all run/guard", "run 1"), "fix run/guard: is made by pair_style gran/insitu"
     ),
