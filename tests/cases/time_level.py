@@ -315,7 +315,9 @@ def first_evaluation_repeated(style):
 
     def case(ranks):
         deck, lines, printed = with_walls(style)
-        deck.body = [*lines, *printed, "run 0", "run 0", "run 60", "velocity all set 0.1 0.0 -0.2", "run 0", "run 0"]
+        still = [line for line in lines if "move/mesh" not in line]
+        pushed = ["group pushed id 1:20", "velocity pushed set 0.1 0.0 -0.2"]
+        deck.body = [*still, *printed, "run 0", "run 0", "run 60", *pushed, "run 0", "run 0"]
         rows = run_with_meshes(deck, ranks, **FLOOR).thermo()
         require(rows[3][C_LOSS["N_w"]][0] >= 8.0, "too few contacts with walls")
         require(min(rows[3][name][0] for name in (C_LOSS["P_n"], C_LOSS["P_n_w"])) > 0.0, "nothing is damped")
