@@ -14,9 +14,8 @@
 #define GRAINSCOPE_CLONES
 #endif
 
-// Functions that pass vectors are inlined: no matter how a processor without such vectors would pass them.
 #ifdef __GNUC__
-#pragma GCC diagnostic ignored "-Wpsabi"
+#pragma GCC diagnostic ignored "-Wpsabi"               // functions that pass vectors are inlined
 #pragma GCC diagnostic ignored "-Wignored-attributes"  // templates of Lanes, which no processor keeps in memory
 #endif
 
