@@ -7,7 +7,7 @@
 
 namespace grainscope {
 
-/** `count` elements, with room for a few more. What was in them may be lost: vectors that are filled anew with each
+/** `count` elements, with room for a few more. What was in them may be lost: vectors that are refilled with each
  *  neighbour list grow by little, and would double, and hold the old and the new at once while they do. */
 template <class Element>
 void fit(std::vector<Element> &elements, std::size_t count) {
