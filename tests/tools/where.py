@@ -277,10 +277,11 @@ def cells():
 
 
 TEXT = """\
-Of every measure in every scene: *right*, its numbers are held by tests against numpy from dumps, a closed form or a
-balance; *refused*, by name, before anything is run; empty, it means nothing there or is of no concern. The table is
-made from the names of these tests (`tests/tools/where.py BUILD`, which also prints them). What is measured: [types,
-walls, regions ...](scope.md), [two dimensions](two_dimensions.md).""".splitlines()
+Which measure can be used in which situation. *Right*: tests compare its numbers with numpy from dumps, a closed form or
+a balance. *Refused*: by name, before anything is run. Empty: the measure has no meaning there or is not affected.
+
+[What is measured](scope.md) explains types, walls, regions and clumps; see also [two dimensions](two_dimensions.md).
+The table is made from the names of the tests; `tests/tools/where.py BUILD` prints them.""".splitlines()
 
 
 def page():
