@@ -19,7 +19,7 @@ grainscope::Outputs declared() {
                     {"pairs_touching", "-", whole, "of these, pairs that touch"},
                     {"steps", "-", whole, "Newton steps"},
                     {"steps_max", "-", intensive, "most Newton steps in one pair"},
-                    {"fallbacks", "-", whole, "pairs that the solver left to a search, 0 in a sound run"}};
+                    {"fallbacks", "-", whole, "contacts without a regular answer, 0 in a sound run"}};
   outputs.scalar = {outputs.vector.back()};
   return outputs;
 }
