@@ -107,7 +107,7 @@ struct FixWallGranInsitu::Impl : grainscope::WallContacts {
   std::unique_ptr<ContactReader> contacts;
   std::shared_ptr<void> takes_part;       // in the evaluations of the pair style
   grainscope::MeshVelocities velocities;  // with `setup neutral`
-  bool restarted = false;                 // they are of a restart file
+  bool kept = false;                      // they are of the last evaluation already, or of a restart file
 
   int column_of(const std::string &name) const {
     const auto at = std::find(columns.begin(), columns.end(), name);
@@ -206,8 +206,7 @@ void FixWallGranInsitu::init() {
   impl_->contacts->set_law(law);
   impl_->takes_part = impl_->pair->observer().add_wall();
   restart_global = impl_->pair->evaluation_memory() && is_mesh_wall() && is_moving();
-  if (restart_global && !impl_->restarted) impl_->velocities.keep(meshes());
-  impl_->restarted = false;
+  if (restart_global && !impl_->kept) impl_->velocities.keep(meshes());
   std::vector<grainscope::Wall> before;
   for (int k = 0; k < modify->nfix && modify->fix[k] != this; k++)
     if (FixWallGranInsitu *wall = dynamic_cast<FixWallGranInsitu *>(modify->fix[k])) wall->add_to(before);
@@ -244,19 +243,25 @@ void FixWallGranInsitu::require_across_plane() {
  *  and without leaving a trace in the contact history. */
 void FixWallGranInsitu::setup(int vflag) {
   const std::shared_ptr<grainscope::EvaluationMemory> memory = impl_->pair ? impl_->pair->evaluation_memory() : nullptr;
-  if (!memory || !memory->repeats()) return FixWallGran::setup(vflag);
-  memory->swap();
-  impl_->velocities.restore(meshes());
-  {
-    const grainscope::KeptWallHistory kept(*this, fix_history_primitive_, atom->nlocal);
-    impl_->time_level.set_repeats(memory->repeats_a_step());
+  if (memory && memory->repeats()) {
+    memory->swap();
+    impl_->velocities.restore(meshes());
+    {
+      const grainscope::KeptWallHistory kept(*this, fix_history_primitive_, atom->nlocal);
+      impl_->time_level.set_repeats(memory->repeats_a_step());
+      FixWallGran::setup(vflag);
+      impl_->time_level.set_repeats(false);
+    }
+    memory->swap();
+  } else {
+    if (restart_global) impl_->velocities.keep(meshes());
     FixWallGran::setup(vflag);
-    impl_->time_level.set_repeats(false);
   }
-  memory->swap();
+  impl_->kept = restart_global;  // a fix that moves a mesh and is set up later sets its velocity to zero
 }
 
 void FixWallGranInsitu::post_force(int vflag) {
+  impl_->kept = false;
   if (!impl_->contacts) return FixWallGran::post_force(vflag);
   grainscope::ContactObserver &observer = impl_->pair->observer();
   observer.begin_wall();
@@ -267,7 +272,7 @@ void FixWallGranInsitu::post_force(int vflag) {
 }
 
 void FixWallGranInsitu::write_restart(FILE *file) {
-  impl_->velocities.keep(meshes());
+  if (!impl_->kept) impl_->velocities.keep(meshes());
   const std::vector<double> &numbers = impl_->velocities.numbers();
   const SavedWall saved{static_cast<double>(numbers.size())};
   if (comm->me == 0) grainscope::write_state(file, saved, numbers.data(), numbers.size() * sizeof(double));
@@ -284,7 +289,7 @@ void FixWallGranInsitu::restart(char *buffer) {
   std::vector<double> numbers(static_cast<std::size_t>(n));
   memcpy(numbers.data(), grainscope::state_block::tail(buffer), numbers.size() * sizeof(double));
   impl_->velocities.set_numbers(numbers.data(), numbers.size());
-  impl_->restarted = true;
+  impl_->kept = true;
 }
 
 void FixWallGranInsitu::add_to(std::vector<grainscope::Wall> &walls) {

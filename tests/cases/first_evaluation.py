@@ -23,8 +23,11 @@ C_STRESS = outputs("stress/contact").of("stress")
 WARNING = "LIGGGHTS does not limit tangential damping"
 BOX = Box(np.eye(3) * 1e3, np.zeros(3), np.zeros((3, 3)))
 LOSSES = C_LOSS.vector()[:5]  # of contacts between grains
+AT_WALLS = [C_LOSS[name] for name in ("P_n_w", "P_t_w", "P_t_damp_w")]
 # Both are a handful of operations on numbers that were dumped in full.
 ROUNDING = 1e-12
+# A repetition begins with the springs that the evaluation has cut to the limit: 1e-12 of the force is between them.
+REPEATED = 1e-11
 
 
 def passing(**choices):
@@ -97,6 +100,26 @@ def repeated_row(ranks):
     before, after = run(deck, ranks).thermo()
     for name in (*LOSSES, C_STRESS["sliding"], "c_mobilised"):
         require_close(after[name][0], before[name][0], ROUNDING, name)
+
+
+def beside_a_moving_mesh(order):
+    """LIGGGHTS stops a mesh when the fix that moves it is set up, before or after the wall meets it: after `run 0` the
+    next run has the same first row all the same,"""
+
+    def case(ranks):
+        deck = on_a_wall(0.01, "mesh", "setup neutral")
+        mesh, wall = deck.body[:2]
+        move = "fix move all move/mesh mesh floor linear 0.3 0.1 0.4"
+        fixes = [mesh, move, wall] if order == "move first" else [mesh, wall, move]
+        measures = ["compute loss all dissipation mode instantaneous", *thermo(1, *AT_WALLS)]
+        deck.body = [*fixes, *measures, "run 5", "velocity all set -5 -2 -0.3", "run 0", "run 0", "run 3"]
+        _, first, second, third = run_in_folder_with_floor(deck, ranks).thermo()
+        require(first[AT_WALLS[0]][0] > 0.0, "nothing is lost at the mesh: nothing is proved")
+        for name in AT_WALLS:
+            for later in (second, third):
+                require_close(later[name][0], first[name][0], REPEATED, name)
+
+    return case
 
 
 def after_a_change(ranks):
@@ -198,6 +221,8 @@ CASES = {
     "as-the-host": as_the_host,
     "neutral": neutral,
     "repeated-row": repeated_row,
+    "beside-a-mesh-moved-before": beside_a_moving_mesh("move first"),
+    "beside-a-mesh-moved-after": beside_a_moving_mesh("wall first"),
     "after-a-change": after_a_change,
     "below-the-limit": below_the_limit,
     "packings": packings,
