@@ -21,8 +21,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from columns import outputs  # noqa: E402
-from open_mpi import session  # noqa: E402
+from grainscope.columns import outputs  # noqa: E402
+from grainscope.open_mpi import session  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
 FIRST, BINS, TILT, LENGTH, SOLID = 2000, 19, 0.3, 0.08, 0.55

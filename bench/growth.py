@@ -12,7 +12,7 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "tools"))
-from columns import outputs  # noqa: E402
+from grainscope.columns import outputs  # noqa: E402
 
 STEPS = 2
 

@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from open_mpi import session  # noqa: E402
+from grainscope.open_mpi import session  # noqa: E402
 
 DECK = pathlib.Path(__file__).resolve().parent / "in.closure"
 COLUMNS = (

@@ -10,7 +10,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
-from figure_style import plt, shape_colour, shape_marker  # noqa: E402
+from grainscope.figures.style import plt, shape_colour, shape_marker  # noqa: E402
 
 SHAPES = (0.33, 1.0, 1.5, 3.0)
 FRACTIONS = (0.16, 0.08, 0.04, 0.02, 0.01)

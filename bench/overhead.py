@@ -17,7 +17,7 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "tools"))
-from columns import outputs  # noqa: E402
+from grainscope.columns import outputs  # noqa: E402
 
 EVERY_STEP = "fix mean all ave/time 1 1 1 {value} file /dev/null\n"
 STRAIN = "variable strain equal 0.00977*0.009*step\n"

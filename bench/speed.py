@@ -23,7 +23,7 @@ import tempfile
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from open_mpi import session  # noqa: E402
+from grainscope.open_mpi import session  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
 TILE = 2000

@@ -11,7 +11,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / folder) for folder in ("tools", "tests/tools", "tests", "tests/cases")]
-from figure_style import plt  # noqa: E402
+from grainscope.figures.style import plt  # noqa: E402
 import numpy as np  # noqa: E402
 from verification import FLOOR, SWEEP, order_of  # noqa: E402
 import verification_friction as friction  # noqa: E402

@@ -12,9 +12,9 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
+from grainscope.figures.style import RUN_COLOURS, plt, points, save, shape_colour, shape_handle, shape_marker
 import numpy as np
 from matplotlib.lines import Line2D
-from figure_style import RUN_COLOURS, plt, points, save, shape_colour, shape_handle, shape_marker
 
 ALPHAS = (0.33, 1.0, 1.5)
 MEASURES = {"mu_eff": r"$\mu_{eff}$", "phi": r"$\phi$", "ledger_n": r"$P_n$", "ledger_t": r"$P_t$"}

@@ -7,7 +7,7 @@ import numpy as np
 from dt_tools import HERE, column, rows_of
 
 sys.path.insert(0, str(HERE.parents[1] / "tools"))
-from figure_style import (
+from grainscope.figures.style import (
     Line2D,
     RUN_COLOURS,
     log_scale,

@@ -7,7 +7,15 @@ import numpy as np
 from dt_tools import HERE, column, rows_of
 
 sys.path.insert(0, str(HERE.parents[1] / "tools"))
-from figure_style import Line2D, RUN_COLOURS, plt, save, shape_colour, shape_handle, shape_marker  # noqa: E402
+from grainscope.figures.style import (  # noqa: E402
+    Line2D,
+    RUN_COLOURS,
+    plt,
+    save,
+    shape_colour,
+    shape_handle,
+    shape_marker,
+)
 
 QUANTITIES = {
     "force": "force, first step",

@@ -7,7 +7,7 @@ import sys
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
-import figure_style  # noqa: E402
+from grainscope.figures import style as figure_style  # noqa: E402
 import matplotlib.pyplot as plt  # noqa: E402
 
 YOUNG = 5e6

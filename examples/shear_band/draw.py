@@ -8,10 +8,10 @@ import sys
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
-import figure_style  # noqa: E402
+from grainscope.figures import style as figure_style  # noqa: E402
 import matplotlib.pyplot as plt  # noqa: E402
 
-from field_table import read_field  # noqa: E402
+from grainscope.fields import read_field  # noqa: E402
 
 A, DENSITY, GRAVITY, LOAD, SPEED = 0.003, 2500.0, 9.81, 1500.0, 0.4  # as in the deck
 PLATE = 28  # grains of the lid

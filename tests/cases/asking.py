@@ -7,8 +7,8 @@ import numpy as np
 
 from case import main, require, require_close
 from catalogue import DIRECT, DISPLACEMENT, FABRIC, FLUCTUATION, GRAIN, LAYERING, MEMORY, SURFACE, strain_lines
-from columns import outputs
 from deck import Deck, dump_local, shear, thermo
+from grainscope.columns import outputs
 from oracle.state import ROW_WIDTH, rows_of
 from packing import dense_packing
 from run import run

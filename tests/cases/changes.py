@@ -7,9 +7,9 @@ import numpy as np
 
 from case import main, require, require_close, require_equal, require_same_snapshots
 from catalogue import DISPLACEMENT, everything, strain_lines
-from columns import outputs
 from contact_measures import DIRECTION, EXACT, FABRIC, GRAIN, comparisons, require_agreement
 from deck import Deck, dump_grains, dump_local, thermo
+from grainscope.columns import outputs
 from motion_measures import fluctuations
 from oracle import comparison_motion, measures
 from oracle.state import ROW_WIDTH, rows_of

@@ -5,8 +5,8 @@ import math
 import numpy as np
 
 from case import main, require, require_close
-from columns import outputs
 from deck import Deck, Material, dump_grains, rayleigh_time, thermo
+from grainscope.columns import outputs
 from oracle.measures import rotation
 from oracle.state import grains_of
 from packing import Grain, Packing

@@ -7,8 +7,8 @@ import numpy as np
 
 import clumps
 from case import main, require, require_close, require_equal, require_same_snapshots
-from columns import outputs
 from deck import Deck, dump_grains, dump_local, number, shear, thermo
+from grainscope.columns import outputs
 from oracle import network
 from packing import Grain, Packing, dense_packing, disc_packing
 from run import run

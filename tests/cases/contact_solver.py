@@ -7,8 +7,8 @@ import re
 import numpy as np
 
 from case import main, require, require_close, require_equal
-from columns import outputs
 from deck import Deck, dump_grains, dump_local, shear, thermo
+from grainscope.columns import outputs
 from oracle.state import ROW_WIDTH, rows_of
 from packing import dense_packing
 from run import run

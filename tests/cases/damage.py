@@ -6,8 +6,8 @@ import random
 import resource
 
 from case import main, require, require_same_snapshots
-from columns import outputs
 from deck import Deck, dump_grains, shear, thermo
+from grainscope.columns import outputs
 from packing import dense_packing
 from run import Started, attempt, run, tail
 

@@ -9,9 +9,9 @@ import re
 import numpy as np
 
 from case import main, require, require_close
-from columns import outputs
 from deck import Deck, box_columns, dump_grains, shear, thermo
 from everything import RATE, Questions, differences, press
+from grainscope.columns import outputs
 from packing import SKIN, Grain, Packing, dense_packing, in_the_open, tilted
 from refusal import require_refused
 from run import attempt, run, tail

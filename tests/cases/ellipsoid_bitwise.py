@@ -8,8 +8,8 @@ import re
 import numpy as np
 
 from case import main, require, require_same_snapshots
-from columns import outputs
 from deck import Deck, dump_grains, shear, thermo
+from grainscope.columns import outputs
 from packing import Grain, Packing, dense_packing
 from run import run
 from sphere_bitwise import FROZEN, STIFFNESS, TYPES

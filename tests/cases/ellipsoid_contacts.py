@@ -8,8 +8,8 @@ import re
 import numpy as np
 
 from case import main, require, require_close
-from columns import outputs
 from deck import POISSON, YOUNG, Deck, Material, dump_grains, dump_local, thermo
+from grainscope.columns import outputs
 from oracle.state import ROW_WIDTH, rows_of
 from packing import Grain, Packing
 from run import run

@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_equal, require_same_snapshots
-from columns import outputs
 from deck import Deck, dump_grains, dump_local, shear, thermo
+from grainscope.columns import outputs
 from oracle.state import ROW_WIDTH
 from packing import Grain, Packing, dense_packing, tilted
 from run import run

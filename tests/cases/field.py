@@ -8,9 +8,9 @@ import numpy as np
 
 import clumps
 from case import main, require, require_close, require_equal, require_same_snapshots
-from columns import outputs
 from contact_measures import flipped, undamped
 from deck import Deck, dump_grains, thermo
+from grainscope.columns import outputs
 from meshes import folder_with
 from oracle import field as oracle
 from oracle.comparison_field import OF_CONTACTS, OF_GRAINS, Asked, block, largest, require_agreement

@@ -8,7 +8,7 @@ import numpy as np
 
 from case import main, require, require_close, require_equal
 from deck import Deck, shear, thermo
-from field_table import read_field
+from grainscope.fields import read_field
 from packing import dense_packing
 from refusal import require_refused
 from run import run

@@ -3,7 +3,6 @@
 import os
 from pathlib import Path
 import subprocess
-import sys
 
 import matplotlib.pyplot as plt
 from matplotlib.collections import QuadMesh
@@ -12,11 +11,11 @@ import numpy as np
 from PIL import Image
 
 from case import main, require, require_close, require_equal
-from field_table import panels, read_field, read_fields
-from plot_field import animate, cut, draw, frames
-from shear_output import InputError
+from grainscope.errors import InputError
+from grainscope.fields import panels, read_field, read_fields
+from grainscope.rows import animate, cut, draw, frames
 
-TOOL = Path(__file__).resolve().parents[2] / "tools" / "plot_field.py"
+TOOL = Path(__file__).resolve().parents[2] / "tools" / "grainscope-tools"
 SIZE = np.array([4.0, 6.0, 10.0])
 
 
@@ -289,9 +288,7 @@ def bad_files(ranks):
 
 def asked(*words):
     """Exit code and what the program prints."""
-    done = subprocess.run(
-        [sys.executable, TOOL, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
-    )
+    done = subprocess.run([TOOL, "rows", *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return done.returncode, done.stdout
 
 
@@ -300,20 +297,20 @@ def command_line(ranks):
     paths = [write(f"{step}.csv", (4, 3, 1), step=step, errors=True) for step in (0, 10)]
     picture, page, film = (paths[0].with_suffix(ending) for ending in (".png", ".pdf", ".gif"))
     choice = ["--columns", "rho", "v_x", "--vectors", "v"]
-    code, said = asked(*paths, *choice, "--out", picture, "--animate", film)
+    code, said = asked(*paths, *choice, "--output", picture, "--animate", film)
     require(code == 0 and said.split() == [str(picture), str(film)], said)
-    code, said = asked(*paths, *choice, "--out", page)
+    code, said = asked(*paths, *choice, "--output", page)
     require(code == 0 and page.read_bytes().startswith(b"%PDF"), said)
     with Image.open(film) as frames_of_film, Image.open(picture) as image:
         require(frames_of_film.n_frames == 2 and image.format == "PNG", f"{frames_of_film.n_frames}, {image.format}")
     for words, expected in (
-        ([], "--out or --animate"),
-        (["--out", "a.jpg"], "--out must end in .png or .pdf, got 'a.jpg'"),
+        ([], "--output or --animate"),
+        (["--output", "a.jpg"], "--output must end in .png or .pdf, got 'a.jpg'"),
         (["--animate", "a.mp4"], "--animate must end in .gif, got 'a.mp4'"),
         (["--animate", "a.gif", "--rate", 0], "--rate must be above 0"),
-        (["--out", picture, "--columns", "rhoo"], "--columns must be columns of"),
-        (["--out", picture, "--slice", "z=1"], "--slice must be one of the layers"),
-        (["--out", picture.parent / "none" / "a.png"], "No such file or directory"),
+        (["--output", picture, "--columns", "rhoo"], "--columns must be columns of"),
+        (["--output", picture, "--slice", "z=1"], "--slice must be one of the layers"),
+        (["--output", picture.parent / "none" / "a.png"], "No such file or directory"),
     ):
         code, said = asked(*paths, *words)
         require(code != 0 and expected in said and "Traceback" not in said, f"{words}: {code}, {said}")

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from case import main, require, require_close, require_equal, require_same_snapshots
-from columns import outputs
 from deck import Deck, Material, dump_grains, dump_local, shear, thermo
 from ellipsoid_walls import run_in_folder_with_floor
+from grainscope.columns import outputs
 from oracle.sphere_law import contacts
 from oracle.state import ROW_WIDTH, Box, grains_of, rows_of
 from packing import Grain, Packing, dense_packing

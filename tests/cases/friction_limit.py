@@ -8,8 +8,8 @@ import math
 import numpy as np
 
 from case import main, require, require_close
-from columns import outputs
 from deck import Deck, Material, dump_grains, dump_local, shear, thermo
+from grainscope.columns import outputs
 from oracle.contacts import grain_table
 from oracle.state import ROW_WIDTH, grains_of, rows_of
 from oracle.surface import surface_table

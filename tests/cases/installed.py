@@ -4,13 +4,12 @@ import os
 from pathlib import Path
 import shutil
 import subprocess
-import sys
 
-import program
 from case import main, require, require_equal
+from grainscope import program
+from grainscope.shear.output import read_table
 from links import broken_links
 from run import Failure, environment
-from shear_output import read_table
 
 SOURCE, BINARY = Path(os.environ["GRAINSCOPE_SOURCE"]), Path(os.environ["GRAINSCOPE_BINARY"])
 SMALL = ["N=100", "alpha=1", "strain=0.1", "part=0.05"]
@@ -93,15 +92,15 @@ def broken_links_are_found(ranks):
 
 
 def run_of_installed(ranks):
-    """tools/run_shear.py and the deck of the prefix, with the program of the prefix: the bits of this build's own."""
+    """grainscope-tools and the deck of the prefix, with the program of the prefix: the bits of this build's own."""
     prefix = installed()
     call(
-        [sys.executable, prefix / "share/grainscope/tools/run_shear.py", scratch() / "out", *SMALL],
+        [prefix / "bin/grainscope-tools", "study", "run", scratch() / "out", *SMALL],
         env=outside(),
         cwd=scratch(),
     )
     call(
-        [sys.executable, SOURCE / "tools/run_shear.py", scratch() / "own", *SMALL, "--binary", BINARY],
+        [SOURCE / "tools/grainscope-tools", "study", "run", scratch() / "own", *SMALL, "--binary", BINARY],
         env=environment(1),
         cwd=scratch(),
     )

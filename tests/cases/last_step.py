@@ -9,8 +9,8 @@ import numpy as np
 
 from case import main, require, require_close, require_equal, require_same_snapshots
 from catalogue import DIRECTION, DISPLACEMENT, FABRIC, MEMORY, SURFACE, strain_lines
-from columns import outputs
 from deck import Deck, dump_grains, shear, thermo
+from grainscope.columns import outputs
 from packing import dense_packing
 from refusal import require_refused
 from run import run

@@ -7,9 +7,9 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_equal, require_same_snapshots
-from columns import outputs
 from collisions import kinetic_energy
 from deck import Deck, Material, dump_grains, number, rayleigh_time, shear, thermo
+from grainscope.columns import outputs
 from oracle.ledger import AXES, ENTRIES, STORES
 from packing import Grain, Packing, dense_packing, tilted
 from run import run

@@ -8,9 +8,9 @@ import shutil
 import tempfile
 
 from case import main, require, require_close
+from grainscope.grains import read_grains
 from run import run
 from run_example import arguments, table
-from shear_output import read_grains
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 # Of what was lost: sums of 1e5 steps and 1e4 contacts, whose terms are up to ten times what they add up to.

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from case import main, require, require_close
-from columns import outputs
 from deck import Deck, Material, box_columns, dump_grains, shear, thermo
+from grainscope.columns import outputs
 from oracle.ledger import AXES, ENTRIES, STORES, Snapshot, book, carried
 from oracle.state import box_of, grains_of
 from packing import dense_packing, tilted

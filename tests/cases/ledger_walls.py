@@ -12,8 +12,8 @@ import numpy as np
 
 from case import main, require, require_close, require_equal, require_same_snapshots
 from collisions import kinetic_energy
-from columns import outputs
 from deck import POISSON, Deck, Material, dump_grains, dump_local, rayleigh_time, thermo
+from grainscope.columns import outputs
 from ledger import C_E, LEDGER, LOSSES, NAMES, TOTALS, UNDAMPED, account, require_balance, turnover, with_ledger
 from oracle.ledger import AXES, STORES
 from oracle.state import ROW_WIDTH, grains_of, rows_of

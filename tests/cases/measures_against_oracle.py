@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from case import main, require, require_close, require_equal
-from columns import outputs
 from deck import Deck, Material, box_columns, dump_grains, dump_local, shear, thermo
+from grainscope.columns import outputs
 from oracle import measures
 from oracle.state import ROW_WIDTH, box_of, chosen_rows, grains_of, rows_of
 from packing import dense_packing, in_the_open, tilted

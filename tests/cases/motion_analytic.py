@@ -6,8 +6,8 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_equal
-from columns import outputs
 from deck import Deck, number, thermo
+from grainscope.columns import outputs
 from packing import DENSITY, Grain, Packing, dense_packing, numbers, tilted
 from run import run
 from watch import Flow, Watched, deforming, watch

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from case import main, require, require_close, require_same_snapshots
-from columns import outputs
 from deck import Deck, dump_grains, number, thermo
+from grainscope.columns import outputs
 from packing import Grain, Packing, dense_packing
 from refusal import require_refused
 from run import run

@@ -5,8 +5,8 @@ import math
 import numpy as np
 
 from case import main, require_close
-from columns import outputs
 from deck import Deck, thermo
+from grainscope.columns import outputs
 from packing import Grain, Packing
 from run import run
 

@@ -6,8 +6,8 @@ import re
 import numpy as np
 
 from case import main, require, require_close, require_equal
-from columns import outputs
 from deck import Deck, shear, thermo
+from grainscope.columns import outputs
 from make_columns import tables
 from packing import dense_packing
 from run import run
@@ -221,7 +221,7 @@ def listed_only(ranks):
     require("array | 2 | N_c | - | extensive, whole | c_beta[i][2] |" in text, "no line of N_c")
     require("array: i from 1 to 12, one row per bin of beta" in text, "no word about rows")
     require("v_beta_" not in text, "a variable of a column")
-    require(outputs("contact/direction").word("beta", "N_c", 7) == "c_beta[7][2]", "columns.py")
+    require(outputs("contact/direction").word("beta", "N_c", 7) == "c_beta[7][2]", "grainscope.columns")
 
 
 def users_own(ranks):

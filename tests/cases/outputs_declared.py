@@ -9,8 +9,8 @@ import re
 import numpy as np
 
 from case import main, require, require_equal
-from columns import outputs
 from deck import thermo
+from grainscope.columns import outputs
 from make_columns import ALL, FILE, decks, kind_of, made
 from run import run
 

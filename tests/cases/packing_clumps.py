@@ -6,8 +6,8 @@ import numpy as np
 
 import clumps
 from case import main, require, require_close, require_equal
-from columns import outputs
 from deck import Deck
+from grainscope.columns import outputs
 from oracle import network
 from packing import dense_packing
 from refusal import require_refused

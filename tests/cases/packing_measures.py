@@ -7,8 +7,8 @@ import numpy as np
 from scipy.special import beta
 
 from case import main, require, require_close, require_equal
-from columns import outputs
 from deck import DENSITY, Deck, dump_grains, dump_local, number, shear, thermo
+from grainscope.columns import outputs
 from oracle import network
 from packing import Grain, Packing, dense_packing, disc_packing
 from run import run

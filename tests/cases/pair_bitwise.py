@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 from case import main, require, require_same_snapshots
-from columns import outputs
 from deck import Deck, Material, dump_grains, shear, thermo
+from grainscope.columns import outputs
 from packing import dense_packing
 from run import run
 

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from case import main, require, require_close, require_same_snapshots
-from columns import outputs
 from deck import Deck, dump_grains, shear, thermo
+from grainscope.columns import outputs
 from packing import Grain, Packing, dense_packing, in_the_open
 from run import run
 

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from case import main, require_close, require_equal
-from columns import outputs
 from deck import Deck, thermo
+from grainscope.columns import outputs
 from packing import dense_packing
 from run import run
 

@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_same_snapshots
-from columns import outputs
 from deck import POISSON, YOUNG, Deck, box_columns, dump_grains, number, thermo
+from grainscope.columns import outputs
 from oracle.sphere_law import Law, contacts
 from oracle.state import box_of, grains_of
 from packing import dense_packing, tilted

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from case import main, require, require_close, require_equal, require_same_snapshots
-from columns import outputs
 from deck import Material, dump_grains, thermo
+from grainscope.columns import outputs
 from ledger import LEDGER, ROUNDING, TOTALS, UNDAMPED, account, require_closed, turnover
 from plates import bed, plated, press
 from run import run

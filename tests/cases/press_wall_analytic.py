@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from case import main, require, require_close
-from columns import outputs
 from deck import POISSON, YOUNG, Deck, Material, thermo
+from grainscope.columns import outputs
 import meshes
 from packing import DENSITY, Grain, Packing
 from run import run

@@ -4,8 +4,8 @@ from dataclasses import replace
 import re
 
 from case import main, require, require_same_snapshots
-from columns import outputs
 from deck import Deck, Material, dump_grains, rayleigh_time, shear, thermo
+from grainscope.columns import outputs
 from packing import Grain, Packing, dense_packing
 from run import run
 

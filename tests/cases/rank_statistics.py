@@ -5,8 +5,8 @@ import math
 import numpy as np
 
 from case import main, require
-from columns import outputs
 from deck import Deck, number, thermo
+from grainscope.columns import outputs
 from packing import DENSITY, dense_packing
 from run import run
 

@@ -8,9 +8,9 @@ import numpy as np
 
 from case import main, require
 from catalogue import DISPLACEMENT, MEMORY
-from columns import outputs
 from deck import Deck, thermo
 from everything import LEDGER, RATE, Differences, Questions, differences, press
+from grainscope.columns import outputs
 from packing import dense_packing, tilted
 from run import run
 

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from case import main, require, require_close
-from columns import outputs
 from deck import Deck, shear, thermo
+from grainscope.columns import outputs
 from packing import dense_packing, in_the_open
 from run import run
 

@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_equal
-from columns import outputs
 from deck import Deck, dump_local, thermo
+from grainscope.columns import outputs
 from packing import dense_packing
 from refusal import require_refused
 from run import run

@@ -9,8 +9,8 @@ import numpy as np
 
 from case import main, require, require_close, require_same_snapshots
 from catalogue import DISPLACEMENT, MEMORY, strain_lines
-from columns import outputs
 from deck import Deck, dump_grains, shear, thermo
+from grainscope.columns import outputs
 from packing import dense_packing, tilted
 from run import FLUSHED, Started, rows_so_far, run, wait_for_steps, wait_until
 from watch import Watched

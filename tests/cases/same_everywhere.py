@@ -7,8 +7,8 @@ import numpy as np
 
 from case import main, require, require_close, require_equal, require_same_snapshots
 from catalogue import BLOCKS, DISPLACEMENT, MEMORY, everything, strain_lines
-from columns import outputs
 from deck import Deck, dump_grains, shear, thermo
+from grainscope.columns import outputs
 from packing import dense_packing, in_the_open, tilted
 from refusal import refusal
 from run import run

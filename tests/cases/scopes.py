@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_equal
-from columns import outputs
 from deck import Deck, thermo
+from grainscope.columns import outputs
 from packing import Grain, Packing
 from run import run
 from wall_measures import BOX, EXACT, Scene

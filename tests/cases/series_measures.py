@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from case import main, require, require_close
-from columns import outputs
 from deck import Deck, number
+from grainscope.columns import outputs
 from oracle import comparison_motion as comparison
 from oracle import correlation, motion
 from packing import dense_packing, tilted

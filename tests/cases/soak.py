@@ -7,8 +7,8 @@ import numpy as np
 
 from case import main, require, require_close
 from catalogue import everything
-from columns import outputs
 from deck import Deck, thermo
+from grainscope.columns import outputs
 from memory import NOTED, SANITIZED, require_flat, watched_run
 from packing import dense_packing
 from watch import Watched

@@ -4,8 +4,8 @@ move exactly as under pair_style gran, watched or not; and spheroids of models t
 from dataclasses import replace
 
 from case import main, require, require_same_snapshots
-from columns import outputs
 from deck import Deck, Material, dump_grains, shear, thermo
+from grainscope.columns import outputs
 from packing import Grain, Packing, dense_packing
 from plates import bed
 from run import run

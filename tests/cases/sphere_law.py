@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from case import main, require, require_close
-from columns import outputs
 from deck import POISSON, Deck, Material, box_columns, dump_grains, dump_local, shear, thermo
+from grainscope.columns import outputs
 from oracle.sphere_law import Law, contacts
 from oracle.state import ROW_WIDTH, box_of, grains_of, rows_of
 from packing import dense_packing

@@ -6,8 +6,8 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_equal, require_same_snapshots
-from columns import outputs
 from deck import Deck, dump_grains, rayleigh_time, shear, thermo
+from grainscope.columns import outputs
 from oracle.measures import rotation
 from packing import DENSITY, Grain, Packing, dense_packing
 from run import run

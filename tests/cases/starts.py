@@ -9,7 +9,7 @@ import socket
 import subprocess
 
 from case import main, require
-from open_mpi import SHARED_MEMORY, Session, session
+from grainscope.open_mpi import SHARED_MEMORY, Session, session
 from run import ALONE, FLUSHED, Started, attempt, binary, count_errors, environment, rows_so_far, wait_for_steps
 
 DECK = "units si\natom_style sphere\n"

@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from case import main, require, require_close
-from columns import outputs
 from deck import POISSON, YOUNG, Deck, thermo
+from grainscope.columns import outputs
 from packing import Grain, Packing, number
 from run import run
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from case import main, require, require_close
-from columns import outputs
 from deck import Deck, number, rayleigh_time, thermo
+from grainscope.columns import outputs
 from ledger import LEDGER, TOTALS, UNDAMPED, account, require_closed, with_ledger
 from packing import DENSITY, dense_packing
 from run import run

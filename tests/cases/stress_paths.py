@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_same_snapshots
-from columns import outputs
 from deck import POISSON, YOUNG, Deck, Material, box_columns, dump_grains, number, thermo
+from grainscope.columns import outputs
 from oracle.state import grains_of
 from packing import Grain, Packing, dense_packing, disc_packing
 from run import run

@@ -7,10 +7,10 @@ import textwrap
 import yaml
 
 from case import main, require, require_close
-from cost_model import steps_per_strain
+from grainscope.study.cost_model import steps_per_strain
+from grainscope.study.plan import PlanError, figures_of, plan
+from grainscope.study.plot import ALL
 from run import run
-from plot_study import ALL
-from study_plan import PlanError, figures_of, plan
 
 SOURCE = Path(os.environ["GRAINSCOPE_SOURCE"])
 SMALL = {"alpha": [1, 2], "mu": [0, 0.4], "I": [0.1, 0.01], "N": [300], "strain": 10, "steady": 5}

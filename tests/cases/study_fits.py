@@ -3,8 +3,7 @@
 import numpy as np
 
 from case import main, require, require_close
-from compare_study import verdict
-from fits import (
+from grainscope.fits import (
     FitError,
     crossing,
     fit_decay,
@@ -14,10 +13,11 @@ from fits import (
     friction_law,
     power_law,
 )
-from grid_fits import FEWEST, all_fits, crossovers, laws_of_shape, sizes
-from paper_values import PUBLISHED, Published
-from shear_measures import SteadyRun
-from study_table import largest, over_seeds
+from grainscope.shear.measures import SteadyRun
+from grainscope.study.compare import verdict
+from grainscope.study.grid_fits import FEWEST, all_fits, crossovers, laws_of_shape, sizes
+from grainscope.study.paper_values import PUBLISHED, Published
+from grainscope.study.table import largest, over_seeds
 
 INERTIA = np.geomspace(1e-3, 0.1, 7)
 NOISE = 0.003

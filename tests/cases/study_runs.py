@@ -1,20 +1,20 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Runs of a study by tools/run_shear.py: killed, prolonged, damaged, refused; and what tools/study_table.py makes of
+"""Runs of a study by `grainscope-tools study run`: killed, prolonged, damaged, refused; and what `study table` makes of
 them."""
 import os
 from pathlib import Path
 import signal
 import shutil
 import subprocess
-import sys
 
 import numpy as np
 
 from case import main, require, require_close, require_equal
+from grainscope.means import mean_and_error
+from grainscope.shear.measures import steady_run
+from grainscope.shear.output import read_blocks, read_run, read_table
+from grainscope.study import table as study_table
 from run import TIME_LIMIT, Failure, environment, kill_session, processes_of, wait_until
-from shear_measures import steady_run
-from shear_output import mean_and_error, read_blocks, read_run, read_table
-import study_table
 
 SOURCE = Path(os.environ["GRAINSCOPE_SOURCE"])
 SMALL = {"N": 150, "alpha": 1, "mu": 0.4, "I": 0.1, "measure": "all", "strain": 0.6, "steady": 0.2, "part": 0.1}
@@ -29,8 +29,9 @@ def folder(name):
 def start(name, ranks=1, **variables):
     words = [f"{key}={value}" for key, value in {**SMALL, **variables}.items()]
     command = [
-        sys.executable,
-        SOURCE / "tools" / "run_shear.py",
+        SOURCE / "tools" / "grainscope-tools",
+        "study",
+        "run",
         folder(name),
         *words,
         "--binary",
@@ -227,7 +228,7 @@ def part_must_be_named(ranks):
     words = ["N=150", "alpha=1", "--binary", os.environ["GRAINSCOPE_BINARY"]]
     for strain, expected in ((0.3, 0), (0.4, 1)):
         done = subprocess.run(
-            [sys.executable, SOURCE / "tools" / "run_shear.py", folder("parts"), f"strain={strain}", *words],
+            [SOURCE / "tools" / "grainscope-tools", "study", "run", folder("parts"), f"strain={strain}", *words],
             env=environment(1),
             capture_output=True,
             text=True,

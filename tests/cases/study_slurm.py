@@ -16,8 +16,8 @@ import tempfile
 import time
 
 from case import main, require
+from grainscope.study.plan import plan
 from run import TIME_LIMIT, Failure, binary, wait_until
-from study_plan import plan
 
 SOURCE = Path(os.environ["GRAINSCOPE_SOURCE"])
 STUDY, LOCAL_SLURM = SOURCE / "examples" / "study", SOURCE / "scripts" / "local-slurm"

@@ -5,13 +5,12 @@ import os
 from pathlib import Path
 import shutil
 import subprocess
-import sys
 
 import yaml
 
 from case import main, require
+from grainscope.study.table import read_csv
 from run import TIME_LIMIT, environment
-from study_table import read_csv
 
 SOURCE = Path(os.environ["GRAINSCOPE_SOURCE"])
 # A box of 20 grains gets too flat while it is compressed; 150 are enough.
@@ -88,7 +87,7 @@ def failing_runs_do_not_stop_others(ranks):
     shutil.rmtree(study / "runs")
     shutil.rmtree(study / "figures")
     done = subprocess.run(
-        [sys.executable, SOURCE / "tools/plot_study.py", study, "--output", study / "figures"],
+        [SOURCE / "tools/grainscope-tools", "study", "plot", study, "--output", study / "figures"],
         capture_output=True,
         text=True,
     )

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from case import main, require, require_close, require_same_snapshots
-from columns import outputs
 from deck import Deck, Material, dump_grains, shear, thermo
+from grainscope.columns import outputs
 from oracle.ball_on_neck import Neck
 from oracle.sticking_pair import Pair
 from packing import Grain, Packing, dense_packing

@@ -8,9 +8,9 @@ import numpy as np
 
 from case import main, require, require_close, require_equal, require_same_snapshots
 from catalogue import DIRECT, DIRECTION, FABRIC, FLUCTUATION, GRAIN, LAYERING, MESH
-from columns import outputs
 from deck import POISSON, YOUNG, Deck, thermo
 from everything import INSTANT, NEMATIC, RATE, STEP, STRESS, Questions, differences, press
+from grainscope.columns import outputs
 from oracle import correlation as pairs
 from oracle.measures import (
     dissipation_instantaneous,

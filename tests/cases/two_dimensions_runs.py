@@ -6,9 +6,9 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_equal
-from columns import outputs
 from deck import Deck, Material, dump_grains, dump_local, thermo
 from everything import press
+from grainscope.columns import outputs
 import meshes
 from oracle.state import ROW_WIDTH, chosen_rows, rows_of
 from packing import Grain, disc_packing

@@ -8,8 +8,8 @@ import numpy as np
 
 from case import main, require, require_close, require_equal
 from collisions import kinetic_energy
-from columns import outputs
 from deck import POISSON, YOUNG, Deck, Material, dump_grains, rayleigh_time, thermo
+from grainscope.columns import outputs
 from packing import DENSITY, Grain, Packing, number
 from ledger import LEDGER, LOSSES, TOTALS, UNDAMPED, account, turnover, with_ledger
 from run import run

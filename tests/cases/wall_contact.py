@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_equal
-from columns import outputs
 from deck import POISSON, YOUNG, Deck, Material, dump_grains, thermo
+from grainscope.columns import outputs
 from packing import Grain, Packing
 from walled import FLOOR, WALLS, area_of, boxed, cube, drum, flat, run_with_meshes
 

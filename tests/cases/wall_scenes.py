@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_equal, require_same_snapshots
-from columns import outputs
 from deck import POISSON, YOUNG, Deck, Material, dump_grains, thermo
+from grainscope.columns import outputs
 import meshes
 from packing import Grain, Packing, dense_packing
 from refusal import require_refused

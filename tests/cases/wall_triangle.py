@@ -3,8 +3,8 @@
 import numpy as np
 
 from case import main, require, require_close, require_equal
-from columns import outputs
 from deck import dump_local, thermo
+from grainscope.columns import outputs
 from walled import FLOOR, area_of, boxed, cube, flat, run_with_meshes
 
 OWN = outputs("wall/triangle")

@@ -7,8 +7,8 @@ import zlib
 
 from case import main, require
 from catalogue import DISPLACEMENT, strain_lines
-from columns import outputs
 from deck import Deck, thermo
+from grainscope.columns import outputs
 from packing import dense_packing
 from plates import bed, plated, press
 from refusal import require_refused

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from columns import outputs
+from grainscope.columns import outputs
 
 ROW_COLUMNS = {
     "id": 2,

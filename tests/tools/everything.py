@@ -19,8 +19,8 @@ from catalogue import (
     SURFACE,
     strain_lines,
 )
-from columns import outputs
 from deck import box_columns, dump_grains, dump_local, thermo
+from grainscope.columns import outputs
 from oracle.state import ROW_COLUMNS, ROW_WIDTH, grains_of, rows_of
 from watch import Watched, grain_columns
 

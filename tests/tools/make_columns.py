@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""tools/columns.json from the program: runs in which every style of ours says its outputs.
+"""tools/grainscope/columns.json from the program: runs in which every style of ours says its outputs.
 
 Usage: make_columns.py            # prints it
-       make_columns.py --write    # and writes tools/columns.json
+       make_columns.py --write    # and writes tools/grainscope/columns.json
 """
 import json
 from pathlib import Path
@@ -14,7 +14,7 @@ from packing import dense_packing
 from plates import bed, plated
 from run import run
 
-FILE = Path(__file__).resolve().parents[2] / "tools" / "columns.json"
+FILE = Path(__file__).resolve().parents[2] / "tools" / "grainscope" / "columns.json"
 # With every keyword that adds outputs.
 COMMANDS = {
     "stress/contact": "rows types",

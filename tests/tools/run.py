@@ -12,7 +12,7 @@ import time
 
 import numpy as np
 
-from open_mpi import Session
+from grainscope.open_mpi import Session
 
 # Seconds, against hangs alone: on a busy machine a run takes many times as long. tests/limits.cmake has it, and more
 # for what is long.

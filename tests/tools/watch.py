@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from deck import GRAIN_COLUMNS, SPHEROID_COLUMNS, Deck, box_columns, dump_grains, dump_local, number, thermo
+from grainscope.columns import outputs
 from oracle.state import ROW_WIDTH, Box, grains_of, rows_of
 from run import run
-from columns import outputs
 
 F_FLOW = outputs("press/strain").of("flow")
 

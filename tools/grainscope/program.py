@@ -4,11 +4,13 @@ installed."""
 from pathlib import Path
 import shutil
 
-TOP = Path(__file__).resolve().parents[1]  # of the source tree, or <prefix>/share/grainscope
+from grainscope.errors import InputError
+
+TOP = Path(__file__).resolve().parents[2]  # of the source tree, or <prefix>/share/grainscope
 NAME = "grainscope"
 
 
-class NoProgram(Exception):
+class NoProgram(InputError):
     """No program where one was looked for; the message names the places."""
 
 

@@ -1,17 +1,15 @@
-#!/usr/bin/python3
 """Pictures of simple-shear runs: series.png (what the flow does over strain) and dissipation.png (where its energy
 goes); of runs with `-var measure all` also the figures of the paper, fig02.png to fig18.png, and memory.png and
 layering.png."""
-import argparse
 from pathlib import Path
-import sys
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-from figure_style import RUN_COLOURS
-from paper_figures import draw_figures
-from shear_output import InputError, read_run
+from grainscope.errors import warn
+from grainscope.figures.paper import draw_figures
+from grainscope.figures.style import RUN_COLOURS
+from grainscope.shear.output import read_run
 
 NORMAL, FRICTION, INPUT = "#4477AA", "#EE9966", "#222222"
 PANELS = [
@@ -112,18 +110,14 @@ def plot_dissipation(runs, start, path):
 def draw_over_strain(runs, start, output):
     """series.png and dissipation.png, and their paths; neither when there are too many runs to tell apart."""
     if len(runs) > len(RUN_COLOURS):
-        print(
-            f"plot_shear.py: {len(runs)} runs; series.png and dissipation.png are drawn for up to {len(RUN_COLOURS)}",
-            file=sys.stderr,
-        )
+        warn(f"{len(runs)} runs; series.png and dissipation.png are drawn for up to {len(RUN_COLOURS)}")
         return []
     plot_series(runs, start, output / "series.png")
     plot_dissipation(runs, start, output / "dissipation.png")
     return [output / "series.png", output / "dissipation.png"]
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+def add_arguments(parser):
     parser.add_argument("run", nargs="+", help="output folder of a run (it holds series.txt and parameters.txt)")
     parser.add_argument("--output", default=".", metavar="FOLDER", help="where the pictures go (default: here)")
     parser.add_argument(
@@ -133,19 +127,14 @@ def main():
         metavar="STRAIN",
         help="where the steady state starts (default: 6, or 4 below I = 0.01, at most half the run)",
     )
-    arguments = parser.parse_args()
+
+
+def run(arguments):
     output = Path(arguments.output)
-    try:
-        output.mkdir(parents=True, exist_ok=True)
-        runs = [read_run(folder) for folder in arguments.run]
-        paths = draw_over_strain(runs, arguments.start, output)
-        measured = [run for run in runs if run.measured_all]
-        if measured:
-            paths += draw_figures(measured, arguments.start, output)
-    except (InputError, OSError) as error:
-        sys.exit(f"plot_shear.py: {error}")
+    output.mkdir(parents=True, exist_ok=True)
+    runs = [read_run(folder) for folder in arguments.run]
+    paths = draw_over_strain(runs, arguments.start, output)
+    measured = [run for run in runs if run.measured_all]
+    if measured:
+        paths += draw_figures(measured, arguments.start, output)
     print(*paths, sep="\n")
-
-
-if __name__ == "__main__":
-    main()

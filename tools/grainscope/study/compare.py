@@ -1,15 +1,11 @@
-#!/usr/bin/python3
 """Compares a study's table with what the paper published: comparison.csv and comparison.md, a row for each published
 number. A number agrees when it is within the tolerance (how well the paper's own can be read) and twice the standard
 error, a bound when it holds by more than twice the error; undecided where the error is too large to tell. Nothing is
 fitted to agree."""
-import sys
-
 import numpy as np
 
-from paper_values import PUBLISHED
-from shear_output import InputError
-from study_table import largest, over_seeds, read_study, study_parser, text, write_csv
+from grainscope.study.paper_values import PUBLISHED
+from grainscope.study.table import largest, over_seeds, read_study, study_arguments, text, write_csv
 
 NAMES = ["quantity", "value", "error", "published", "tolerance", "agrees", "source"]
 
@@ -65,16 +61,11 @@ def markdown(rows, untold):
     return "\n".join(lines) + "\n"
 
 
-def main():
-    arguments = study_parser(__doc__).parse_args()
-    try:
-        rows, untold = compare(over_seeds(read_study(arguments.study)))
-        arguments.output.mkdir(parents=True, exist_ok=True)
-        write_csv(arguments.output / "comparison.csv", NAMES, rows)
-        (arguments.output / "comparison.md").write_text(markdown(rows, untold))
-    except (InputError, OSError) as error:
-        sys.exit(f"compare_study.py: {error}")
+add_arguments = study_arguments
 
 
-if __name__ == "__main__":
-    main()
+def run(arguments):
+    rows, untold = compare(over_seeds(read_study(arguments.study)))
+    arguments.output.mkdir(parents=True, exist_ok=True)
+    write_csv(arguments.output / "comparison.csv", NAMES, rows)
+    (arguments.output / "comparison.md").write_text(markdown(rows, untold))

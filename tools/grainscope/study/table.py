@@ -1,16 +1,16 @@
-#!/usr/bin/python3
 """Collects runs of examples/simple_shear into tables: table.csv has a row for each run, the files in curves/ their
 profiles, and columns.csv tells the unit and meaning of every column. The figures, the fits and the comparison of a
 study are made from these alone."""
-import argparse
 import csv
 from pathlib import Path
 import sys
 
 import numpy as np
 
-from shear_measures import ALWAYS, CURVES, MEASURED, SERIES, SteadyRun, steady_run
-from shear_output import InputError, read_run, read_rows
+from grainscope.errors import InputError, warn
+from grainscope.shear.measures import ALWAYS, CURVES, MEASURED, SERIES, SteadyRun, steady_run
+from grainscope.shear.output import read_run
+from grainscope.tables import read_rows
 
 LONGEST = 40  # points of a curve that are kept, up to twice as many
 TOLERANCE = 0.1  # of the inertial number reached, over its target; runs beyond it are flagged
@@ -38,7 +38,7 @@ MEANS = {**SERIES, **ALWAYS, **MEASURED}
 
 
 def cost_of(run):
-    """Columns of COST; those of the core time are missing if tools/run_shear.py did not write them."""
+    """Columns of COST; those of the core time are missing if `study run` did not write them."""
     costs = {
         "steps": run.parameters["steps"],
         "bytes": sum(path.stat().st_size for path in run.folder.rglob("*") if path.is_file()),
@@ -108,10 +108,9 @@ def write_tables(runs, output):
             print(f"\r{number} of {len(runs)} runs", end="" if number < len(runs) else "\n", file=sys.stderr)
     for row in rows:
         if row["flagged"]:
-            print(
-                f"study_table.py: {row['run']}: the inertial number is {row['I_reached']:.4g}, more than "
-                f"{100 * TOLERANCE:g} % off its target",
-                file=sys.stderr,
+            warn(
+                f"{row['run']}: the inertial number is {row['I_reached']:.4g}, more than {100 * TOLERANCE:g} % off its "
+                "target"
             )
     names = [name for name, _, _ in header()]
     (output / "curves").mkdir(parents=True, exist_ok=True)
@@ -159,7 +158,7 @@ def read_study(folder):
     try:
         runs = list(steady_runs(folder))
     except (KeyError, TypeError, ValueError) as error:
-        raise InputError(f"{folder}: its tables are not as study_table.py writes them: {error!r}") from None
+        raise InputError(f"{folder}: its tables are not as `study table` writes them: {error!r}") from None
     if not runs:
         raise InputError(f"{folder / 'table.csv'}: it holds no run")
     return runs
@@ -217,16 +216,13 @@ def largest(runs):
     return list(best.values())
 
 
-def study_parser(description):
-    """Parser of a tool that reads a study's tables and writes files."""
-    parser = argparse.ArgumentParser(description=description)
+def study_arguments(parser):
+    """Of a command that reads a study's tables and writes files."""
     parser.add_argument("study", help="folder of table.csv and curves")
     parser.add_argument("--output", default=".", type=Path, metavar="FOLDER", help="where the files go (default: here)")
-    return parser
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+def add_arguments(parser):
     parser.add_argument(
         "run",
         nargs="+",
@@ -236,16 +232,17 @@ def main():
     parser.add_argument(
         "--output", default=".", type=Path, metavar="FOLDER", help="where the tables go (default: here)"
     )
-    arguments = parser.parse_args()
+
+
+def folder_and_start(word):
+    """Of `folder` or `folder:strain`."""
+    folder, colon, start = word.partition(":")
     try:
-        pairs = [
-            (folder, float(start) if start else None)
-            for folder, _, start in (word.partition(":") for word in arguments.run)
-        ]
-        write_tables([(read_run(folder), start) for folder, start in pairs], arguments.output)
-    except (InputError, OSError, ValueError) as error:
-        sys.exit(f"study_table.py: {error}")
+        return folder, float(start) if colon else None
+    except ValueError:
+        raise InputError(f"run must be folder or folder:strain with a number, got '{word}'") from None
 
 
-if __name__ == "__main__":
-    main()
+def run(arguments):
+    pairs = map(folder_and_start, arguments.run)
+    write_tables([(read_run(folder), start) for folder, start in pairs], arguments.output)

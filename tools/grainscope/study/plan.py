@@ -4,8 +4,9 @@ cost."""
 from dataclasses import dataclass
 from itertools import product
 
-from cost_model import memory_of, seconds_of
-from program import NAME
+from grainscope.errors import InputError
+from grainscope.program import NAME
+from grainscope.study.cost_model import memory_of, seconds_of
 
 LISTS = ("alpha", "mu", "I", "N", "seed")
 NUMBERS = {"e": 0.1, "strain": 16.0, "steady": 6.0, "part": 0.125, "ranks": 1, "speed": 1.0}
@@ -14,7 +15,7 @@ WHOLE = ("N", "seed", "ranks")
 MAY_BE_ZERO = ("mu", "steady")
 
 
-class PlanError(Exception):
+class PlanError(InputError):
     """A configuration that is not what it should be; the message names the keyword, the requirement and the value."""
 
 

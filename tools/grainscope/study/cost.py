@@ -1,14 +1,9 @@
-#!/usr/bin/python3
 """Cost of a study's runs, as they were measured, and of the paper's whole grid and of a million grains by the cost
 model: Markdown tables."""
-import argparse
-import sys
-
 import numpy as np
 
-from cost_model import PAPER, classical_cost_of_grid, cost_of_grid, memory_of, seconds_of, step_seconds
-from shear_output import InputError
-from study_table import read_study
+from grainscope.study.cost_model import PAPER, classical_cost_of_grid, cost_of_grid, memory_of, seconds_of, step_seconds
+from grainscope.study.table import read_study
 
 
 def measured(runs):
@@ -76,14 +71,12 @@ def scaled(grains=1_000_000, alpha=1.5, inertial=0.1, strain=16):
     return rows
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+def add_arguments(parser):
     parser.add_argument("study", help="folder of table.csv and curves")
-    arguments = parser.parse_args()
-    try:
-        runs = read_study(arguments.study)
-    except InputError as error:
-        sys.exit(f"cost_study.py: {error}")
+
+
+def run(arguments):
+    runs = read_study(arguments.study)
     hours = sum(run.parameters.get("core_time", 0.0) for run in runs) / 3600
     print(
         *measured(runs),
@@ -95,7 +88,3 @@ def main():
         *scaled(),
         sep="\n",
     )
-
-
-if __name__ == "__main__":
-    main()

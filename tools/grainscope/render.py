@@ -1,12 +1,9 @@
-#!/usr/bin/python3
 """Picture of the grains of a dump by POV-Ray: true ellipsoids in the sheared box, coloured by how far each is turned
 out of the flow (the x axis). The angle is that of the long axis of a prolate grain, of the flat plane of an oblate
 one. Spheres are grey."""
-import argparse
 from dataclasses import replace
 from pathlib import Path
 import subprocess
-import sys
 import tempfile
 
 import matplotlib
@@ -15,7 +12,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from shear_output import InputError, read_grains
+from grainscope.errors import InputError
+from grainscope.grains import read_grains
 
 SCENE = """#version 3.7;
 global_settings {{ assumed_gamma 1.0
@@ -206,8 +204,7 @@ def save_with_legend(pixels, colormap, path, label):
     plt.close(figure)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+def add_arguments(parser):
     parser.add_argument(
         "dump",
         help="text dump with columns id x y z quat1-4 shapex-z, of spheres x y z radius (the last snapshot is drawn)",
@@ -219,30 +216,25 @@ def main():
     parser.add_argument("--up", choices=("y", "z"), default="y", help="what is up in the picture (default: y)")
     parser.add_argument("--bare", action="store_true", help="the grains alone, without box and arrows of the flow")
     parser.add_argument("--scene", metavar="FILE", help="also keep the POV-Ray scene here")
-    arguments = parser.parse_args()
+
+
+def run(arguments):
     if arguments.width < 100:
-        parser.error(f"--width must be at least 100, got {arguments.width}")
+        raise InputError(f"--width must be at least 100, got {arguments.width}")
     if arguments.colormap not in plt.colormaps():
-        parser.error(f"--colormap must be one of matplotlib's, got '{arguments.colormap}'")
-    try:
-        grains = read_grains(arguments.dump)
-        angles = angle_to_flow(grains)
-        if arguments.up == "z":
-            grains = with_z_upwards(grains)
-        if arguments.bare:
-            grains = in_the_smallest_box(grains)
-        colormap = None if angles is None else plt.get_cmap(arguments.colormap)
-        colours = np.full((len(grains.positions), 3), 0.75) if angles is None else colormap(angles / 90.0)
-        scene = describe_scene(grains, colours, 4 / 3, arguments.bare)
-        if arguments.scene:
-            Path(arguments.scene).write_text(scene)
-        pixels = run_povray(scene, arguments.width, arguments.width * 3 // 4, arguments.threads)
-        label = "angle to x" if arguments.bare else "angle to the flow"
-        save_with_legend(pixels, colormap, arguments.output, label)
-    except (InputError, OSError) as error:
-        sys.exit(f"render_grains.py: {error}")
+        raise InputError(f"--colormap must be one of matplotlib's, got '{arguments.colormap}'")
+    grains = read_grains(arguments.dump)
+    angles = angle_to_flow(grains)
+    if arguments.up == "z":
+        grains = with_z_upwards(grains)
+    if arguments.bare:
+        grains = in_the_smallest_box(grains)
+    colormap = None if angles is None else plt.get_cmap(arguments.colormap)
+    colours = np.full((len(grains.positions), 3), 0.75) if angles is None else colormap(angles / 90.0)
+    scene = describe_scene(grains, colours, 4 / 3, arguments.bare)
+    if arguments.scene:
+        Path(arguments.scene).write_text(scene)
+    pixels = run_povray(scene, arguments.width, arguments.width * 3 // 4, arguments.threads)
+    label = "angle to x" if arguments.bare else "angle to the flow"
+    save_with_legend(pixels, colormap, arguments.output, label)
     print(arguments.output)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,21 +1,17 @@
-#!/usr/bin/python3
 """Pictures of the csv files of fix field/write. With one resolved axis profiles, a panel for each column or vector, a
 line for each file, errors as bands; with two maps, a row for each file; of three a slice."""
-import argparse
 from pathlib import Path
 import re
-import sys
 
-import figure_style  # noqa: F401
+from grainscope.figures.style import RUN_COLOURS as COLOURS, save
 import matplotlib.pyplot as plt
 from matplotlib.animation import PillowWriter
 from matplotlib.colors import Normalize
 import numpy as np
 
-from field_table import panels, read_fields
-from shear_output import InputError
+from grainscope.errors import InputError
+from grainscope.fields import panels, read_fields
 
-COLOURS = figure_style.RUN_COLOURS
 STYLES = ["-", "--", ":", "-.", (0, (5, 1)), (0, (1, 1)), (0, (3, 1, 1, 1)), (0, (8, 3)), (0, (1, 4))]
 MOST_ARROWS, MOST_MAPS = 24, 60
 
@@ -219,39 +215,32 @@ def cut(fields, word, vectors=None):
     return fields
 
 
-def parse():
-    parser = argparse.ArgumentParser(description=__doc__)
+def add_arguments(parser):
     parser.add_argument("file", nargs="+", help="csv file of fix field/write; several are of one grid at several steps")
     parser.add_argument("--columns", nargs="+", metavar="NAME", help="v_x, or v for all its components (default: all)")
     parser.add_argument("--slice", metavar="AXIS=K", help="the layer K (from 0) of cells along an axis, as z=3")
     parser.add_argument("--vectors", metavar="NAME", help="arrows of this vector on maps, as v")
-    parser.add_argument("--out", metavar="FILE", help="the picture of all files, .png or .pdf")
+    parser.add_argument("--output", metavar="FILE", help="the picture of all files, .png or .pdf")
     parser.add_argument("--animate", metavar="FILE", help="a .gif of the files in the order of their steps")
     parser.add_argument("--rate", type=float, default=8.0, help="files in a second of --animate (default: 8)")
-    arguments = parser.parse_args()
-    if not arguments.out and not arguments.animate:
-        parser.error("--out or --animate must name a file to write")
-    for name, endings in (("out", (".png", ".pdf")), ("animate", (".gif",))):
+
+
+def check(arguments):
+    if not arguments.output and not arguments.animate:
+        raise InputError("--output or --animate must name a file to write")
+    for name, endings in (("output", (".png", ".pdf")), ("animate", (".gif",))):
         path = getattr(arguments, name)
         if path and Path(path).suffix not in endings:
-            parser.error(f"--{name} must end in {' or '.join(endings)}, got '{path}'")
+            raise InputError(f"--{name} must end in {' or '.join(endings)}, got '{path}'")
     if not 0 < arguments.rate <= 50:
-        parser.error(f"--rate must be above 0 and at most 50, got {arguments.rate:g}")
-    return arguments
+        raise InputError(f"--rate must be above 0 and at most 50, got {arguments.rate:g}")
 
 
-def main():
-    arguments = parse()
-    try:
-        fields = cut(read_fields(arguments.file), arguments.slice, arguments.vectors)
-        if arguments.out:
-            figure_style.save(draw(fields, arguments.columns, arguments.vectors), arguments.out)
-        if arguments.animate:
-            animate(fields, arguments.animate, arguments.columns, arguments.vectors, arguments.rate)
-    except (InputError, OSError) as error:
-        sys.exit(f"plot_field.py: {error}")
-    print(*filter(None, (arguments.out, arguments.animate)), sep="\n")
-
-
-if __name__ == "__main__":
-    main()
+def run(arguments):
+    check(arguments)
+    fields = cut(read_fields(arguments.file), arguments.slice, arguments.vectors)
+    if arguments.output:
+        save(draw(fields, arguments.columns, arguments.vectors), arguments.output)
+    if arguments.animate:
+        animate(fields, arguments.animate, arguments.columns, arguments.vectors, arguments.rate)
+    print(*filter(None, (arguments.output, arguments.animate)), sep="\n")

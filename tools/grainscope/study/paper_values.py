@@ -6,8 +6,8 @@ from typing import Callable
 
 import numpy as np
 
-from fits import FitError, power_law
-from grid_fits import (
+from grainscope.fits import FitError, power_law
+from grainscope.study.grid_fits import (
     critical_values,
     crossovers,
     kinds,

@@ -5,8 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fits import fit_decay
-from shear_output import InputError, mean_and_error, read_blocks, read_grains, read_table
+from grainscope.errors import InputError
+from grainscope.fits import fit_decay
+from grainscope.grains import read_grains
+from grainscope.means import mean_and_error
+from grainscope.shear.output import read_blocks, read_table
 
 # Name of each mean, its unit, and what it is. Powers are over W0 = rate x target pressure x volume.
 SERIES = {

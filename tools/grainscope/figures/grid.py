@@ -4,7 +4,7 @@ size). Each takes the steady runs and a path."""
 import matplotlib.pyplot as plt
 import numpy as np
 
-from figure_style import (
+from grainscope.figures.style import (
     friction_colour,
     friction_label,
     log_scale,
@@ -16,7 +16,7 @@ from figure_style import (
     shape_ratio,
     values_of,
 )
-from grid_fits import critical_values, crossovers, kinds, sizes
+from grainscope.study.grid_fits import critical_values, crossovers, kinds, sizes
 
 
 def note(figure, text):

@@ -1,13 +1,10 @@
-#!/usr/bin/python3
 """Summary of simple-shear runs: steady means with statistical errors, the inertial number reached, energy in against
 energy out."""
-import argparse
-import sys
-
 import numpy as np
 
-from shear_measures import steady_run
-from shear_output import InputError, mean_and_error, read_run
+from grainscope.means import mean_and_error
+from grainscope.shear.measures import steady_run
+from grainscope.shear.output import read_run
 
 # Column, title, factor
 ROWS = [
@@ -84,11 +81,10 @@ def summary(run, start=None):
     return cells
 
 
-def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__,
-        epilog="Powers are over rate x target pressure x volume. The inertial number "
-        "is that of the mean pressure. Errors: one standard deviation, by blocking.",
+def add_arguments(parser):
+    parser.epilog = (
+        "Powers are over rate x target pressure x volume. The inertial number is that of the mean pressure. Errors: "
+        "one standard deviation, by blocking."
     )
     parser.add_argument("run", nargs="+", help="output folder of a run (it holds series.txt and parameters.txt)")
     parser.add_argument(
@@ -98,18 +94,13 @@ def main():
         metavar="STRAIN",
         help="where the steady state starts (default: 6, or 4 below I = 0.01, at most half the run)",
     )
-    arguments = parser.parse_args()
-    try:
-        runs = [read_run(folder) for folder in arguments.run]
-        tables = [summary(run, arguments.start) for run in runs]
-        if any(run.measured_all for run in runs):
-            tables = [table + measured(run, arguments.start) for table, run in zip(tables, runs)]
-    except InputError as error:
-        sys.exit(f"summarise_shear.py: {error}")
+
+
+def run(arguments):
+    runs = [read_run(folder) for folder in arguments.run]
+    tables = [summary(run, arguments.start) for run in runs]
+    if any(run.measured_all for run in runs):
+        tables = [table + measured(run, arguments.start) for table, run in zip(tables, runs)]
     print(" " * 32 + "".join(f" {run.name:>22}" for run in runs))
     for cells in zip(*tables):
         print(f"{cells[0][0]:<32}" + "".join(f" {text:>22}" for _, text in cells))
-
-
-if __name__ == "__main__":
-    main()

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """Runs examples/simple_shear, or takes up what an earlier attempt left in the output folder: one that was killed, or
 one that ended at a smaller strain. Screen output goes to screen.txt there, one attempt after the other, the variables
 to variables.txt, and what each attempt that ended cost to cost.txt. Ends with an error, and the reason that the run
@@ -8,13 +7,13 @@ import fcntl
 import os
 from pathlib import Path
 import subprocess
-import sys
 import time
 
-from open_mpi import session
-from program import NoProgram, find_program
+from grainscope.errors import InputError, warn
+from grainscope.open_mpi import session
+from grainscope.program import find_program
 
-DECK = Path(__file__).resolve().parents[1] / "examples" / "simple_shear" / "in.simple_shear"
+DECK = Path(__file__).resolve().parents[3] / "examples" / "simple_shear" / "in.simple_shear"
 NONE_WHOLE = "ERROR: read_restart: '"
 STOPPED = 3
 MAY_CHANGE = ("strain", "steady")
@@ -52,15 +51,15 @@ def check_variables(arguments):
         return
     begun, asked = dict(line.split("=", 1) for line in path.read_text().splitlines()), dict(arguments.variables)
     if "part" not in asked and plain(begun.get("strain")) != plain(asked.get("strain")):
-        sys.exit(
-            f"run_shear.py: {arguments.out}: part must be named from the first attempt on for strain to change, from "
+        raise InputError(
+            f"part must be named from the first attempt on for strain to change, from "
             f"{begun.get('strain', 'the default')} to {asked.get('strain', 'the default')} here: its default "
             "depends on strain"
         )
     for name in sorted((begun.keys() | asked.keys()) - set(MAY_CHANGE)):
         if plain(begun.get(name)) != plain(asked.get(name)):
-            sys.exit(
-                f"run_shear.py: {arguments.out}: {name} must stay what the run began with, "
+            raise InputError(
+                f"{name} must stay what the run began with, "
                 f"{begun.get(name, 'the default')}, "
                 f"got {asked.get(name, 'the default')}; use another folder, or remove this one to start again"
             )
@@ -107,11 +106,7 @@ def lock(out):
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
-        print(
-            f"run_shear.py: {out}: another attempt writes to this folder, waiting for its end",
-            file=sys.stderr,
-            flush=True,
-        )
+        warn(f"{out}: another attempt writes to this folder, waiting for its end")
         fcntl.flock(file, fcntl.LOCK_EX)
     return file
 
@@ -151,8 +146,7 @@ def variable(text):
     return name, value
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+def add_arguments(parser):
     parser.add_argument("out", type=Path, help="output folder of the run")
     parser.add_argument(
         "variables", nargs="+", type=variable, metavar="name=value", help="variables of the deck, such as alpha=1.5"
@@ -161,33 +155,32 @@ def main():
         "--binary", help="the program (default: grainscope of this source tree, beside the installed tools, or on PATH)"
     )
     parser.add_argument("--ranks", type=int, default=1, help="MPI ranks (default: 1, without mpirun)")
-    arguments = parser.parse_args()
+
+
+def run(arguments):
     try:
-        arguments.binary = arguments.binary or str(find_program())
-        arguments.out.mkdir(parents=True, exist_ok=True)
-        locked = lock(arguments.out)
-        files = list(arguments.out.glob("*.restart"))
-        if files:
-            check_variables(arguments)
-            reached = strain_reached(arguments.out)
-            if reached >= float(dict(arguments.variables).get("strain", "inf")):
-                print(f"run_shear.py: {arguments.out}: ended at strain {reached:g} before, nothing to do")
-                return
-        write_variables(arguments)
-        status, output = attempt(arguments, bool(files), locked)
-        if status and len(files) == 1 and NONE_WHOLE in output:
-            print(
-                f"run_shear.py: {arguments.out}: the first restart file was not whole yet, starting again",
-                file=sys.stderr,
-            )
-            status, output = attempt(arguments, False, locked)
-    except (OSError, ValueError, NoProgram) as error:
-        sys.exit(f"run_shear.py: {arguments.out}: {error}")
+        begin_or_go_on(arguments)
+    except (InputError, OSError, ValueError) as error:
+        raise InputError(f"{arguments.out}: {error}") from None
+
+
+def begin_or_go_on(arguments):
+    arguments.binary = arguments.binary or str(find_program())
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    locked = lock(arguments.out)
+    files = list(arguments.out.glob("*.restart"))
+    if files:
+        check_variables(arguments)
+        reached = strain_reached(arguments.out)
+        if reached >= float(dict(arguments.variables).get("strain", "inf")):
+            print(f"{arguments.out}: ended at strain {reached:g} before, nothing to do")
+            return
+    write_variables(arguments)
+    status, output = attempt(arguments, bool(files), locked)
+    if status and len(files) == 1 and NONE_WHOLE in output:
+        warn(f"{arguments.out}: the first restart file was not whole yet, starting again")
+        status, output = attempt(arguments, False, locked)
     if status:
         reason = [line for line in output.splitlines() if line.startswith("ERROR")] or output.splitlines()[-1:]
         how = f"killed by signal {-status}" if status < 0 else f"exit status {status}"
-        sys.exit(f"run_shear.py: {arguments.out}: {how}: {' '.join(reason)}")
-
-
-if __name__ == "__main__":
-    main()
+        raise InputError(f"{how}: {' '.join(reason)}")

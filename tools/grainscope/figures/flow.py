@@ -5,7 +5,7 @@ from matplotlib.colors import TwoSlopeNorm
 import matplotlib.pyplot as plt
 import numpy as np
 
-from figure_style import (
+from grainscope.figures.style import (
     curves_by_inertia,
     curves_by_shape,
     friction_colour,
@@ -20,7 +20,7 @@ from figure_style import (
     values_of,
     with_value,
 )
-from fits import FitError, fit_fraction_law, fit_friction_law, fraction_law, friction_law, power_law
+from grainscope.fits import FitError, fit_fraction_law, fit_friction_law, fraction_law, friction_law, power_law
 
 SHAPE_RATIO = r"shape ratio $r_g$"
 INERTIA = r"inertial number $I$"

@@ -1,4 +1,4 @@
-"""Reads the csv files of fix field/write: quantities in the cells of a grid at one step. Used by plot_field.py."""
+"""Reads the csv files of fix field/write: quantities in the cells of a grid at one step."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -6,7 +6,8 @@ import re
 
 import numpy as np
 
-from shear_output import InputError, numbers
+from grainscope.errors import InputError
+from grainscope.tables import numbers
 
 COORDINATES = (("x", "y", "z"), ("r", "t", "a"))  # of a box, and of rings about an axis
 ERROR = "_error"

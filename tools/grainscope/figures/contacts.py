@@ -6,7 +6,7 @@ from matplotlib.ticker import NullFormatter
 import matplotlib.pyplot as plt
 import numpy as np
 
-from figure_style import (
+from grainscope.figures.style import (
     curves_by_shape,
     friction_grid,
     legible,
@@ -16,7 +16,7 @@ from figure_style import (
     shape_marker,
     values_of,
 )
-from fits import fit_decay
+from grainscope.fits import fit_decay
 
 
 def label_of(m, measures):

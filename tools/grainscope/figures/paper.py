@@ -1,10 +1,10 @@
 """The figures of Bilotto, Trulsson & Molinari (2025) for steady runs of examples/simple_shear with `measure all`, by
 file name."""
 
-import contact_figures as contacts
-import flow_figures as flow
-import grid_figures as grid
-from shear_measures import steady_run
+from grainscope.figures import contacts
+from grainscope.figures import flow
+from grainscope.figures import grid
+from grainscope.shear.measures import steady_run
 
 FIGURES = {
     "fig02.png": flow.orientation,

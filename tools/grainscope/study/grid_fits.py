@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fits import FitError, crossing, fit_fraction_law, fit_friction_law, power_law
+from grainscope.fits import FitError, crossing, fit_fraction_law, fit_friction_law, power_law
 
 FEWEST = 4  # runs over the inertial number for the laws of Eqs. 5 and 6; power laws take three
 ROUND = 1.2  # shapes rounder than this are beyond the crossover of Fig. 4 and left out of its power laws

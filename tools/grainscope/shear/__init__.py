@@ -1,0 +1,1 @@
+"""Runs of examples/simple_shear: their files, and their steady state."""

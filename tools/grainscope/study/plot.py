@@ -1,0 +1,31 @@
+"""Draws figures of the paper from a study's tables (those that `study table` writes); no run is needed."""
+from grainscope.errors import InputError
+from grainscope.figures.paper import FIGURES, GRID_FIGURES, sorted_runs
+from grainscope.study.plan import figures_of
+from grainscope.study.table import largest, over_seeds, read_study, study_arguments
+
+ALL = {**FIGURES, **GRID_FIGURES}
+
+
+def draw(runs, name, path):
+    """Figure `name` of the steady runs; for all but the finite-size figure the largest of several systems counts."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    ALL[name](sorted_runs(runs if name == "fig14.png" else largest(runs)), path)
+
+
+def add_arguments(parser):
+    study_arguments(parser)
+    parser.add_argument(
+        "figure", nargs="*", help=f"which: {', '.join(sorted(ALL))} (default: all that the runs can give)"
+    )
+
+
+def run(arguments):
+    unknown = [name for name in arguments.figure if name not in ALL]
+    if unknown:
+        raise InputError(f"figure must be one of {', '.join(sorted(ALL))}, got '{unknown[0]}'")
+    runs = over_seeds(read_study(arguments.study))
+    measure = "all" if all(run.measured_all for run in runs) else "basic"
+    for name in arguments.figure or figures_of(measure):
+        draw(runs, name, arguments.output / name)
+        print(arguments.output / name)
