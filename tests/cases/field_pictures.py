@@ -242,7 +242,7 @@ def groups_and_columns(ranks):
     figure = draw([field])
     require(titles(figure) == expected, f"{titles(figure)}")
     for word in ("rhoo", "Q_x", ""):
-        refused(lambda: panels(field, [word]), "--columns", f"'{word}'", "a.csv", "T_x, T_y, T_z, T")
+        refused(lambda: panels(field, [word]), f"no column '{word}'", "a.csv", "T_x, T_y, T_z, T")
 
 
 def not_finite(ranks):
@@ -296,7 +296,7 @@ def command_line(ranks):
     """Files of each kind, and the words of refusals."""
     paths = [write(f"{step}.csv", (4, 3, 1), step=step, errors=True) for step in (0, 10)]
     picture, page, film = (paths[0].with_suffix(ending) for ending in (".png", ".pdf", ".gif"))
-    choice = ["--columns", "rho", "v_x", "--vectors", "v"]
+    choice = ["rho", "v_x", "--vectors", "v"]
     code, said = asked(*paths, *choice, "--output", picture, "--animate", film)
     require(code == 0 and said.split() == [str(picture), str(film)], said)
     code, said = asked(*paths, *choice, "--output", page)
@@ -308,7 +308,7 @@ def command_line(ranks):
         (["--output", "a.jpg"], "--output must end in .png or .pdf, got 'a.jpg'"),
         (["--animate", "a.mp4"], "--animate must end in .gif, got 'a.mp4'"),
         (["--animate", "a.gif", "--rate", 0], "--rate must be above 0"),
-        (["--output", picture, "--columns", "rhoo"], "--columns must be columns of"),
+        (["--output", picture, "rhoo"], "no column 'rhoo'; nearest: rho"),
         (["--output", picture, "--slice", "z=1"], "--slice must be one of the layers"),
         (["--output", picture.parent / "none" / "a.png"], "No such file or directory"),
     ):

@@ -28,7 +28,12 @@ class Command(NamedTuple):
 DRAWS = ("numpy", "matplotlib")
 FITS = ("numpy", "scipy")
 COMMANDS = {
-    "rows": Command("rows", "draws profiles and maps of fix field/write", DRAWS),
+    "plot": Command(
+        "plot", "draws files of fix ave/time, and prints steady means with their errors", DRAWS + ("pandas",)
+    ),
+    "rows": Command(
+        "rows", "draws profiles and maps: fix field/write, fix ave/time mode vector, fix ave/spatial", DRAWS
+    ),
     "render": Command("render", "draws the grains of a dump, by POV-Ray", DRAWS),
     "summarise": Command("shear.summarise", "prints steady means of simple-shear runs, with errors", FITS),
     "figures": Command(
@@ -112,7 +117,7 @@ def main(words):
     parser = argparse.ArgumentParser(prog=f"{PROGRAM} {name}", description=module.__doc__)
     module.add_arguments(parser)
     try:
-        module.run(parser.parse_args(words))
+        module.run(parser.parse_intermixed_args(words))
     except (InputError, OSError) as error:
         sys.exit(f"{PROGRAM} {name}: {error}")
     except KeyboardInterrupt:

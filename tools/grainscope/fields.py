@@ -1,4 +1,5 @@
-"""Reads the csv files of fix field/write: quantities in the cells of a grid at one step."""
+"""Quantities in the cells of a grid at one step: reads the csv files of fix field/write, and the tables of fix ave/time
+mode vector and of fix ave/spatial, whose rows are cells along one axis."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -6,8 +7,8 @@ import re
 
 import numpy as np
 
-from grainscope.errors import InputError
-from grainscope.tables import numbers
+from grainscope.errors import InputError, warn
+from grainscope.tables import blocks, lines_of, no_column, numbers, read_rows
 
 COORDINATES = (("x", "y", "z"), ("r", "t", "a"))  # of a box, and of rings about an axis
 ERROR = "_error"
@@ -24,10 +25,13 @@ class Field:
     time: float
     cells: tuple  # along x, y, z
     columns: dict
+    along: str = ""  # the column that is the only coordinate, of a table
 
     @property
     def coordinates(self):
-        """Names of the three coordinates of the cells."""
+        """Names of the coordinates of the cells."""
+        if self.along:
+            return (self.along,)
         for names in COORDINATES:
             if all(name in self.columns for name in names):
                 return names
@@ -41,6 +45,8 @@ class Field:
     @property
     def quantities(self):
         """Names of what is measured: neither coordinates, nor the size of cells, nor errors."""
+        if self.along:
+            return [name for name in list(self.columns)[1:] if name != self.along]
         errors = {name + ERROR for name in self.columns}
         return [name for name in self.columns if name not in errors | {*self.coordinates, "V"}]
 
@@ -59,7 +65,7 @@ class Field:
 
     def seen(self, name):
         """The same to be drawn: nan where it means nothing."""
-        if "N" not in self.columns or not OF_GRAINS.fullmatch(name):
+        if self.along or "N" not in self.columns or not OF_GRAINS.fullmatch(name):
             return self[name]
         return np.where(self["N"] > 0, self[name], np.nan)
 
@@ -73,15 +79,6 @@ class Field:
         columns = {one: np.take(values, [k], axis=2 - place) for one, values in self.columns.items()}
         cells = tuple(1 if n == place else count for n, count in enumerate(self.cells))
         return Field(self.path, self.step, self.time, cells, columns)
-
-
-def lines_of(path):
-    try:
-        return Path(path).read_text().splitlines()
-    except OSError as error:
-        raise InputError(f"{path}: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise InputError(f"{path}: not a text file") from None
 
 
 def read_notes(path, lines):
@@ -113,12 +110,58 @@ def read_field(path):
     return Field(Path(path), step, time, cells, {name: values[..., k] for k, name in enumerate(names)})
 
 
-def read_fields(paths):
-    """All files in the order of their steps; of one grid, with the same columns."""
-    fields = sorted(map(read_field, paths), key=lambda field: field.step)
+def read_tables(path, along=None):
+    """The tables of fix ave/time mode vector or fix ave/spatial, over a column: their first one, or `along`."""
+    names, _, rows = read_rows(path)
+    along = along or names[0]
+    if along not in names:
+        raise no_column(path, along, names)
+    if not "".join(rows[0][1:2]).isdigit():
+        raise InputError(
+            f"{path}: each table must have a line 'step rows' before it; a row for each step is for `plot`"
+        )
+    found = []
+    for step, length, table in blocks(path, rows, lambda row: 1 + int(row[1])):
+        if len(table) < length:
+            warn(f"{path}: the table of step {step} is incomplete and left out")
+        elif length > 1:
+            values = numbers(path, table[1:], names)
+            columns = {name: values[None, None, :, k] for k, name in enumerate(names)}
+            found.append(Field(Path(path), step, np.nan, (length - 1, 1, 1), columns, along))
+    if not found:
+        raise InputError(f"{path}: no table is complete")
+    return found
+
+
+def is_csv(path):
+    """Whether it is of fix field/write."""
+    return any("," in line for line in lines_of(path) if not line.startswith("#"))
+
+
+def read_all(paths, along):
+    """The fields of all files, which are of one kind."""
+    csv = [is_csv(path) for path in paths]
+    if all(csv):
+        if along:
+            raise InputError(
+                f"--against is for tables of fix ave/time, got '{along}' for {paths[0]} of fix field/write"
+            )
+        return [read_field(path) for path in paths]
+    if any(csv):
+        raise InputError(
+            "all files must be of fix field/write, or none; "
+            f"{paths[csv.index(True)]} is, {paths[csv.index(False)]} is not"
+        )
+    return [field for path in paths for field in read_tables(path, along)]
+
+
+def read_fields(paths, along=None):
+    """All fields in the order of their steps; of one grid, with the same columns. `along`: of tables, the column that
+    they run over."""
+    fields = sorted(read_all(paths, along), key=lambda field: field.step)
     first = fields[0]
     for field in fields[1:]:
-        if field.cells != first.cells:
+        if not field.along and field.cells != first.cells:
             raise InputError(
                 f"all files must have the same cells: {first.path}: {first.size}; {field.path}: {field.size}"
             )
@@ -131,6 +174,8 @@ def read_fields(paths):
 
 def components(field, prefix):
     """The columns <prefix>_<one or two coordinates>."""
+    if field.along:
+        return []
     axes = "".join(field.coordinates)
     return [name for name in field.columns if re.fullmatch(rf"{re.escape(prefix)}_[{axes}]{{1,2}}", name)]
 
@@ -138,6 +183,8 @@ def components(field, prefix):
 def prefix_of(field, name):
     """What the components of a vector or a tensor have in common; None of other columns, and where a column is called
     so."""
+    if field.along:
+        return None
     found = re.fullmatch(rf"(.+)_[{''.join(field.coordinates)}]{{1,2}}", name)
     return found[1] if found and found[1] not in field.columns and len(components(field, found[1])) > 1 else None
 
@@ -152,6 +199,6 @@ def panels(field, words=None):
     for word in words:
         names = [word] if word in field.columns else components(field, word)
         if not names:
-            raise InputError(f"--columns must be columns of {field.path}, got '{word}'; {field.has}")
+            raise no_column(field.path, word, list(field.columns))
         found.append((word, names))
     return found

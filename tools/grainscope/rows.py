@@ -1,9 +1,12 @@
-"""Pictures of the csv files of fix field/write. With one resolved axis profiles, a panel for each column or vector, a
-line for each file, errors as bands; with two maps, a row for each file; of three a slice."""
+"""Draws files of fix field/write (csv): profiles of a grid with one resolved axis, with errors as bands; maps of one
+with two, a row for each file; slices of one with three. Draws tables of fix ave/time mode vector and of fix
+ave/spatial as profiles, a line for each step. A panel is for a column, or for a vector by what its components have in
+common."""
 from pathlib import Path
 import re
 
 from grainscope.figures.style import RUN_COLOURS as COLOURS, save
+from grainscope.tables import files_and_columns
 import matplotlib.pyplot as plt
 from matplotlib.animation import PillowWriter
 from matplotlib.colors import Normalize
@@ -16,8 +19,11 @@ STYLES = ["-", "--", ":", "-.", (0, (5, 1)), (0, (1, 1)), (0, (3, 1, 1, 1)), (0,
 MOST_ARROWS, MOST_MAPS = 24, 60
 
 
-def label_of(field):
-    return f"step {field.step}, t = {field.time:g}"
+def label_of(field, several=False):
+    """Step and time; of tables the step, and the file where there are `several`."""
+    if not field.along:
+        return f"step {field.step}, t = {field.time:g}"
+    return f"{field.path}, step {field.step}" if several else f"step {field.step}"
 
 
 def line_colours(number):
@@ -70,7 +76,8 @@ def draw_profiles(figure, shown, fields, groups):
     else:
         lines = [plt.Line2D([], [], color=colour) for colour in line_colours(len(shown))]
         kept = range(len(shown)) if len(shown) <= 10 else [0, len(shown) - 1]
-        labels = [label_of(shown[k]) for k in kept]
+        several = len({field.path for field in shown}) > 1
+        labels = [label_of(shown[k], several) for k in kept]
         figure.legend([lines[k] for k in kept], labels, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=3)
 
 
@@ -139,7 +146,7 @@ def draw_maps(figure, shown, fields, groups, vectors):
     names = [name for _, group in groups for name in group]
     if len(names) * len(shown) > MOST_MAPS:
         raise InputError(
-            f"{len(shown)} files of {len(names)} columns are more than {MOST_MAPS} maps: choose by --columns"
+            f"{len(shown)} files of {len(names)} columns are more than {MOST_MAPS} maps: name some columns"
         )
     axes = figure.subplots(len(shown), len(names), squeeze=False)
     for row, field in zip(axes, shown):
@@ -216,8 +223,17 @@ def cut(fields, word, vectors=None):
 
 
 def add_arguments(parser):
-    parser.add_argument("file", nargs="+", help="csv file of fix field/write; several are of one grid at several steps")
-    parser.add_argument("--columns", nargs="+", metavar="NAME", help="v_x, or v for all its components (default: all)")
+    parser.add_argument("file", help="file of fix field/write, fix ave/time mode vector or fix ave/spatial")
+    parser.add_argument(
+        "more",
+        nargs="*",
+        metavar="file or column",
+        help="more files, of the same grid at other steps, and names of columns: v_x, or v for all its components "
+        "(default: all)",
+    )
+    parser.add_argument(
+        "--against", metavar="COLUMN", help="of tables, what profiles are drawn over (default: the first column)"
+    )
     parser.add_argument("--slice", metavar="AXIS=K", help="the layer K (from 0) of cells along an axis, as z=3")
     parser.add_argument("--vectors", metavar="NAME", help="arrows of this vector on maps, as v")
     parser.add_argument("--output", metavar="FILE", help="the picture of all files, .png or .pdf")
@@ -238,9 +254,10 @@ def check(arguments):
 
 def run(arguments):
     check(arguments)
-    fields = cut(read_fields(arguments.file), arguments.slice, arguments.vectors)
+    files, columns = files_and_columns(arguments.file, arguments.more)
+    fields = cut(read_fields(files, arguments.against), arguments.slice, arguments.vectors)
     if arguments.output:
-        save(draw(fields, arguments.columns, arguments.vectors), arguments.output)
+        save(draw(fields, columns, arguments.vectors), arguments.output)
     if arguments.animate:
-        animate(fields, arguments.animate, arguments.columns, arguments.vectors, arguments.rate)
+        animate(fields, arguments.animate, columns, arguments.vectors, arguments.rate)
     print(*filter(None, (arguments.output, arguments.animate)), sep="\n")

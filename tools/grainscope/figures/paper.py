@@ -4,6 +4,7 @@ file name."""
 from grainscope.figures import contacts
 from grainscope.figures import flow
 from grainscope.figures import grid
+from grainscope.progress import progress
 from grainscope.shear.measures import steady_run
 
 FIGURES = {
@@ -33,9 +34,7 @@ def sorted_runs(measures):
 
 def draw_figures(runs, start, output):
     """Draws all figures of the runs that measured everything, sorted by shape; the paths."""
-    measures = sorted_runs(steady_run(run, start) for run in runs)
-    paths = []
-    for name, draw in FIGURES.items():
-        draw(measures, output / name)
-        paths.append(output / name)
-    return paths
+    measures = sorted_runs(steady_run(run, start) for run in progress(runs, "runs"))
+    for name in progress(FIGURES, "figures"):
+        FIGURES[name](measures, output / name)
+    return [output / name for name in FIGURES]

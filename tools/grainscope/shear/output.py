@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from grainscope.errors import InputError
-from grainscope.tables import Columns, numbers, read_rows
+from grainscope.tables import Columns, blocks, numbers, read_rows
 
 
 @dataclass
@@ -83,22 +83,11 @@ def joined(folder, name, length_of):
         except InputError as error:
             missing = error
             continue
-        place = 0
-        while place < len(rows):
-            try:
-                step = int(rows[place][0])
-                if step > end:
-                    break
-                length = length_of(rows[place])
-            except (IndexError, ValueError):
-                raise InputError(
-                    f"{part / name}: row {place + 1} must begin with a step, got '{' '.join(rows[place])}'"
-                ) from None
-            if place + length > len(rows):
+        for step, length, table in blocks(part / name, rows, length_of, end):
+            if len(table) < length:
                 raise InputError(f"{part / name}: the table of step {step} is incomplete, {length - 1} rows are needed")
             if step > begin or begin == 0:
-                found.append(rows[place : place + length])
-            place += length
+                found.append(table)
     if not found:
         raise missing or InputError(f"{Path(folder) / name}: none of its rows belongs to the run")
     return names, units, found

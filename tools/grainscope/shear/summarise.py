@@ -2,7 +2,7 @@
 energy out."""
 import numpy as np
 
-from grainscope.means import mean_and_error
+from grainscope.means import mean_and_error, text_of
 from grainscope.shear.measures import steady_run
 from grainscope.shear.output import read_run
 
@@ -36,12 +36,6 @@ MEASURED = [
     ("diffusion / rate d2, vorticity", lambda m: m["D_z"]),
     ("grains with < 2 contacts [%]", lambda m: m["idle"]),
 ]
-
-
-def text_of(mean, error):
-    """Mean and error as text, the error with two digits."""
-    digits = max(0, 1 - int(np.floor(np.log10(error)))) if error > 0 else 3
-    return f"{mean:.{digits}f} +- {error:.{digits}f}" if error > 0 else f"{mean:.3g}"
 
 
 def with_error(values):

@@ -4,6 +4,7 @@ error, a bound when it holds by more than twice the error; undecided where the e
 fitted to agree."""
 import numpy as np
 
+from grainscope.progress import progress
 from grainscope.study.paper_values import PUBLISHED
 from grainscope.study.table import largest, over_seeds, read_study, study_arguments, text, write_csv
 
@@ -28,7 +29,7 @@ def compare(runs):
     """Rows of NAMES for the published numbers that the runs can tell, and the names of the others; of several systems
     the largest counts."""
     rows, untold = [], []
-    for published in PUBLISHED:
+    for published in progress(PUBLISHED, "published numbers"):
         found = published.measure(runs if published.all_sizes else largest(runs))
         if found is None:
             untold.append(published.quantity)

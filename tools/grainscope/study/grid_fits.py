@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from grainscope.fits import FitError, crossing, fit_fraction_law, fit_friction_law, power_law
+from grainscope.progress import progress
 
 FEWEST = 4  # runs over the inertial number for the laws of Eqs. 5 and 6; power laws take three
 ROUND = 1.2  # shapes rounder than this are beyond the crossover of Fig. 4 and left out of its power laws
@@ -172,7 +173,10 @@ def laws_of_crossover(runs):
 
 
 def all_fits(runs):
-    return laws_of_inertia(runs) + laws_of_shape(runs) + laws_of_crossover(runs)
+    found = []
+    for alpha in progress(values(runs, "alpha"), "fits of shapes"):
+        found += laws_of_inertia([run for run in runs if run.alpha == alpha])
+    return found + laws_of_shape(runs) + laws_of_crossover(runs)
 
 
 def critical_values(runs, name):

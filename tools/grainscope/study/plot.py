@@ -1,6 +1,7 @@
 """Draws figures of the paper from a study's tables (those that `study table` writes); no run is needed."""
 from grainscope.errors import InputError
 from grainscope.figures.paper import FIGURES, GRID_FIGURES, sorted_runs
+from grainscope.progress import progress
 from grainscope.study.plan import figures_of
 from grainscope.study.table import largest, over_seeds, read_study, study_arguments
 
@@ -26,6 +27,7 @@ def run(arguments):
         raise InputError(f"figure must be one of {', '.join(sorted(ALL))}, got '{unknown[0]}'")
     runs = over_seeds(read_study(arguments.study))
     measure = "all" if all(run.measured_all for run in runs) else "basic"
-    for name in arguments.figure or figures_of(measure):
+    names = arguments.figure or figures_of(measure)
+    for name in progress(names, "figures"):
         draw(runs, name, arguments.output / name)
-        print(arguments.output / name)
+    print(*(arguments.output / name for name in names), sep="\n")

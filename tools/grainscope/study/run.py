@@ -12,11 +12,13 @@ import time
 from grainscope.errors import InputError, warn
 from grainscope.open_mpi import session
 from grainscope.program import find_program
+from grainscope.progress import duration, followed
 
 DECK = Path(__file__).resolve().parents[3] / "examples" / "simple_shear" / "in.simple_shear"
 NONE_WHOLE = "ERROR: read_restart: '"
 STOPPED = 3
 MAY_CHANGE = ("strain", "steady")
+COLUMNS = 11  # of the deck's thermo output: step, strain, time left ...
 COST = "# from[step] to[step] ranks wall[s] cpu[s] memory[B]\n"
 
 
@@ -111,6 +113,15 @@ def lock(out):
     return file
 
 
+def how_far(screen):
+    """The strain that a run has reached and the time that it still takes, by the last row of thermo output."""
+    with screen.open("rb") as text:
+        text.seek(max(0, text.seek(0, os.SEEK_END) - 4096))
+        lines = text.read().decode(errors="replace").splitlines()[:-1]
+    rows = [words for words in map(str.split, lines) if len(words) == COLUMNS and words[0].isdigit()]
+    return f"strain {float(rows[-1][1]):.2f}, {duration(float(rows[-1][2]))} left" if rows else "begins"
+
+
 def attempt(arguments, resume, locked):
     """Exit status of one attempt, and what it printed. A run that a signal ends is content with itself, but writes no
     final.restart."""
@@ -128,7 +139,8 @@ def attempt(arguments, resume, locked):
                 pass_fds=[locked.fileno()],
                 env=environment,
             )
-            _, status, usage = os.wait4(run.pid, 0)
+            with followed(lambda: f"{arguments.out}: {how_far(screen)}"):
+                _, status, usage = os.wait4(run.pid, 0)
             run.returncode = os.waitstatus_to_exitcode(status)
     if run.returncode == 0 and time_of(final) == earlier:
         return STOPPED, "it was stopped by a signal before its end"

@@ -3,11 +3,11 @@ profiles, and columns.csv tells the unit and meaning of every column. The figure
 study are made from these alone."""
 import csv
 from pathlib import Path
-import sys
 
 import numpy as np
 
 from grainscope.errors import InputError, warn
+from grainscope.progress import progress
 from grainscope.shear.measures import ALWAYS, CURVES, MEASURED, SERIES, SteadyRun, steady_run
 from grainscope.shear.output import read_run
 from grainscope.tables import read_rows
@@ -95,17 +95,15 @@ def write_csv(path, names, rows):
 
 
 def write_tables(runs, output):
-    """Writes all files for (run, start of its averages) pairs; progress to a terminal."""
+    """Writes all files for (run, start of its averages) pairs."""
     rows, curves = [], {name: [] for name in CURVES}
-    for number, (run, start) in enumerate(runs, 1):
+    for run, start in progress(runs, "runs"):
         steady = steady_run(run, start)
         rows.append(row_of(run, steady, start))
         for curve, columns in steady.curves.items():
             points = np.array([columns[name] for name in CURVES[curve]]).T
             thin = points[:: max(1, len(points) // LONGEST)]
             curves[curve] += [(run.name, *(f"{value:.4g}" for value in point)) for point in thin]
-        if sys.stderr.isatty():
-            print(f"\r{number} of {len(runs)} runs", end="" if number < len(runs) else "\n", file=sys.stderr)
     for row in rows:
         if row["flagged"]:
             warn(
