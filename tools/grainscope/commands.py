@@ -104,7 +104,7 @@ def find_packages(name):
         sys.exit(f"{PROGRAM}: Python must be {OLDEST[0]}.{OLDEST[1]} or later, got {sys.version.split()[0]}")
     debian = " ".join(DEBIAN[one] for one in missing)
     sys.exit(
-        f"{PROGRAM} {name}: needs the Python package{'s' if len(missing) > 1 else ''} {' and '.join(missing)}, which "
+        f"{PROGRAM} {name}: needs the Python package{'s' if len(missing) > 1 else ''} {', '.join(missing)}, which "
         f"neither {sys.executable} nor {SYSTEM_PYTHON} has. On Debian or Ubuntu: sudo apt-get install {debian}; "
         f"elsewhere: {sys.executable} -m pip install {' '.join(missing)}"
     )

@@ -1,7 +1,7 @@
 """Quantities in the cells of a grid at one step: reads the csv files of fix field/write, and the tables of fix ave/time
 mode vector and of fix ave/spatial, whose rows are cells along one axis."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 import re
 
@@ -78,7 +78,7 @@ class Field:
         place = self.coordinates.index(name)
         columns = {one: np.take(values, [k], axis=2 - place) for one, values in self.columns.items()}
         cells = tuple(1 if n == place else count for n, count in enumerate(self.cells))
-        return Field(self.path, self.step, self.time, cells, columns)
+        return replace(self, cells=cells, columns=columns)
 
 
 def read_notes(path, lines):
@@ -122,7 +122,7 @@ def read_tables(path, along=None):
         )
     found = []
     for step, length, table in blocks(path, rows, lambda row: 1 + int(row[1])):
-        if len(table) < length:
+        if len(table) < length or (table[-1] is rows[-1] and len(table[-1]) < len(names)):
             warn(f"{path}: the table of step {step} is incomplete and left out")
         elif length > 1:
             values = numbers(path, table[1:], names)

@@ -20,7 +20,7 @@ def mean_and_error(values):
 def steady_start(values):
     """(first row of the steady part, whether there is one) by MSER-5 (White, Simulation 69, 323 (1997)): rows are
     averaged in batches of five, and the part from batch d on counts whose mean has the smallest variance / number of
-    batches. A smallest value beyond the middle means that the series is not steady yet; its second half is taken then.
+    batches. A smallest value in the second half means that the series is not steady yet; that half is taken then.
     Fewer than 50 rows are taken as they are."""
     values = np.asarray(values, dtype=float)
     batches = values[: len(values) // BATCH * BATCH].reshape(-1, BATCH).mean(axis=1)
@@ -32,7 +32,7 @@ def steady_start(values):
     scatter = squares - sums**2 / left
     scatter[scatter <= left * (1e-14 * np.abs(batches).max()) ** 2] = 0.0  # rounding
     first = int(np.argmin((scatter / left**2)[: len(batches) - KEPT + 1]))
-    if 2 * first > len(batches):
+    if 2 * first >= len(batches):
         return len(values) // 2, False
     return BATCH * first, True
 

@@ -119,7 +119,7 @@ def draw(series, names, against, means, units):
     for axis in axes.flat[len(names) :]:
         axis.set_axis_off()
     if len(series) > 1:
-        figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncol=across)
+        figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="upper center", bbox_to_anchor=(0.5, 0.0))
     return figure
 
 

@@ -89,7 +89,7 @@ def read_series(path):
     if len(set(names)) < len(names):
         twice = next(name for name in names if names.count(name) > 1)
         raise InputError(f"{path}: each column must have a name of its own, got '{twice}' twice")
-    if len(rows[0]) == 2 and len(names) > 2 and all(is_number(word) for word in rows[0]):
+    if len(rows[0]) == 2 != len(names) and rows[0][1].isdigit():
         raise InputError(f"{path}: tables with a line 'step rows' before each (mode vector) are drawn by `rows`")
     if len(rows) > 1 and len(rows[-1]) < len(rows[-2]):
         warn(f"{path}: the last row is incomplete and left out")
