@@ -480,7 +480,14 @@ add_cases(study-runs cases/study_runs.py LABEL case STYLES study CASES
 add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study CASES basic-measures bad-configuration)
 add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study LONG_RANKS 1 CASES
   failing-runs-do-not-stop-others study-goes-on)
-add_cases(study-fields cases/field_pictures.py LABEL case STYLES study CASES
+add_cases(tools cases/tools_command.py LABEL case STYLES tools CASES
+  help-of-all unknown-refused missing-input-refused python-without-numpy missing-packages-named
+  packages-are-installed-by-scripts syntax-of-python-3-9 examples-of-page progress-is-said run-is-followed)
+add_cases(tools-plot cases/tools_plot.py LABEL case STYLES tools CASES
+  known-error steady-parts files-of-the-program picture not-finite command-line)
+add_cases(tools-rows cases/tools_rows.py LABEL case STYLES tools CASES
+  tables files-of-the-program incomplete command-line)
+add_cases(tools-fields cases/field_pictures.py LABEL case STYLES tools CASES
   cells-in-order profiles empty-cells error-bands several-files maps tilted-maps slices arrows rings animation groups-and-columns
   not-finite bad-files command-line)
 add_cases(study-slurm cases/study_slurm.py LABEL long STYLES study CASES slurm-grid)

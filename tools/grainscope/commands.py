@@ -39,6 +39,7 @@ COMMANDS = {
     "figures": Command(
         "figures.runs", "draws simple-shear runs over strain, and the paper's figures of them", DRAWS + FITS
     ),
+    "study plan": Command("study.planned", "prints the runs of a study, with the cost that is expected", ("yaml",)),
     "study run": Command("study.run", "begins a run of examples/simple_shear, or goes on with it", ()),
     "study table": Command("study.table", "collects runs into the tables of a study", FITS),
     "study fit": Command("study.fit", "fits laws to a study", FITS),
@@ -118,7 +119,10 @@ def main(words):
     module.add_arguments(parser)
     try:
         module.run(parser.parse_intermixed_args(words))
-    except (InputError, OSError) as error:
+    except InputError as error:
         sys.exit(f"{PROGRAM} {name}: {error}")
+    except OSError as error:
+        reason = f"{error.filename}: {error.strerror}" if error.filename else error
+        sys.exit(f"{PROGRAM} {name}: {reason}")
     except KeyboardInterrupt:
         sys.exit(130)

@@ -172,7 +172,7 @@ def add_arguments(parser):
 def run(arguments):
     try:
         begin_or_go_on(arguments)
-    except (InputError, OSError, ValueError) as error:
+    except (InputError, ValueError) as error:
         raise InputError(f"{arguments.out}: {error}") from None
 
 
