@@ -182,6 +182,8 @@ def command_line(ranks):
         require_refused(["plot", *words], *expected)
     scratch("table.txt").write_text("# t\n# TimeStep Number-of-rows\n# Row a b\n0 2\n1 3 4\n2 5 6\n")
     require_refused(["plot", scratch("table.txt")], "drawn by `rows`")
+    scratch("field.csv").write_text("# step 0\n# cells 1 1 1\nx,y,z\n0,0,0\n")
+    require_refused(["plot", scratch("field.csv")], "drawn by `rows`")
     scratch("word.txt").write_text("# step x\n1 2\n2 two\n")
     require_refused(["plot", scratch("word.txt")], "word.txt", "'two'")
     scratch("empty.txt").write_text("# t\n# TimeStep a\n")

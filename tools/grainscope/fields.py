@@ -8,7 +8,7 @@ import re
 import numpy as np
 
 from grainscope.errors import InputError, warn
-from grainscope.tables import blocks, lines_of, no_column, numbers, read_rows
+from grainscope.tables import blocks, is_csv, lines_of, no_column, numbers, read_rows
 
 COORDINATES = (("x", "y", "z"), ("r", "t", "a"))  # of a box, and of rings about an axis
 ERROR = "_error"
@@ -131,11 +131,6 @@ def read_tables(path, along=None):
     if not found:
         raise InputError(f"{path}: no table is complete")
     return found
-
-
-def is_csv(path):
-    """Whether it is of fix field/write."""
-    return any("," in line for line in lines_of(path) if not line.startswith("#"))
 
 
 def read_all(paths, along):

@@ -18,10 +18,10 @@ def mean_and_error(values):
 
 
 def steady_start(values):
-    """(first row of the steady part, whether there is one) by MSER-5 (White, Simulation 69, 323 (1997)): rows are
-    averaged in batches of five, and the part from batch d on counts whose mean has the smallest variance / number of
-    batches. A smallest value in the second half means that the series is not steady yet; that half is taken then.
-    Fewer than 50 rows are taken as they are."""
+    """(first row of the steady part, whether there is one) by MSER-5 (White, Simulation 69, 323 (1997)). Rows are
+    averaged in batches of five. Of the parts from some batch to the end, the one is taken whose variance over its
+    number of batches is smallest. If it begins in the second half, the series is not steady yet, and that half is
+    taken. Fewer than 50 rows are taken as they are."""
     values = np.asarray(values, dtype=float)
     batches = values[: len(values) // BATCH * BATCH].reshape(-1, BATCH).mean(axis=1)
     if len(batches) < FEWEST:

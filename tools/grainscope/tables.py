@@ -43,6 +43,11 @@ def lines_of(path):
         raise InputError(f"{path}: not a text file") from None
 
 
+def is_csv(path):
+    """Whether it is of fix field/write."""
+    return any("," in line for line in lines_of(path) if not line.startswith("#"))
+
+
 def is_number(word):
     try:
         float(word)
@@ -85,6 +90,8 @@ def numbers(path, rows, names):
 def read_series(path):
     """Columns of a file with a row for each step, and their units. A last row that the run has not ended is left
     out."""
+    if is_csv(path):
+        raise InputError(f"{path}: files of fix field/write are drawn by `rows`")
     names, units, rows = read_rows(path)
     if len(set(names)) < len(names):
         twice = next(name for name in names if names.count(name) > 1)
