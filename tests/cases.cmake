@@ -481,7 +481,7 @@ add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study CASES b
 add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study LONG_RANKS 1 CASES
   failing-runs-do-not-stop-others study-goes-on)
 add_cases(tools cases/tools_command.py LABEL case STYLES tools CASES
-  help-of-all unknown-refused missing-input-refused python-without-numpy missing-packages-named
+  help-of-all unknown-refused missing-input-refused runs-refused python-without-numpy missing-packages-named
   packages-are-installed-by-scripts syntax-of-python-3-9 examples-of-page progress-is-said run-is-followed)
 add_cases(tools-plot cases/tools_plot.py LABEL case STYLES tools CASES
   known-error steady-parts files-of-the-program picture not-finite command-line)

@@ -79,6 +79,24 @@ def missing_input_refused(ranks):
         require_refused(words, f"grainscope-tools {words[0]}", *expected)
 
 
+def runs_refused(ranks):
+    """What a run cannot give: averages from a strain that it does not reach, other variables than it began with."""
+    out = scratch("out")
+    words = ["alpha=1", "N=100", "strain=0.6", "part=0.1", "--binary", os.environ["GRAINSCOPE_BINARY"]]
+    code, said, complaint = called(TOOL, "study", "run", out, *words)
+    require(code == 0, said + complaint)
+    late = "0 rows beyond strain 9, at least 16 are needed; the run ends at 0.6"
+    for words, expected in (
+        (["summarise", out, "--from", 9], late),
+        (["figures", out, "--from", 9, "--output", scratch()], late),
+        (["study", "table", f"{out}:9", "--output", scratch()], late),
+        (["study", "run", out, "alpha=2", *words[1:]], f"{out}: alpha must stay what the run began with, 1, got 2"),
+        (["rows", out / "series.txt", "--output", scratch("a.png")], "is for `plot`"),
+        (["plot", out / "series.txt", "mu"], "no column 'mu'; nearest: mu_eff"),
+    ):
+        require_refused(words, expected)
+
+
 def python_without_numpy(ranks):
     """The first Python on PATH has no packages: the system's is found, with the same answer."""
     python = scratch("python3")
@@ -201,6 +219,7 @@ main(
         "help-of-all": help_of_all,
         "unknown-refused": unknown_refused,
         "missing-input-refused": missing_input_refused,
+        "runs-refused": runs_refused,
         "python-without-numpy": python_without_numpy,
         "missing-packages-named": missing_packages_named,
         "packages-are-installed-by-scripts": packages_are_installed_by_scripts,

@@ -161,12 +161,18 @@ def command_line(ranks):
     require(code == 0 and scratch("a.pdf").read_bytes().startswith(b"%PDF"), said)
     require("a.txt: the last row is incomplete and left out" in said, said)
     rows = re.findall(r"v_mu +(\S+) \+- (\S+) +\d+ +(\d+)", said)
-    require(len(rows) == 2, said)
+    require(len(rows) == 2 and "steady part: by MSER-5" in said and "by blocking" in said, said)
     for mean, error, kept in rows:
         require(abs(float(mean) - MEAN) < 5.0 * np.sqrt(variance_of_mean(4096)), said)
         require_close(float(error), mean_and_error(values[-int(kept) :])[1], 0.05, "error")  # two digits are printed
     code, said = asked("plot", a, "--against", "v_phi", "v_mu", "--from", 3, "--output", scratch("b.png"))
-    require(code == 0 and "from v_phi" in said and "v_phi " not in said.splitlines()[2], said)
+    require(
+        code == 0
+        and "steady part: from 3 on;" in said
+        and "from v_phi" in said
+        and "v_phi " not in said.splitlines()[2],
+        said,
+    )
     for words, expected in (
         ([scratch("none.txt")], ("none.txt", "No such file")),
         ([a, "v_mu_eff"], ("no column 'v_mu_eff'; nearest: v_mu;", "v_phi")),

@@ -22,6 +22,7 @@ def add_arguments(parser):
     parser.add_argument(
         "more",
         nargs="*",
+        default=[],
         metavar="file or column",
         help="more files, drawn over each other, and names of columns (default: all that all files have)",
     )
@@ -135,6 +136,8 @@ def run(arguments):
         raise InputError(f"columns must be at most {MOST_PANELS}, got {len(names)}: name some of {', '.join(names)}")
     means = measured(series, names, against, arguments.start)
     print(table(means, against))
+    chosen_by = "by MSER-5 (White 1997)" if arguments.start is None else f"from {arguments.start:g} on"
+    print(f"steady part: {chosen_by}; errors: one standard error, by blocking (Flyvbjerg & Petersen 1989)")
     units = {name: unit for _, units in found.values() for name, unit in units.items() if unit not in ("", "-")}
     save(draw(series, names, against, means, units), arguments.output)
     print(arguments.output)

@@ -227,6 +227,7 @@ def add_arguments(parser):
     parser.add_argument(
         "more",
         nargs="*",
+        default=[],
         metavar="file or column",
         help="more files, of the same grid at other steps, and names of columns: v_x, or v for all its components "
         "(default: all)",

@@ -17,7 +17,7 @@ def draw(runs, name, path):
 def add_arguments(parser):
     study_arguments(parser)
     parser.add_argument(
-        "figure", nargs="*", help=f"which: {', '.join(sorted(ALL))} (default: all that the runs can give)"
+        "figure", nargs="*", default=[], help=f"which: {', '.join(sorted(ALL))} (default: all that the runs can give)"
     )
 
 
