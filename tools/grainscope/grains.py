@@ -1,18 +1,35 @@
-"""Reads the grains of a text dump."""
-
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Places, shapes and orientations of the grains of a dump, by whichever of their names it has."""
 from dataclasses import dataclass
-from pathlib import Path
-import re
 
 import numpy as np
 
+from grainscope.dumps import Dump
 from grainscope.errors import InputError
+
+PLACES = (("x", "y", "z"), ("xu", "yu", "zu"))
+FRACTIONS = ("xs", "ys", "zs")
+SEMI_AXES = (("shapex", "shapey", "shapez"), ("c_shape[1]", "c_shape[2]", "c_shape[3]"))
+# Scalar part first; columns c_orient are in the order of OVITO (doc/visualise.md).
+QUATERNIONS = (
+    ("quat1", "quat2", "quat3", "quat4"),
+    ("quatw", "quati", "quatj", "quatk"),
+    ("c_orient[4]", "c_orient[1]", "c_orient[2]", "c_orient[3]"),
+)
+BLOCKINESS = ("blockiness1", "blockiness2")
+
+OF_SPHERES = "dump grains all custom 1000 grains.*.dump id type x y z radius"
+OF_ELLIPSOIDS = (
+    "dump grains all custom 1000 grains.*.dump id type x y z quat1 quat2 quat3 quat4 shapex shapey shapez "
+    "(any further columns may follow)"
+)
+REMEDY = f"Dump spheres by\n  {OF_SPHERES}\nand ellipsoids by\n  {OF_ELLIPSOIDS}"
 
 
 @dataclass
 class Grains:
-    """A dump: positions (N,3), rotation matrices (N,3,3) from the body to the laboratory, semi-axes (N,3); box origin
-    and edge vectors (rows of a 3x3 matrix)."""
+    """Positions (N,3), rotation matrices (N,3,3) from the body to the laboratory, semi-axes (N,3); box origin and edge
+    vectors (rows of a 3x3 matrix)."""
 
     positions: np.ndarray
     rotations: np.ndarray
@@ -22,7 +39,7 @@ class Grains:
 
 
 def rotation_matrices(quaternions):
-    """Rotation matrices (N,3,3) of unit quaternions (N,4), scalar part first."""
+    """Rotation matrices (N,3,3) of quaternions (N,4) of any length but 0, scalar part first."""
     w, x, y, z = (quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True)).T
     return np.array(
         [
@@ -33,40 +50,63 @@ def rotation_matrices(quaternions):
     ).transpose(2, 0, 1)
 
 
-def read_grains(path):
-    """The last snapshot of a text dump with columns id x y z quat1-4 shapex-z, of spheres x y z radius, in a triclinic
-    or orthogonal box."""
-    try:
-        text = Path(path).read_text()
-    except OSError as error:
-        raise InputError(f"{path}: {error.strerror}") from None
-    snapshot = text.rpartition("ITEM: TIMESTEP")[2]
-    match = re.search(r"ITEM: BOX BOUNDS([^\n]*)\n((?:[^\n]*\n){3})ITEM: ATOMS ([^\n]*)\n(.*)", snapshot, re.S)
-    if not match:
-        raise InputError(f"{path}: not a LIGGGHTS text dump")
-    names = match[3].split()
-    spheres = "radius" in names
-    wanted = ("x y z radius" if spheres else "x y z quat1 quat2 quat3 quat4 shapex shapey shapez").split()
-    missing = [name for name in wanted if name not in names]
-    if missing:
-        raise InputError(f"{path}: no column {', '.join(missing)}; the dump must hold {' '.join(wanted)}")
-    try:
-        bounds = np.array([line.split() for line in match[2].splitlines()], dtype=float)
-        table = np.array(match[4].split(), dtype=float).reshape(-1, len(names))
-    except ValueError:
-        raise InputError(f"{path}: the last snapshot is damaged or incomplete") from None
-    if len(table) == 0:
-        raise InputError(f"{path}: the last snapshot holds no grains")
-    columns = table[:, [names.index(name) for name in wanted]]
+def _first_that_is_there(snapshot, sets):
+    return next((names for names in sets if all(name in snapshot for name in names)), None)
 
-    xy, xz, yz = bounds[:, 2] if bounds.shape[1] == 3 else (0.0, 0.0, 0.0)
-    low, high = bounds[:, 0].copy(), bounds[:, 1].copy()
-    low[:2] -= min(0.0, xy, xz, xy + xz), min(0.0, yz)
-    high[:2] -= max(0.0, xy, xz, xy + xz), max(0.0, yz)
-    lx, ly, lz = high - low
-    edges = np.array([[lx, 0.0, 0.0], [xy, ly, 0.0], [xz, yz, lz]])
-    if spheres:
-        rotations, semi_axes = np.tile(np.eye(3), (len(columns), 1, 1)), np.repeat(columns[:, 3:], 3, axis=1)
-    else:
-        rotations, semi_axes = rotation_matrices(columns[:, 3:7]), columns[:, 7:]
-    return Grains(columns[:, :3], rotations, semi_axes, low, edges)
+
+def positions(snapshot):
+    names = _first_that_is_there(snapshot, PLACES)
+    if names:
+        return snapshot.vectors(*names)
+    if all(name in snapshot for name in FRACTIONS):
+        return snapshot.box.origin + snapshot.vectors(*FRACTIONS) @ snapshot.box.edges
+    snapshot.require(*PLACES[0], remedy=REMEDY)
+
+
+def semi_axes(snapshot):
+    """Of spheres three times the radius."""
+    names = _first_that_is_there(snapshot, SEMI_AXES)
+    if names:
+        return snapshot.vectors(*names)
+    if "diameter" in snapshot and "radius" not in snapshot:
+        return np.repeat(0.5 * snapshot.vectors("diameter"), 3, axis=1)
+    if not any(name in snapshot for name in QUATERNIONS[0]):
+        snapshot.require("radius", remedy=REMEDY)
+        return np.repeat(snapshot.vectors("radius"), 3, axis=1)
+    snapshot.require(*SEMI_AXES[0], remedy=REMEDY)
+
+
+def quaternions(snapshot):
+    """(N,4), scalar part first; 1 0 0 0 for spheres."""
+    names = _first_that_is_there(snapshot, QUATERNIONS)
+    if names:
+        found = snapshot.vectors(*names)
+        if not np.linalg.norm(found, axis=1).all():
+            raise InputError(f"{snapshot.path}: step {snapshot.step}: a quaternion ({' '.join(names)}) is 0 0 0 0")
+        return found
+    sizes = semi_axes(snapshot)
+    if (np.ptp(sizes, axis=1) > 0).any():
+        snapshot.require(*QUATERNIONS[0], remedy=REMEDY)
+    return np.tile([1.0, 0.0, 0.0, 0.0], (len(sizes), 1))
+
+
+def blockiness(snapshot):
+    """Exponents n1, n2 of superquadrics (N,2); 2 2, which are ellipsoids, where the dump does not have them."""
+    if all(name in snapshot for name in BLOCKINESS):
+        return snapshot.vectors(*BLOCKINESS)
+    return np.full((len(snapshot), 2), 2.0)
+
+
+def grains_of(snapshot):
+    box = snapshot.box
+    return Grains(
+        positions(snapshot), rotation_matrices(quaternions(snapshot)), semi_axes(snapshot), box.origin, box.edges
+    )
+
+
+def read_grains(path):
+    """Those of the last snapshot of a dump."""
+    last = Dump(path)[-1]
+    if len(last) == 0:
+        raise InputError(f"{path}: the last snapshot holds no grains")
+    return grains_of(last)
