@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Reads the text dumps of LIGGGHTS: dump custom (grains) and dump local (contacts), many snapshots in a file or one file
+"""Reads the text dumps of LIGGGHTS: dump custom (grains) and dump local (contacts), many snapshots in a file or a file
 for each step, plain or .gz.
 
     dump = Dump("grains.*.dump")     a name, a pattern with *, or a list of these
