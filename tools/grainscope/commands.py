@@ -35,6 +35,7 @@ COMMANDS = {
         "rows", "draws profiles and maps: fix field/write, fix ave/time mode vector, fix ave/spatial", DRAWS
     ),
     "render": Command("render", "draws the grains of a dump, by POV-Ray", DRAWS),
+    "convert": Command("convert", "writes dumps for ParaView or OVITO", ("numpy",)),
     "summarise": Command("shear.summarise", "prints steady means of simple-shear runs, with errors", FITS),
     "figures": Command(
         "figures.runs", "draws simple-shear runs over strain, and the paper's figures of them", DRAWS + FITS

@@ -56,7 +56,8 @@ def named(snapshot, keywords):
 
 def _check(snapshot, found):
     """Wrong names would go unnoticed: what has a known range is looked at."""
-    wrong = [name for name in ("id_i", "id_j") if name in found and (found[name] % 1 != 0).any()]
+    whole = ("id_i", "id_j", "image_x", "image_y", "image_z")
+    wrong = [name for name in whole if name in found and (found[name] % 1 != 0).any()]
     if all(f"normal_{end}" in found for end in "xyz"):
         lengths = np.linalg.norm([found[f"normal_{end}"] for end in "xyz"], axis=0)
         if (np.abs(lengths - 1) > 1e-3).any():

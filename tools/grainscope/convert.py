@@ -3,11 +3,10 @@
 import math
 from pathlib import Path
 import re
-import sys
 
 from grainscope import contact_columns, vtk_scene
 from grainscope.dumps import Dump
-from grainscope.errors import InputError
+from grainscope.errors import InputError, warn
 from grainscope.ovito_dump import write_ovito
 from grainscope.surfaces import DEEPEST, read_stl
 from grainscope.vtk_files import write_collection
@@ -87,32 +86,32 @@ def to_vtk(grains, arguments):
 
 def contacts_to_vtk(series, grains, arguments, time):
     contacts = Dump(arguments.contacts)
-    say(*contacts.notes)
-    steps = [step for step in contacts.steps if step in set(grains.steps)]
+    warn_of(contacts)
+    steps = sorted(set(contacts.steps).intersection(grains.steps))
     if not steps:
         raise InputError(
             "contacts and grains must be dumped in the same steps: "
             f"contacts are of {some(contacts.steps)}, grains of {some(grains.steps)}"
         )
     if len(steps) < len(contacts.steps):
-        say(f"contacts of {len(contacts.steps) - len(steps)} steps are left out: their grains were not dumped")
+        warn(f"contacts of {len(contacts.steps) - len(steps)} steps are left out: their grains were not dumped")
     lost = 0
     for step in steps:
         snapshot = contacts.at(step)
         columns = contact_columns.named(snapshot, arguments.contact_columns)
         lost += vtk_scene.write_contacts(series.add(step, time(step)), time(step), columns, snapshot, grains.at(step))
     if lost:
-        say(f"{lost} contacts are left out: the grain i of each is not in the dump of grains")
+        warn(f"{lost} contacts are left out: the grain i of each is not in the dump of grains")
     return series
+
+
+def warn_of(dump):
+    for note in dump.notes:
+        warn(note)
 
 
 def some(steps):
     return f"steps {', '.join(map(str, steps[:5]))}{' ...' if len(steps) > 5 else ''}"
-
-
-def say(*sentences):
-    for sentence in sentences:
-        print(f"convert: {sentence}", file=sys.stderr)
 
 
 def add_arguments(parser):
@@ -142,7 +141,7 @@ def check(arguments):
 def run(arguments):
     check(arguments)
     grains = Dump(arguments.dump)
-    say(*grains.notes)
+    warn_of(grains)
     if arguments.to == "ovito":
         write_ovito(grains, Path(arguments.output or "ovito.dump"))
     else:
