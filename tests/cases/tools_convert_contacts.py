@@ -80,18 +80,19 @@ def in_a_box(packing, **choices):
 
 
 def with_walls(ranks):
-    """Contacts with a floor and with a mesh end at the wall."""
+    """Contacts with a floor at z = 0 and with a mesh above end at the wall."""
     packing = plates.bed(layers=2)
     deck = plates.plated(packing)
-    found = 0
+    found = np.zeros(2, dtype=int)
     for grains, contacts, columns in lines_of(deck, ranks):
         check_lines(grains, contacts, columns, np.diag(packing.edges))
-        floor = contacts.cell_data["id_j"] == 0
-        ends = np.array([contacts.points[line[-1]][2] for line, wall in zip(contacts.lines, floor) if wall])
-        overlaps = contacts.cell_data["overlap"][floor]
-        require(bool((np.abs(ends) <= overlaps).all() and overlaps.max() < 0.1), f"lines end at the floor: {ends}")
-        found += len(ends)
-    require(found > 10, f"{found} contacts with the floor")
+        walls = contacts.cell_data["id_j"] == 0
+        ends = np.array([contacts.points[line[-1]][2] for line, wall in zip(contacts.lines, walls) if wall])
+        overlaps = contacts.cell_data["overlap"][walls]
+        away = np.abs(ends[:, None] - [0.0, plates.top_of(packing)])
+        require(bool((away.min(axis=1) <= overlaps).all() and overlaps.max() < 0.1), f"lines end at the walls: {ends}")
+        found += np.bincount(away.argmin(axis=1), minlength=2)
+    require(found[0] > 10 and found[1] > 0, f"{found} contacts with floor and mesh")
 
 
 def chosen_columns(ranks):

@@ -49,7 +49,9 @@ def named(snapshot, keywords):
             )
         found[names[number - 1]] = values
     if len(computes) > 1:
-        raise InputError(f"{snapshot.path}: columns of one compute contact/local are needed, got {', '.join(sorted(computes))}")
+        raise InputError(
+            f"{snapshot.path}: columns of one compute contact/local are needed, got {', '.join(sorted(computes))}"
+        )
     _check(snapshot, found)
     return found
 

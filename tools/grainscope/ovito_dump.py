@@ -9,7 +9,7 @@ SHAPE = [f"c_shape[{k}]" for k in (1, 2, 3)]
 
 
 def write_ovito(dump, path):
-    """All snapshots in one file, with all columns."""
+    """All snapshots in one file, with all columns but other places than x y z, of which OVITO would take the last."""
     with open(path, "w") as file:
         for snapshot in dump:
             _write_header(file, snapshot)
@@ -26,12 +26,13 @@ def _text(value):
 
 
 def _columns(snapshot):
-    replaced = [name for names in (*of_grains.SEMI_AXES, *of_grains.QUATERNIONS) for name in names]
+    sets = (*of_grains.PLACES[1:], of_grains.FRACTIONS, *of_grains.SEMI_AXES, *of_grains.QUATERNIONS)
+    replaced = [name for names in sets for name in names]
     columns = {name: values for name, values in snapshot.columns.items() if name not in replaced}
     places = dict(zip("xyz", of_grains.positions(snapshot).T))
     w, x, y, z = of_grains.quaternions(snapshot).T
     orientation = dict(zip(ORIENTATION, (x, y, z, w)))
-    return places | columns | orientation | dict(zip(SHAPE, of_grains.semi_axes(snapshot).T))
+    return columns | places | orientation | dict(zip(SHAPE, of_grains.semi_axes(snapshot).T))
 
 
 def _write_header(file, snapshot):
