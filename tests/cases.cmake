@@ -650,6 +650,20 @@ add_cases(stress/contact-at-walls cases/wall_analytic.py LABEL case
   sliding-block-60 slipping-ball-45 slipping-ball-60 spinning-ball-rolls thrown-ball-rolls backspin full-box plates
   spheroid-lies-ellipsoid spheroid-lies-superquadric spheroid-stands-ellipsoid spheroid-stands-superquadric block-in-a-drum)
 
+# Tools: dumps read, and converted for ParaView and OVITO
+add_cases(tools-dumps cases/tools_dumps.py LABEL case STYLES tools CASES
+  many-snapshots many-files boxes cut-off refusals words-and-frames of-a-run)
+add_cases(tools-convert cases/tools_convert.py LABEL case STYLES tools CASES
+  glyph-tensors-polydisperse glyph-tensors-prolate glyph-tensors-oblate glyph-tensors-triaxial surfaces boxy-surfaces
+  all-columns other-names series walls refusals)
+add_cases(tools-convert-contacts cases/tools_convert_contacts.py LABEL case STYLES tools contact/local
+  RANKS 1 LONG_RANKS 2 CASES spheroids)
+add_cases(tools-convert-contacts cases/tools_convert_contacts.py LABEL case STYLES tools contact/local CASES
+  spheres discs with-walls chosen-columns page refusals)
+add_cases(tools-convert-ovito cases/tools_convert_ovito.py LABEL case STYLES tools CASES
+  page conversion spheres refusals)
+add_cases(tools-paraview cases/tools_paraview.py LABEL case STYLES tools LONG_RANKS 1 CASES grains contacts)
+
 # Format of the files, and what the tools that look for faults say of them
 add_cases(suite-style cases/style.py LABEL case STYLES suite style CASES clang-format black flake8 citation)
 add_cases(suite-style cases/style.py LABEL long STYLES suite style CASES clang-tidy)

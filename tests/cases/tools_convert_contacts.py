@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Contacts of runs as lines for ParaView: where they begin and end, how long they are, what they carry."""
+import re
+import shlex
+
 import numpy as np
 
 from case import main, require, require_close, require_equal
 from deck import Deck, dump_grains, dump_local
-from dump_files import converted, new_folder, refused, snapshot
+from dump_files import PAGE, converted, new_folder, refused, snapshot
 from grainscope.columns import outputs
 import plates
 from packing import dense_packing, disc_packing, tilted
@@ -104,6 +107,24 @@ def chosen_columns(ranks):
         require_equal(contacts.cell_data["id_j"], columns["c_contacts[6]"], "id_j")
 
 
+def page(ranks):
+    """What doc/visualise.md says for ParaView, word for word: lines of the input script and the command."""
+    found = re.search(r"## ParaView.*?```\n(.*?)```.*?\n    grainscope-tools convert (.*?)\n", PAGE.read_text(), re.S)
+    require(found is not None, f"{PAGE}: no code block and command under '## ParaView'")
+    packing = dense_packing(1.5)
+    result = run(Deck(packing, [*found[1].replace(" 1000 ", " 10 ").splitlines(), "run 10"]), ranks)
+    words = shlex.split(found[2])
+    converted(*words, folder=result.folder)
+    dt = float(words[words.index("--dt") + 1])
+    for kind in ("grains", "surfaces", "contacts", "box"):
+        data = collection(result.folder / "vtk" / f"{kind}.pvd")
+        require_close(list(data), [0.0, 10 * dt], 1e-12, f"times of {kind}")
+    require(len(data[0.0].lines) == 12, "the box")
+    contacts = collection(result.folder / "vtk" / "contacts.pvd")[0.0]
+    require(set(contacts.cell_data) == {"id_i", "id_j", "point", "branch", "force", "fn"}, str(set(contacts.cell_data)))
+    require(len(contacts.lines) > len(packing.grains), "contacts")
+
+
 def rows(**columns):
     """A dump local of one contact, of the columns that are named; others are 0."""
     values = dict.fromkeys(NAMES, 0.0) | {"id_i": 1, "id_j": 2, "normal_x": 1.0, "branch_x": 1.9} | columns
@@ -156,6 +177,7 @@ main(
         "discs": in_a_box(disc_packing()),
         "with-walls": with_walls,
         "chosen-columns": chosen_columns,
+        "page": page,
         "refusals": refusals,
     }
 )

@@ -9,12 +9,11 @@ from scipy.spatial.transform import Rotation
 
 from case import main, require, require_close, require_equal
 from deck import Deck, dump_grains
-from dump_files import TOOLS, converted, refused
+from dump_files import PAGE, converted, refused
 from grainscope.dumps import Dump
 from packing import DENSITY, Grain, Packing, dense_packing, tilted
 from run import run
 
-PAGE = TOOLS.parents[1] / "doc" / "visualise.md"
 SEMI_AXES = [(1.0, 1.0, 1.5), (1.3, 1.3, 0.6), (0.5, 0.9, 1.2), (0.8, 0.8, 0.8)]
 
 

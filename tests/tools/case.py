@@ -13,6 +13,17 @@ import numpy as np
 from run import Failure
 
 
+SKIPPED = 77  # the exit code that CTest takes for skipped
+
+
+class Skip(Exception):
+    """Why a test cannot be made here."""
+
+
+def skip(reason):
+    raise Skip(reason)
+
+
 def require(condition, message):
     if not condition:
         raise Failure(message)
@@ -60,6 +71,10 @@ def main(cases):
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("stopped by SIGTERM"))  # what was started is ended first
     try:
         cases[name](ranks)
+    except Skip as reason:
+        print(f"skipped: {reason}")
+        shutil.rmtree(scratch)
+        sys.exit(SKIPPED)
     except Failure as failure:
         print(f"FAILED {name} on {ranks} rank(s): {failure}\nfiles: {scratch}")
         sys.exit(1)

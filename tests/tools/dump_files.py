@@ -8,7 +8,9 @@ import tempfile
 
 from case import require
 
-TOOLS = Path(__file__).resolve().parents[2] / "tools" / "grainscope-tools"
+SOURCE = Path(__file__).resolve().parents[2]
+TOOLS = SOURCE / "tools" / "grainscope-tools"
+PAGE = SOURCE / "doc" / "visualise.md"
 
 
 def new_folder():
