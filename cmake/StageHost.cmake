@@ -10,7 +10,10 @@ set(MENDED_COPIES "${CMAKE_BINARY_DIR}/mends-${source_key}")
 file(MAKE_DIRECTORY "${HOST_STAGE}")
 file(GLOB staged RELATIVE "${HOST_SOURCE}" "${HOST_SOURCE}/*.h" "${HOST_SOURCE}/*.cpp")
 list(FILTER staged EXCLUDE REGEX "^(style_|version_liggghts\\.h)")
+set(vtk_dumps "")  # the headers of dump styles that are left out
 if(NOT GRAINSCOPE_VTK)
+  set(vtk_dumps ${staged})
+  list(FILTER vtk_dumps INCLUDE REGEX "^dump_.*vt[km]\\.h$")
   list(FILTER staged EXCLUDE REGEX "^dump_.*vt[km]\\.(h|cpp)$")
 endif()
 
@@ -107,6 +110,17 @@ foreach(entry
   endforeach()
   write_if_changed("${HOST_STAGE}/style_${list}.h" "${text}")
 endforeach()
+
+# Their names, for the message that says what they need.
+set(text "")
+foreach(name IN LISTS vtk_dumps)
+  file(STRINGS "${HOST_SOURCE}/${name}" lines REGEX "^ *DumpStyle\\(")
+  foreach(line IN LISTS lines)
+    string(REGEX REPLACE "^ *DumpStyle\\(([^,]+),.*" "\"\\1\",\n" line "${line}")
+    string(APPEND text "${line}")
+  endforeach()
+endforeach()
+write_if_changed("${HOST_STAGE}/vtk_dump_names.h" "${text}")
 
 set(whitelist "${CMAKE_SOURCE_DIR}/cmake/contact_models.whitelist")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${whitelist}" ${GRAINSCOPE_WHITELIST} ${our_headers})

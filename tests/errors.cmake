@@ -128,6 +128,9 @@ add_cases(stress/contact-messages errors/messages.py LABEL error
   beyond-the-end of-another-kind index-that-is-none name-that-is-none misspelt-style)
 add_cases(stress/contact-messages errors/messages.py LABEL error STYLES stress/contact RANKS 1 2 CASES
   only-the-wrong-one)
+if(NOT GRAINSCOPE_VTK)
+  add_cases(run/guard-messages errors/messages.py LABEL error STYLES run/guard CASES dumps-that-need-vtk)
+endif()
 add_cases(press/strain-messages errors/messages.py LABEL error STYLES press/strain CASES of-a-fix)
 
 # What is refused where grains, box or surface do not allow it

@@ -125,17 +125,28 @@ std::string about_outputs(LAMMPS *lmp) {
   return listed;
 }
 
-/** Of a style that does not exist, the nearest that does. */
+bool is_in(const std::vector<std::string> &names, const std::string &name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/** Of a style that does not exist, the nearest that does; of a dump that needs VTK, how to have it. */
 std::string about_style(LAMMPS *lmp, const std::string &message) {
-  const char *command = CurrentCommand::of(lmp->input);
+  const std::string command = CurrentCommand::of(lmp->input) ? CurrentCommand::of(lmp->input) : "";
   for (const StyleNames &styles : style_names()) {
     const std::string kind = styles.command;
     if (message.rfind("Invalid " + kind + " style", 0) != 0) continue;
-    if (!command || (command != kind && command != kind + "_style") || lmp->input->narg <= styles.place) return "";
-    const std::string name = lmp->input->arg[styles.place];
-    if (std::find(styles.names.begin(), styles.names.end(), name) != styles.names.end()) return "";
+    const bool at_once = command == "write_" + kind;  // write_dump group style
+    const int place = at_once ? 1 : styles.place;
+    if ((!at_once && command != kind && command != kind + "_style") || lmp->input->narg <= place) return "";
+    const std::string name = lmp->input->arg[place];
+    if (is_in(styles.names, name)) return "";
     const bool named = message.find(name) != std::string::npos;
-    return (named ? "" : ": \"" + name + "\"") + nearest_name(name, styles.names);
+    const std::string start = named ? "" : ": \"" + name + "\"";
+    if (kind == "dump" && is_in(vtk_dump_names(), name))
+      return start +
+             " needs a build with VTK, cmake -DGRAINSCOPE_VTK=ON; without it, grainscope-tools convert makes files for "
+             "ParaView of text dumps (doc/visualise.md)";
+    return start + nearest_name(name, styles.names);
   }
   return "";
 }

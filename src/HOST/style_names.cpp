@@ -51,4 +51,11 @@ const std::vector<StyleNames> &style_names() {
   return all;
 }
 
+const std::vector<std::string> &vtk_dump_names() {
+  static const std::vector<std::string> all = {
+#include "vtk_dump_names.h"
+  };
+  return all;
+}
+
 }

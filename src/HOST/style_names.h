@@ -16,6 +16,9 @@ struct StyleNames {
 
 const std::vector<StyleNames> &style_names();
 
+/** The host's dump styles that this build leaves out, since they need VTK; none with GRAINSCOPE_VTK. */
+const std::vector<std::string> &vtk_dump_names();
+
 }
 
 #endif

@@ -344,6 +344,19 @@ def misspelt_style(ranks):
     require("did you mean" not in result.output, "a guess from nowhere")
 
 
+def dumps_that_need_vtk(ranks):
+    """Of a build without VTK: what it takes, and what does without."""
+    words = [f"{style} 10 d*.vtk id type x y z" for style in ("custom/vtk", "custom/vtm", "atom/vtk", "mesh/gran/VTK")]
+    words += [f"{style} 10 d*.vtk" for style in ("mesh/vtk", "mesh/vtm", "euler/vtk", "decomposition/vtk")]
+    lines = [f"dump d all {one}" for one in (*words, "local/gran/vtk 10 d*.vtk contacts")]
+    for line in (*lines, "write_dump all custom/vtk d.vtk id type x y z"):
+        style = next(word for word in line.split() if word.endswith(("/vtk", "/VTK", "/vtm")))
+        require_refused(body(line), ranks, f'Invalid dump style: "{style}" needs', "-DGRAINSCOPE_VTK=ON", "convert")
+    result = require_refused(body("dump d all custom/vtu 10 d*.vtu id"), ranks, 'Invalid dump style: "custom/vtu"')
+    require("VTK" not in result.output, "a style that there is not, with VTK or without")
+    require_refused(body("write_dump all costum d.dump id"), ranks, "\"costum\": did you mean 'custom'?")
+
+
 CASES = {
     "all-ranks": all_ranks,
     "one-rank": one_rank,
@@ -362,6 +375,7 @@ CASES = {
     "index-that-is-none": index_that_is_none,
     "name-that-is-none": name_that_is_none,
     "misspelt-style": misspelt_style,
+    "dumps-that-need-vtk": dumps_that_need_vtk,
 }
 
 if __name__ == "__main__":
