@@ -8,6 +8,7 @@ from grainscope import contact_columns, vtk_scene
 from grainscope.dumps import Dump
 from grainscope.errors import InputError, warn
 from grainscope.ovito_dump import write_ovito
+from grainscope.progress import progress
 from grainscope.surfaces import DEEPEST, read_stl
 from grainscope.vtk_files import write_collection
 
@@ -64,7 +65,7 @@ def to_vtk(grains, arguments):
     def time(step):
         return float(step * arguments.dt)
 
-    for step in grains.steps:
+    for step in progress(grains.steps, "snapshots"):
         snapshot = grains.at(step)
         vtk_scene.write_grains(series["grains"].add(step, time(step)), time(step), snapshot)
         vtk_scene.write_box(series["box"].add(step, time(step)), time(step), snapshot.box)
@@ -96,7 +97,7 @@ def contacts_to_vtk(series, grains, arguments, time):
     if len(steps) < len(contacts.steps):
         warn(f"contacts of {len(contacts.steps) - len(steps)} steps are left out: their grains were not dumped")
     lost = 0
-    for step in steps:
+    for step in progress(steps, "contacts of snapshots"):
         snapshot = contacts.at(step)
         columns = contact_columns.named(snapshot, arguments.contact_columns)
         lost += vtk_scene.write_contacts(series.add(step, time(step)), time(step), columns, snapshot, grains.at(step))

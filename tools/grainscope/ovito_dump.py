@@ -3,6 +3,7 @@
 as Orientation, in the order x y z w, and c_shape[1] to [3] as Aspherical Shape, semi-axes. It would halve LIGGGHTS's
 shapex to shapez, which it takes for diameters as those of LAMMPS, and does not know quat1 to quat4."""
 from grainscope import grains as of_grains
+from grainscope.progress import progress
 
 ORIENTATION = [f"c_orient[{k}]" for k in (1, 2, 3, 4)]
 SHAPE = [f"c_shape[{k}]" for k in (1, 2, 3)]
@@ -11,7 +12,8 @@ SHAPE = [f"c_shape[{k}]" for k in (1, 2, 3)]
 def write_ovito(dump, path):
     """All snapshots in one file, with all columns but other places than x y z, of which OVITO would take the last."""
     with open(path, "w") as file:
-        for snapshot in dump:
+        for step in progress(dump.steps, "snapshots"):
+            snapshot = dump.at(step)
             _write_header(file, snapshot)
             columns = _columns(snapshot)
             file.write(f"ITEM: ATOMS {' '.join(columns)}\n")
