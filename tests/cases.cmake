@@ -659,7 +659,7 @@ add_cases(tools-convert cases/tools_convert.py LABEL case STYLES tools CASES
 add_cases(tools-convert-contacts cases/tools_convert_contacts.py LABEL case STYLES tools contact/local
   RANKS 1 LONG_RANKS 2 CASES spheroids)
 add_cases(tools-convert-contacts cases/tools_convert_contacts.py LABEL case STYLES tools contact/local CASES
-  spheres discs with-walls chosen-columns page refusals)
+  spheres discs with-walls chosen-columns across-a-face page refusals)
 add_cases(tools-convert-ovito cases/tools_convert_ovito.py LABEL case STYLES tools CASES
   page conversion spheres refusals)
 add_cases(tools-paraview cases/tools_paraview.py LABEL case STYLES tools LONG_RANKS 1 CASES grains contacts)

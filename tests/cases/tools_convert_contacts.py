@@ -131,6 +131,20 @@ def rows(**columns):
     return {f"c_contacts[{k}]": [values[name]] for k, name in enumerate(NAMES, 1)}
 
 
+def across_a_face(ranks):
+    """Where a grain was dumped on the other side of the box, its line is at its contact: short, not across the box."""
+    folder = new_folder()
+    spheres = {"id": [1, 2], "x": [0.05, 8.15], "y": [0.0, 0.5], "z": [9.9, 0.0], "radius": [1.0, 1.0]}
+    text = snapshot(0, spheres, tilts=(1.0, 0.0, 0.0), sides="pp pp ff")
+    (folder / "grains").write_text(text)
+    # i is dumped at x = 0.05, y = 0; its image that touches is at x = 11.05, y = 10
+    place = {"point_x": 10.1, "point_y": 10.25, "point_z": 9.9, "branch_x": 1.9, "branch_y": -0.5}
+    (folder / "contacts").write_text(snapshot(0, rows(**place), tilts=(1.0, 0.0, 0.0), kind="ENTRIES"))
+    converted("grains", "--to", "vtk", "--contacts", "contacts", folder=folder)
+    found = collection(folder / "vtk" / "contacts.pvd")[0.0]
+    require_close(found.points, [[11.05, 10, 9.9], [10.1, 10.25, 9.9], [9.15, 10.5, 9.9]], 1e-14, "the line")
+
+
 def refusals(ranks):
     """Columns that are missing or are others, steps and grains that are not there."""
     folder = new_folder()
@@ -177,6 +191,7 @@ main(
         "discs": in_a_box(disc_packing()),
         "with-walls": with_walls,
         "chosen-columns": chosen_columns,
+        "across-a-face": across_a_face,
         "page": page,
         "refusals": refusals,
     }

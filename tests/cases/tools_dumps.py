@@ -61,7 +61,7 @@ def many_files(ranks):
 
 def boxes(ranks):
     """Edges of orthogonal and tilted boxes, also tilted against the axes; LIGGGHTS writes the bounds around them."""
-    for tilts in (None, (2.0, 0.0, 0.0), (-3.0, 1.0, 0.5), (1.0, -2.5, -0.5)):
+    for tilts in (None, (2.0, 1.0, 0.5), (-3.0, -1.0, 0.5), (1.0, -2.5, -0.5)):
         box = Dump(written(snapshot(0, COLUMNS, (10.0, 8.0, 6.0), tilts)))[0].box
         xy, xz, yz = tilts or (0.0, 0.0, 0.0)
         require_close(box.edges, [[10, 0, 0], [xy, 8, 0], [xz, yz, 6]], 1e-15, f"edges, {tilts}")
