@@ -191,6 +191,9 @@ def walls(ranks):
     data = vtk(folder, "--walls", "ramp.stl", "lid*.stl")["walls"]
     for step in (0, 10, 20):
         require_equal(data[step].points[6:], ramp[0] + (step if step == 20 else 0), f"the lid of step {step}")
+    (folder / "lid0.stl").unlink()
+    data = vtk(folder, "--walls", "lid*.stl", "ramp.stl")["walls"]
+    require_equal(data[0.0].cell_data["wall"], [2, 2], "a wall keeps its number before another is there")
     (folder / "cut.stl").write_bytes(binary[:-1])
     (folder / "short.stl").write_text(meshes.stl("ramp", ramp)[:-40])
     for name in ("cut.stl", "short.stl"):

@@ -52,9 +52,11 @@ class Walls:
             self._walls.append(found)
         self.move = any(len(files) > 1 for files in self._walls)
 
-    def files(self, step):
+    def meshes(self, step):
+        """Those of a step, by the number of the wall, from 1."""
         held = ([s for s in files if s <= step] for files in self._walls)
-        return [files[max(steps)] for files, steps in zip(self._walls, held) if steps]
+        walls = enumerate(zip(self._walls, held), 1)
+        return {number: read_stl(files[max(steps)]) for number, (files, steps) in walls if steps}
 
 
 def to_vtk(grains, arguments):
@@ -78,7 +80,7 @@ def to_vtk(grains, arguments):
         series["walls"] = Series(folder, "walls")
         walls = Walls(arguments.walls)
         for step in grains.steps if walls.move else grains.steps[:1]:
-            meshes = [read_stl(path) for path in walls.files(step)]
+            meshes = walls.meshes(step)
             if meshes:
                 vtk_scene.write_walls(series["walls"].add(step, time(step)), time(step), meshes)
     for one in series.values():

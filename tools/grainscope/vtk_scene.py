@@ -95,13 +95,13 @@ def write_contacts(path, time, columns, snapshot, grains):
 
 
 def write_walls(path, time, meshes):
-    """`meshes`: corners (M,3,3) of the triangles of each wall."""
-    counts = [len(mesh) for mesh in meshes]
+    """`meshes`: corners (M,3,3) of the triangles, by the number of the wall."""
+    counts = [len(mesh) for mesh in meshes.values()]
     arrays = {
-        "wall": np.repeat(np.arange(1, len(meshes) + 1), counts),
+        "wall": np.repeat(list(meshes), counts),
         "triangle": np.concatenate([np.arange(count) for count in counts]),
     }
-    points = np.concatenate(meshes).reshape(-1, 3)
+    points = np.concatenate(list(meshes.values())).reshape(-1, 3)
     surface = {"Polys": (np.full(sum(counts), 3), np.arange(len(points)))}
     write_polydata(path, time, points, surface, cell_data=arrays)
 
