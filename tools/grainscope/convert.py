@@ -52,11 +52,14 @@ class Walls:
             self._walls.append(found)
         self.move = any(len(files) > 1 for files in self._walls)
 
-    def meshes(self, step):
-        """Those of a step, by the number of the wall, from 1."""
+    def numbered(self, step):
+        """The file of each wall in a step, by the number of the wall, from 1; a wall may have none yet."""
         held = ([s for s in files if s <= step] for files in self._walls)
         walls = enumerate(zip(self._walls, held), 1)
-        return {number: read_stl(files[max(steps)]) for number, (files, steps) in walls if steps}
+        return {number: files[max(steps)] for number, (files, steps) in walls if steps}
+
+    def files(self, step):
+        return list(self.numbered(step).values())
 
 
 def to_vtk(grains, arguments):
@@ -80,7 +83,7 @@ def to_vtk(grains, arguments):
         series["walls"] = Series(folder, "walls")
         walls = Walls(arguments.walls)
         for step in grains.steps if walls.move else grains.steps[:1]:
-            meshes = walls.meshes(step)
+            meshes = {number: read_stl(path) for number, path in walls.numbered(step).items()}
             if meshes:
                 vtk_scene.write_walls(series["walls"].add(step, time(step)), time(step), meshes)
     for one in series.values():
