@@ -50,7 +50,7 @@ class Walls:
             if not found:
                 raise InputError(f"--walls {name}: no file with a step in place of *")
             self._walls.append(found)
-        self.move = any(len(files) > 1 for files in self._walls)
+        self.move = any(set(files) != {0} for files in self._walls)
 
     def numbered(self, step):
         """The file of each wall in a step, by the number of the wall, from 1; a wall may have none yet."""
