@@ -61,6 +61,7 @@ def missing_input_refused(ranks):
         (["plot", none], f"{none}: No such file"),
         (["rows", none, "--output", "a.png"], f"{none}: No such file"),
         (["render", none], f"{none}: No such file"),
+        (["convert", none, "--to", "vtk"], f"{none}: No such file"),
         (["summarise", none], f"{none}/parameters.txt: No such file"),
         (["figures", none, "--output", scratch()], f"{none}/parameters.txt: No such file"),
         (["study", "plan", none], f"{none}: No such file"),
@@ -170,6 +171,8 @@ def examples_of_page(ranks):
         "surface.png",
         "surface.gif",
         "grains.png",
+        "vtk/surfaces.pvd",
+        "ovito.dump",
         "pictures/series.png",
         "fits/fits.csv",
     ):

@@ -223,7 +223,7 @@ def refusals(ranks):
         (["--contact-columns", "id"], "--contact-columns needs --contacts"),
     ):
         refused("convert", ["grains.dump", "--to", "vtk", *words], sentence, folder=folder)
-    code, _, messages = tool("convert", "grains.dump", "--to", "xyz", folder=folder)
+    code, messages = tool("convert", "grains.dump", "--to", "xyz", folder=folder)
     require(code == 2 and "'xyz'" in messages and "ovito" in messages, messages)
 
 

@@ -171,11 +171,11 @@ def refusals(ranks):
     contacts(whole, step=10)
     refused("convert", words, "in the same steps", "steps 10", "steps 0", folder=folder)
     contacts(rows(id_i=7))
-    _, messages = converted(*words, folder=folder)
+    messages = converted(*words, folder=folder)
     require("1 contacts are left out" in messages, messages)
     text = snapshot(0, whole, kind="ENTRIES") + snapshot(5, whole, kind="ENTRIES")
     (folder / "contacts").write_text(text + snapshot(9, whole, kind="ENTRIES")[:-3])
-    _, messages = converted(*words, folder=folder)
+    messages = converted(*words, folder=folder)
     require("contacts of 1 steps are left out" in messages and "step 9 is incomplete" in messages, messages)
     found = collection(folder / "vtk" / "contacts.pvd")[0.0]
     require_equal(found.points, [[0, 0, 0], [0, 0, 0], [-1.9, 0, 0]], "the line of a contact")

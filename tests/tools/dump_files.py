@@ -1,16 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Text dumps as LIGGGHTS writes them, of numbers that a test chose, and what grainscope-tools makes of them."""
+from contextlib import chdir
 import os
 from pathlib import Path
-import subprocess
-import sys
 import tempfile
 
 from case import require
+from command import asked
 
-SOURCE = Path(__file__).resolve().parents[2]
-TOOLS = SOURCE / "tools" / "grainscope-tools"
-PAGE = SOURCE / "doc" / "visualise.md"
+PAGE = Path(__file__).resolve().parents[2] / "doc" / "visualise.md"
 
 
 def new_folder():
@@ -32,26 +30,21 @@ def snapshot(step, columns, edges=(10.0, 10.0, 10.0), tilts=None, kind="ATOMS", 
     return "\n".join(lines) + "\n"
 
 
-def tool(command, *words, folder=None):
-    """A subcommand of grainscope-tools, run as a user does: exit code, output, messages."""
-    done = subprocess.run(
-        [sys.executable, str(TOOLS), command, *map(str, words)],
-        cwd=folder or new_folder(),
-        capture_output=True,
-        text=True,
-    )
-    require("Traceback" not in done.stderr, f"{command} {words}: {done.stderr}")
-    return done.returncode, done.stdout, done.stderr
+def tool(*words, folder=None):
+    """A command of grainscope-tools in a folder: exit code, and what it prints."""
+    with chdir(folder or new_folder()):
+        return asked(*words)
 
 
 def converted(*words, folder):
-    code, output, messages = tool("convert", *words, folder=folder)
-    require(code == 0, f"convert {words}: {messages}")
-    return output.split(), messages
+    """What convert prints."""
+    code, said = tool("convert", *words, folder=folder)
+    require(code == 0, f"convert {words}: {said}")
+    return said
 
 
 def refused(command, words, *sentences, folder=None):
-    """It ends with exit code 1 and one error that has all these words."""
-    code, _, messages = tool(command, *words, folder=folder)
-    missing = [sentence for sentence in sentences if sentence not in messages]
-    require(code == 1 and not missing, f"{command} {words}: code {code}, '{messages}' lacks {missing}")
+    """It ends with exit code 1 and an error that has all these words."""
+    code, said = tool(command, *words, folder=folder)
+    missing = [sentence for sentence in sentences if sentence not in said]
+    require(code == 1 and not missing, f"{command} {words}: code {code}, '{said}' lacks {missing}")
