@@ -644,6 +644,11 @@ add_cases(stress/contact-at-walls cases/wall_analytic.py LABEL case
   spheroid-lies-ellipsoid spheroid-lies-superquadric spheroid-stands-ellipsoid spheroid-stands-superquadric block-in-a-drum)
 
 # Format of the files, and what the tools that look for faults say of them
+add_cases(documentation cases/documentation.py LABEL case STYLES documentation CASES
+  messages-are-those-of-the-sources questions-are-listed tutorials-have-the-tested-numbers gallery site
+  faults-are-found page-without-a-place-refused lists-of-commonmark script-refuses)
+add_cases(documentation-browser cases/browser.py LABEL case STYLES documentation LONG_RANKS 1 CASES
+  pages-fit search-finds)
 add_cases(suite-style cases/style.py LABEL case STYLES suite style CASES clang-format black flake8 citation)
 add_cases(suite-style cases/style.py LABEL long STYLES suite style CASES clang-tidy)
 

@@ -9,7 +9,7 @@ HTML = r"/?(?:a|img|br|sub|sup|p|div|details|summary|!--)\b|!--"
 
 
 def for_mkdocs(text):
-    """A page whose blocks are those of CommonMark: what belongs to a list's item is indented by four, `<x>` is no tag."""
+    """A page whose blocks are those of CommonMark: items are indented by four, `<x>` is no tag."""
     lines, width, fenced, several = [], 0, False, False
     for line in text.split("\n"):
         if FENCE.match(line):
@@ -22,7 +22,9 @@ def for_mkdocs(text):
             line = "    " + NUMBER.sub(r"\1\\.", line[width:])
         elif line.strip() and not line.startswith(" "):
             width = 0
-        several = (several or not line) and width > 0  # an item of several blocks: the next one begins after an empty line
+        several = (
+            several or not line
+        ) and width > 0  # an item of several blocks: the next one begins after an empty line
         lines.append(line if fenced or line.startswith("    ") else _plain(line))
     return "\n".join(lines)
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What MkDocs does beside its own: the site mirrors the repository's tree, so that links lead where they lead there; and
-a page without a place in the navigation, a dead link or an asset from another host ends the build."""
+"""What MkDocs does beside its own: the site mirrors the repository's tree, so that links lead where they lead there. A
+page without a place in the navigation, a dead link or an asset from another host ends the build."""
+import os
 from pathlib import Path
 import re
 import sys
@@ -51,13 +52,18 @@ def input_scripts(page):
         yield f"\n## {deck.name}\n\n```\n{deck.read_text().rstrip()}\n```\n"
 
 
+def page_of(folder):
+    """The page of a folder, or that of the nearest above."""
+    return folder / "README.md" if (folder / "README.md").is_file() else page_of(folder.parent)
+
+
 def on_page_markdown(markdown, page, config, files):
-    folder = (TOP / page.file.src_uri).parent
+    here = (TOP / page.file.src_uri).parent
 
     def to_page(found):
         """A link to a folder leads to its page."""
-        end = (folder / found[1]).resolve()
-        return f"]({found[1].rstrip('/')}/README.md)" if (end / "README.md").is_file() else found[0]
+        end = (here / found[1]).resolve()
+        return f"]({os.path.relpath(page_of(end), here)})" if end.is_dir() else found[0]
 
     return re.sub(r"\]\(([^)#:\s]+)\)", to_page, for_mkdocs(markdown)) + "".join(input_scripts(page))
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The links of a site that is built: whether pages, files, pictures and headings are there, and nothing comes from another host."""
+"""The links of a site that is built: whether pages, files, pictures and headings are there, and nothing is loaded from
+another host."""
 from html.parser import HTMLParser
-from pathlib import Path
 import re
 from urllib.parse import unquote, urlsplit
 

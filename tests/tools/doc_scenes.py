@@ -3,6 +3,8 @@
 names its scene in the comment above it, `<!-- run: shear -->`."""
 from dataclasses import dataclass, replace
 import math
+import os
+from pathlib import Path
 
 import numpy as np
 
@@ -76,4 +78,10 @@ def drum():
     return Scene(list(deck.lines()), 3000)
 
 
-SCENES = {"shear": shear, "discs": discs, "clumps": of_clumps, "bed": bedded, "drum": drum}
+def compression():
+    """The example's own deck, up to its run."""
+    deck = (Path(os.environ["GRAINSCOPE_SOURCE"]) / "examples/compression/in.compression").read_text()
+    return Scene([line for line in deck.splitlines() if not line.startswith(("run ", "thermo "))], 9000)
+
+
+SCENES = {"compression": compression, "shear": shear, "discs": discs, "clumps": of_clumps, "bed": bedded, "drum": drum}

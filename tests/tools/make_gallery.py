@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The page doc/gallery.md of the pictures that doc/images/gallery.csv lists, each with its input scripts and commands.
+
+Usage: make_gallery.py            # prints it
+       make_gallery.py --write    # into doc/gallery.md
+"""
+import csv
+from pathlib import Path
+import sys
+
+TOP = Path(__file__).resolve().parent.parent.parent
+HEAD = """# Gallery
+
+Every picture is made by the commands below it, in the folder of an example, with `build/release/bin` on the path. The
+page is made from `images/gallery.csv` by `tests/tools/make_gallery.py --write`.
+"""
+
+
+def pictures():
+    with open(TOP / "doc/images/gallery.csv", newline="") as file:
+        yield from csv.DictReader(file)
+
+
+def section(picture):
+    name, title, folder = picture["picture"], picture["title"], picture["example folder"]
+    decks = sorted(path.name for path in (TOP / folder).glob("in.*")) or ["README.md"]
+    links = ", ".join(f"[{deck}](../{folder}/{deck})" for deck in decks)
+    commands = "\n".join(f"    {command.strip()}" for command in picture["command"].split(";"))
+    return f"\n## {title}\n\n![{title}](images/{name})\n\n{commands}\n\n[{folder}](../{folder}): {links}\n"
+
+
+def page():
+    return HEAD + "".join(section(picture) for picture in pictures())
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["--write"]:
+        (TOP / "doc/gallery.md").write_text(page())
+    elif sys.argv[1:]:
+        sys.exit(__doc__)
+    else:
+        print(page(), end="")
