@@ -32,7 +32,7 @@ def sheared(packing, **choices):
     deck = Deck(packing, material=TYPES if packing.types > 1 else Material(), extra="ledger on", **choices)
     deck.body = [
         "variable rate equal 0.5",
-        "fix press all press/strain y target 2e5 shear xy rate 0.5 every/step 10",
+        "fix press all press/strain y target 2e4 shear xy rate 0.5 every/step 10",
         "outputs press",
     ]
     return list(deck.lines())

@@ -24,9 +24,9 @@ def pictures():
 def section(picture):
     name, title, folder = picture["picture"], picture["title"], picture["example folder"]
     decks = sorted(path.name for path in (TOP / folder).glob("in.*")) or ["README.md"]
-    links = ", ".join(f"[{deck}](../{folder}/{deck})" for deck in decks)
+    links = ",\n".join(f"[{deck}](../{folder}/{deck})" for deck in decks)
     commands = "\n".join(f"    {command.strip()}" for command in picture["command"].split(";"))
-    return f"\n## {title}\n\n![{title}](images/{name})\n\n{commands}\n\n[{folder}](../{folder}): {links}\n"
+    return f"\n## {title}\n\n![{title}](images/{name})\n\n{commands}\n\nIn [{folder}](../{folder}):\n{links}\n"
 
 
 def page():
