@@ -22,12 +22,16 @@ from site_of_pages import built, scratch
 
 PAGES = {
     "front": "index.html",
+    "start": "doc/getting_started.html",
     "questions": "doc/how_do_i.html",
+    "answers": "doc/measure_contacts.html",
     "reference": "doc/compute_stress_contact.html",
     "gallery": "doc/gallery.html",
     "tutorial": "doc/tutorial_silo.html",
+    "example": "examples/drum/index.html",
     "faq": "doc/faq.html",
     "glossary": "doc/glossary.html",
+    "data": "doc/stability_control.html",
 }
 WIDTHS = (390, 1280)
 # Elements that stick out of the page although nothing around them scrolls.
