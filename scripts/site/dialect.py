@@ -5,7 +5,6 @@ import re
 ITEM = re.compile(r"([-*] +|\d+\. +)")
 NUMBER = re.compile(r"^(\d+)\.(?= )")  # within an item: a number that ends a sentence
 FENCE = re.compile(r" *(```|~~~)")
-HTML = r"/?(?:a|img|br|sub|sup|p|div|details|summary|!--)\b|!--"
 
 
 def for_mkdocs(text):
@@ -19,19 +18,22 @@ def for_mkdocs(text):
             lines += [""] if several and lines[-1] else []
             width, several = len(item[0]), False
         elif width and line.startswith(" " * width):
-            line = "    " + NUMBER.sub(r"\1\\.", line[width:])
+            rest = line[width:]
+            line = "    " + (rest if _is_code(rest) or fenced else NUMBER.sub(r"\1\\.", _text(rest)))
         elif line.strip() and not line.startswith(" "):
             width = 0
-        several = (
-            several or not line
-        ) and width > 0  # an item of several blocks: the next one begins after an empty line
-        lines.append(line if fenced or line.startswith("    ") else _plain(line))
+        several = width > 0 and (several or not line)  # blocks of an item: the next item begins after an empty line
+        lines.append(line if fenced or _is_code(line) else _text(line))
     return "\n".join(lines)
 
 
-def _plain(line):
-    """A line's text with what is no tag, outside of code."""
+def _is_code(line):
+    return line.startswith("    ")
+
+
+def _text(line):
+    """A line in which `<x>` outside of code is text: pages have no tags but comments."""
     parts = re.split(r"(`+[^`]*`+)", line)
     for k in range(0, len(parts), 2):
-        parts[k] = re.sub(rf"<(?!{HTML})(?=[A-Za-z])", "&lt;", parts[k])
+        parts[k] = re.sub(r"<(?=[A-Za-z])", "&lt;", parts[k])
     return "".join(parts)

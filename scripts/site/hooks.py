@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What MkDocs does beside its own: the site mirrors the repository's tree, so that links lead where they lead there. A
 page without a place in the navigation, a dead link or an asset from another host ends the build."""
+from fnmatch import fnmatch
 import os
 from pathlib import Path
 import re
@@ -16,7 +17,7 @@ from site_links import faults
 TOP = Path(__file__).resolve().parent.parent.parent
 PAGES = ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md", "bench/README.md", "tests/README.md")
 FOLDERS = ("doc", "examples", "tools")  # with all that their pages may lead to: decks, pictures, programs
-LEFT_OUT = {"__pycache__", "out", ".snakemake"}
+OF_RUNS = ("*/__pycache__/*", "*/out/*", "*/.snakemake/*", "*.dump", "*.restart", "*/log.*")  # not for the site
 
 
 def names():
@@ -25,8 +26,9 @@ def names():
     yield "scripts/site/site.css"
     for folder in FOLDERS:
         for path in sorted((TOP / folder).rglob("*")):
-            if path.is_file() and not LEFT_OUT.intersection(path.parts):
-                yield path.relative_to(TOP).as_posix()
+            name = path.relative_to(TOP).as_posix()
+            if path.is_file() and not any(fnmatch(name, pattern) for pattern in OF_RUNS):
+                yield name
 
 
 def on_files(files, config):

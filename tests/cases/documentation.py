@@ -151,8 +151,9 @@ def lists_of_commonmark(ranks):
         ("1. a\n\n   b\n2. c", "1. a\n\n    b\n\n2. c"),
         ("1. a\n2. b", "1. a\n2. b"),
         ("- above\n  4. The limit", "- above\n    4\\. The limit"),
+        ("- a\n  <x>\n\n      <y>", "- a\n    &lt;x>\n\n        <y>"),
         ("- a\n\nb\n  c", "- a\n\nb\n  c"),
-        ("mean <F_n> of `<F_n>` <img src='x'>", "mean &lt;F_n> of `<F_n>` <img src='x'>"),
+        ("mean <F_n> of `<F_n>`", "mean &lt;F_n> of `<F_n>`"),
         ("```\n- a\n  <b>\n```", "```\n- a\n  <b>\n```"),
         ("    <F_n> stays", "    <F_n> stays"),
     ):
