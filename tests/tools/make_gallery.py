@@ -11,8 +11,9 @@ import sys
 TOP = Path(__file__).resolve().parent.parent.parent
 HEAD = """# Gallery
 
-Every picture is made by the commands below it, in the folder of an example, with `build/release/bin` on the path. The
-page is made from `images/gallery.csv` by `tests/tools/make_gallery.py --write`.
+Each picture is drawn by the commands below it, in the folder of an example, after the run of its input script. They
+want `build/release/bin` on the path. The page is made from `images/gallery.csv` by
+`tests/tools/make_gallery.py --write`.
 """
 
 
