@@ -6,6 +6,7 @@ Usage: make_gallery.py            # prints it
 """
 import csv
 from pathlib import Path
+import re
 import sys
 
 TOP = Path(__file__).resolve().parent.parent.parent
@@ -22,11 +23,22 @@ def pictures():
         yield from csv.DictReader(file)
 
 
+def lines_of(command):
+    """A command as it may be typed, on lines of at most 120 characters."""
+    line = "   "
+    for word in re.findall(r"(?:[^\s\"]|\"[^\"]*\")+", command):
+        if len(line) + len(word) > 116:
+            yield line + " \\"
+            line = "       "
+        line += " " + word
+    yield line
+
+
 def section(picture):
     name, title, folder = picture["picture"], picture["title"], picture["example folder"]
     decks = sorted(path.name for path in (TOP / folder).glob("in.*")) or ["README.md"]
     links = ",\n".join(f"[{deck}](../{folder}/{deck})" for deck in decks)
-    commands = "\n".join(f"    {command.strip()}" for command in picture["command"].split(";"))
+    commands = "\n".join(line for command in picture["command"].split(";") for line in lines_of(command))
     return f"\n## {title}\n\n![{title}](images/{name})\n\n{commands}\n\nIn [{folder}](../{folder}):\n{links}\n"
 
 
