@@ -72,14 +72,14 @@ class Pressed:
         return 2 * modulus * np.sqrt((radius / 2 if self.pair else radius) * self.overlap)
 
     def matrices(self, e, damping):
-        """M^-1/2 K M^-1/2 and the same of C. On a primitive wall the arm is that of the deepest point, on a mesh it ends
-        at the plane. Of a pair, mirror images of each other, those of the mode in which they move against each other.
-        """
+        """M^-1/2 K M^-1/2 and the same of C. On a primitive wall the arm is that of the deepest point, on a mesh it
+        ends at the plane. Of a pair, mirror images of each other, those of the mode in which they move against each
+        other."""
         arms = self.size * self._reach() - {"mesh": 1, "pair": 0.5}.get(self.kind, 0) * self.overlap
         values, vectors = np.linalg.eigh(self.spread())
         light = vectors @ np.diag(values**-0.5) @ vectors.T
         springs, dashpots = np.zeros((6, 6)), np.zeros((6, 6))
-        mass, moving = self.mass(), self.mass() / (2 if self.pair else 1)
+        moving = self.mass() / (2 if self.pair else 1)
         for n, arm, k in zip(self.normals, arms, self.stiffness()):
             x, y, z = -arm * n
             lever = np.hstack([np.eye(3), np.array(((0, z, -y), (-z, 0, x), (y, -x, 0))) @ light])
