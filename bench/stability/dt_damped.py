@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Where the time step fails at restitutions near 0 with tangential damping, LIGGGHTS's default: doc/stability_data.md.
+"""Where the time step fails at restitutions near 0 with tangential damping, LIGGGHTS's default:
+doc/stability_time_step.md.
 
 Stages, each of which leaves rows in a csv file beside this script and goes on where it was interrupted:
 

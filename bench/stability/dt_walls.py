@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Where the time step fails for grains that are pressed on walls: doc/stability_data.md.
+"""Where the time step fails for grains that are pressed on walls: doc/stability_time_step.md.
 
 Single grains lie on a plane, in a corner of three planes, or between two plates, held by a load at a given overlap, and
 are stirred by a breath. Copies of each, with densities that put the time step from 0.8 to 1.25 of the limit of the
