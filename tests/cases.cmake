@@ -665,6 +665,13 @@ add_cases(tools-convert-ovito cases/tools_convert_ovito.py LABEL case STYLES too
 add_cases(tools-paraview cases/tools_paraview.py LABEL case STYLES tools LONG_RANKS 1 CASES grains contacts)
 
 # Format of the files, and what the tools that look for faults say of them
+add_cases(documentation cases/documentation.py LABEL case STYLES documentation CASES
+  messages-are-those-of-the-sources questions-are-listed tutorials-have-the-tested-numbers gallery site
+  faults-are-found page-without-a-place-refused lists-of-commonmark script-refuses)
+add_cases(documentation-browser cases/browser.py LABEL case STYLES documentation LONG_RANKS 1 CASES
+  pages-fit search-finds)
+add_cases(documentation-commonmark cases/commonmark.py LABEL case STYLES documentation LONG_RANKS 1 CASES
+  blocks-of-pages)
 add_cases(suite-style cases/style.py LABEL case STYLES suite style CASES clang-format black flake8 citation)
 add_cases(suite-style cases/style.py LABEL long STYLES suite style CASES clang-tidy)
 

@@ -16,7 +16,7 @@ namespace grainscope {
 namespace time_step {
 
 constexpr double limit = 4.0;
-/** Below this share the contact network cannot reach `limit` (smallest over all packings of doc/stability.md: 0.48). */
+/** Below this share the contact network cannot reach `limit` (smallest over all packings of doc/stability.md: 0.47). */
 constexpr double harmless = 0.4;
 
 /** (dt^2 k + 2 dt gamma_n)/m_eff of one contact [-], k the tangent stiffness. */
@@ -25,8 +25,9 @@ inline double of_contact(const Contact &c, double effective_mass, double dt) {
   return dt * (dt * c.law->tangent_stiffness(m) + 2.0 * m.damping_coefficient) / effective_mass;
 }
 
-/** One grain against its contacts, held still beyond them: twice its largest eigenvalue, over all grains, is never
- *  below the network's. */
+/** One grain against its contacts, held still beyond them. A contact between grains has twice its weight: |u_i - u_j|^2
+ *  is at most 2 |u_i|^2 + 2 |u_j|^2. One with a wall, which does not give way, has it once. So the largest eigenvalue
+ *  of all grains is never below the network's; of a grain that touches walls only it is exact. */
 class GrainModes {
  public:
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
@@ -37,8 +38,9 @@ class GrainModes {
     const Eigen::Matrix3d n = c.normal * c.normal.transpose(), t = Eigen::Matrix3d::Identity() - n;
     const ContactMotion &m = *c.motion;
     const double k_t = law.sticks() ? m.tangential_stiffness : 0.0, damping_t = m.damped ? m.tangential_damping : 0.0;
-    stiffness_ += seen_from(arm, law.tangent_stiffness(m) * n + k_t * t);
-    damping_ += seen_from(arm, m.damping_coefficient * n + damping_t * t);
+    const double weight = c.with_wall() ? 1.0 : 2.0;
+    stiffness_ += weight * seen_from(arm, law.tangent_stiffness(m) * n + k_t * t);
+    damping_ += weight * seen_from(arm, m.damping_coefficient * n + damping_t * t);
   }
 
   /** Takes out what a grain of two dimensions cannot do: leave the plane x, y, or turn about x or y. */
@@ -51,7 +53,7 @@ class GrainModes {
   }
 
   struct Mode {
-    double value = 0.0;                     // 2 x eigenvalue of M^-1 (dt^2 K + 2 dt C) [-]
+    double value = 0.0;                     // eigenvalue of M^-1 (dt^2 K + 2 dt C) [-]
     double stiffness = 0.0, damping = 0.0;  // value = dt^2 stiffness + dt damping
 
     /** The time step at which it is at the limit. */
@@ -67,7 +69,7 @@ class GrainModes {
     m.bottomRightCorner<3, 3>() = inertia;
     const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> modes(dt * dt * stiffness_ + 2.0 * dt * damping_, m);
     const Eigen::Matrix<double, 6, 1> v = modes.eigenvectors().col(5);  // v.M v = 1
-    return {2.0 * modes.eigenvalues()[5], 2.0 * v.dot(stiffness_ * v), 4.0 * v.dot(damping_ * v)};
+    return {modes.eigenvalues()[5], v.dot(stiffness_ * v), 2.0 * v.dot(damping_ * v)};
   }
 
  private:

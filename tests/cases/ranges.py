@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What is said when a run leaves its safe range: once, with the number and the limit; and nothing where all is well."""
 from dataclasses import replace
+import math
 import re
 
-from case import main, require, require_same_snapshots
-from deck import Deck, Material, dump_grains, rayleigh_time, shear, thermo
+from case import main, require, require_close, require_same_snapshots
+from deck import POISSON, YOUNG, Deck, Material, dump_grains, rayleigh_time, shear, thermo
 from grainscope.columns import outputs
 from packing import Grain, Packing, dense_packing
 from run import run
@@ -57,8 +58,19 @@ def time_step_in_short_runs(ranks):
     require("tangential" not in line, line)
 
 
+def rolling_limit(mass, overlap, restitution):
+    """Of a ball of radius 1 between two walls, with tangential damping: 2 a^2 (dt^2 k_t + 2 dt gamma_t)/I = 4, with
+    a = 1 - overlap/2, the arm of LIGGGHTS's spheres."""
+    stiffness = 8.0 * YOUNG / (4.0 * (2.0 - POISSON) * (1.0 + POISSON)) * math.sqrt(overlap)
+    log = math.log(restitution)
+    damping = 2.0 * math.sqrt(5.0 / 6.0) * -log / math.hypot(log, math.pi) * math.sqrt(stiffness * mass)
+    part = 2.0 * 0.4 * mass / (1.0 - 0.5 * overlap) ** 2  # dt^2 k_t + 2 dt gamma_t at the limit
+    return part / (damping + math.sqrt(damping**2 + stiffness * part))
+
+
 def time_step_at_walls(ranks):
-    """A ball that nobody moves, held between two walls."""
+    """A ball that nobody moves, held between two walls. Its fastest motion is to roll against both tangential springs
+    and dashpots, and walls do not give way: the step given is the closed form's."""
     packing = Packing((8.0,) * 3, [Grain((0.0, 0.0, 0.98))], atom_style="sphere", origin=(-4.0,) * 3, triclinic=False)
     deck = Deck(packing, boundary="f f f", material=Material(restitution=(0.1,)))
     wall = f"wall/gran {deck.model()} primitive type 1 zplane"
@@ -66,6 +78,7 @@ def time_step_at_walls(ranks):
     line = said(replace(deck, timestep=0.4 * rayleigh_time()), TIME_STEP, ranks)
     number, safe = (float(x) for x in re.search(r"over the mass is (\S+), limit.*below (\S+), or", line).groups())
     require(number > 4.0 and 0.0 < safe < 0.4 * rayleigh_time(), f"the numbers are {number}, {safe}")
+    require_close(safe, rolling_limit(Grain((0.0, 0.0, 0.0)).mass(), 0.02, 0.1), 5e-3, "safe time step")
     quiet = run(replace(deck, timestep=0.95 * safe), ranks).output
     require(TIME_STEP not in quiet, "the step that was said to be safe was warned of")
 

@@ -22,6 +22,7 @@ Touch touch_of(fuzz::Input &input, double size, double stiffness) {
   Touch t;
   Contact &c = t.contact;
   ContactMotion &m = c.motion.emplace();
+  if (input.flag()) c.partner = PartnerWall();
   input.direction(c.normal.data(), 3);
   t.arm = size * Vector3d(input.small(), input.small(), input.small());
   m.normal_stiffness = stiffness * input.logarithmic(1e-3, 1e3);

@@ -58,6 +58,43 @@ TEST(time_step_bound, contacts_on_both_sides_add_up) {
   EXPECT_NEAR(two.fastest(mass, inertia, dt).value, 2.0 * one.fastest(mass, inertia, dt).value, 1e-14);
 }
 
+Contact at_wall() {
+  Contact c = make_contact();
+  c.partner = grainscope::PartnerWall();
+  return c;
+}
+
+// Kick and drift against spring and dashpot of make_contact() by Hertz's law, with the velocity of half a step ago.
+double moved_at_most(double step) {
+  double x = 1e-6, v = 0.0, largest = 0.0;
+  for (int k = 0; k < 2000; k++) {
+    v -= step * (900.0 * x + 8.0 * v) / mass;
+    x += step * v;
+    largest = std::max(largest, std::fabs(x));
+  }
+  return largest;
+}
+
+TEST(time_step_bound, the_largest_step_at_a_wall_is_the_true_limit) {
+  GrainModes modes;
+  modes.add(by(at_wall(), hertz), Vector3d::Zero());
+  const double largest = modes.fastest(mass, inertia, dt).largest_step();
+  EXPECT_LT(moved_at_most(0.99 * largest), 1e-5);
+  EXPECT_GT(moved_at_most(1.01 * largest), 1.0);
+}
+
+TEST(time_step_bound, a_wall_does_not_give_way_and_a_grain_does) {
+  GrainModes walls, grains, both;
+  walls.add(by(at_wall(), hooke), Vector3d(-1.0, 0.0, 0.0));
+  grains.add(by(make_contact(), hooke), Vector3d(-1.0, 0.0, 0.0));
+  both.add(by(at_wall(), hooke), Vector3d(-1.0, 0.0, 0.0));
+  both.add(by(make_contact(), hooke), Vector3d(-1.0, 0.0, 0.0));
+  const double wall = walls.fastest(mass, inertia, dt).value;
+  EXPECT_NEAR(wall, (dt * dt * 600.0 + 2.0 * dt * 8.0) / mass, 1e-14);
+  EXPECT_NEAR(grains.fastest(mass, inertia, dt).value, 2.0 * wall, 1e-14);
+  EXPECT_NEAR(both.fastest(mass, inertia, dt).value, 3.0 * wall, 1e-14);
+}
+
 TEST(time_step_bound, the_largest_step_is_where_the_limit_is_reached) {
   GrainModes modes;
   modes.add(by(make_contact(), hertz), Vector3d(-1.0, 0.0, 0.0));
