@@ -56,6 +56,14 @@ set(evaluate "\ndouble Variable::evaluate(char *str, Tree **tree)\n{\n")
 mend_message(variable.cpp "${evaluate}" "${evaluate}  const grainscope::FormulaUnderway underway(str);\n"
              "likewise, in a formula")
 
+# thermo_style names variables that are looked up when a run begins.
+mend_message(thermo.cpp "    if (ivariable < 0)\n      error->all(FLERR,\"Could not find thermo variable name\");" "
+    if (ivariable < 0) {
+      const std::string name = std::string(\"v_\") + id_variable[i];
+      const grainscope::FormulaUnderway underway(name.c_str());
+      error->all(FLERR,\"Could not find thermo variable name\");
+    }" "likewise, a variable of thermo_style")
+
 # `c_s[*]`, `c_s[2x]`, `c_s[0]` and `c_s[1][2]` are taken for something else: the number at the beginning, or none.
 foreach(name compute_atom_molecule compute_reduce compute_slice dump_custom dump_local dump_particle fix_ave_atom
         fix_ave_correlate fix_ave_histo fix_ave_spatial fix_ave_time fix_store_state)

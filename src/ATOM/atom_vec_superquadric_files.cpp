@@ -55,7 +55,7 @@ int AtomVecSuperquadricFiles::columns_of_atoms(int n, char *lines) {
     std::string problem = line::problem_of_grain(words, atom->ntypes, IMGMAX);
     if (!first) first = words.size();
     if (problem.empty() && words.size() != first)
-      problem = "all lines must have as many columns, got " + std::to_string(words.size()) + " after " +
+      problem = "all lines must have the same number of columns, got " + std::to_string(words.size()) + " after " +
                 std::to_string(first);
     if (!problem.empty()) refuse("Atoms", id_of(words), problem);
   });
@@ -104,11 +104,9 @@ void AtomVecSuperquadricFiles::require_grains_of_shape_and_density() {
   MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, world);
   if (first == INT_MAX) return;
   const std::string grain = std::to_string(first);
-  const std::string problem =
-      "write_data: the radius, volume, mass or moments of inertia of grain " + grain +
-      " are "
-      "not those of its shape and density, and a data file of superquadrics holds no others: set its shape and "
-      "density, or use write_restart";
+  const std::string problem = "write_data: the radius, volume, mass or moments of inertia of grain " + grain +
+                              " are not those of its shape and density, and a data file of superquadrics cannot hold "
+                              "others: set its shape and density, or use write_restart";
   error->all(FLERR, problem.c_str());
 }
 

@@ -63,12 +63,13 @@ Source source_of(const Modify &modify, const std::string &id, const Arguments &e
     if (one.declared) found.push_back(one);
     else other = one.description;
   }
-  const std::string requirement = "'ID' must be that of a compute or fix with named outputs, got '" + id + "'";
+  const std::string requirement = "'ID' must be the ID of a compute or fix with named outputs, got '" + id + "'";
+  const std::string page = " (doc/outputs.md)";
   if (found.size() > 1)
-    errors.fail(requirement + ", which is both " + found[0].description + " and " + found[1].description +
+    errors.fail(requirement + ", which is the ID of both " + found[0].description + " and " + found[1].description +
                 ": rename one");
-  if (found.empty() && !other.empty()) errors.fail(requirement + ", " + other + ", whose outputs have no names");
-  if (found.empty()) errors.fail(requirement + grainscope::nearest_name(id, named));
+  if (found.empty() && !other.empty()) errors.fail(requirement + ": the outputs of " + other + " have no names" + page);
+  if (found.empty()) errors.fail(requirement + grainscope::nearest_name(id, named) + page);
   return found[0];
 }
 
@@ -139,7 +140,7 @@ std::string table_of(const Source &source, const std::vector<Line> &lines) {
     rows.push_back(
         {one.kind, one.index, output.name, output.unit, text_of(output.extent), one.read_as, output.meaning});
   }
-  std::string text = "Outputs of " + source.description + "\n" + table_of(rows);
+  std::string text = "Outputs of " + source.description + ", " + source.declared->page() + "\n" + table_of(rows);
   const Outputs &outputs = source.declared->outputs();
   if (!outputs.columns.empty())
     text += "array: i from 1 to " + std::to_string(outputs.rows) + ", one row per " + outputs.row + "\n";
@@ -157,7 +158,7 @@ std::map<std::string, std::string> &defined_here() {
 std::string other_meaning(Variable &variable, const std::string &name, const std::string &formula) {
   const int found = variable.find(const_cast<char *>(name.c_str()));
   if (found < 0) return "";
-  if (!variable.equalstyle(found)) return "of another style than equal";
+  if (!variable.equalstyle(found)) return "not of style equal";
   const std::string text = (variable.*member_of(TextsOfVariables()))[found][0];
   const auto ours = defined_here().find(name);
   if (ours != defined_here().end() && ours->second == text) return "";
@@ -170,8 +171,8 @@ void define(LAMMPS *lmp, const std::vector<Line> &lines, const Arguments &errors
   for (const Line &one : lines) {
     const std::string other = other_meaning(variable, one.variable, one.formula);
     if (!other.empty())
-      errors.fail("'" + one.formula + "' would be variable '" + one.variable + "', which exists and is " + other +
-                  ": delete that variable first, or give another 'prefix'");
+      errors.fail("the variable '" + one.variable + "' for '" + one.formula + "' exists already and is " + other +
+                  ": delete it first, or give another 'prefix'");
   }
   for (const Line &one : lines) {
     if (one.variable.empty()) continue;

@@ -98,7 +98,7 @@ void ComputeContactGrain::require_same_grains() const {
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, world);
   if (changed)
     grainscope::Arguments(lmp, name_ + " " + id)
-        .fail("grains were sorted, added or removed since the last step of the run: ask within a run");
+        .fail("grains were sorted, added or removed after the last step of the run: use it during a run");
 }
 
 void ComputeContactGrain::compute_peratom() {

@@ -134,7 +134,7 @@ void ComputeDisplacementShear::require_flow_of_all() {
     const grainscope::Arguments errors(lmp, name);
     if (deform->remapflag == no_remap)
       errors.fail(which + " must move grains along with the box, 'remap v' or 'remap x', got 'remap none': "
-                          "displacements against its flow would be wrong");
+                          "displacements relative to its flow would be wrong");
     int others = 0;
     for (int i = 0; i < atom->nlocal && !others; i++)
       others = atom->mask[i] & groupbit && !(atom->mask[i] & deform->groupbit);
@@ -177,7 +177,7 @@ void ComputeDisplacementShear::begin(double strain) {
   if (grains == 0.0 && comm->me == 0) {
     const std::string in_region = impl_->scope.within() ? " and region '" + impl_->scope.within()->id() + "'" : "";
     error->warning(FLERR, (std::string(name) + " " + id + ": there is no grain in group '" + group->names[igroup] +
-                           "'" + in_region + " when it starts, and it follows those that are there then")
+                           "'" + in_region + " at its start, and it follows only grains that are present then")
                               .c_str());
   }
   Map<Matrix3d>(shared + EDGES) = box.edges;

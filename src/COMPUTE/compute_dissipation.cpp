@@ -146,7 +146,7 @@ ComputeDissipation::ComputeDissipation(LAMMPS *lmp, int &iarg, int narg, char **
   if (impl_->mode == Mode::ledger) {
     grainscope::require_box(lmp, arguments);
     if (scope_.by_types() || !scope_.type_pair().any() || scope_.within())
-      arguments.fail("'mode ledger' knows no losses by types or of a region: 'mode step' does");
+      arguments.fail("'mode ledger' has no losses by types or of a region: use 'mode step'");
   }
   using Of = LossSums::Of;
   impl_->sums.mine().of = impl_->mode == Mode::instantaneous ? Of::powers

@@ -68,7 +68,7 @@ FieldQuantities ComputeField::read(int &iarg, int narg, char **arg) {
 void ComputeField::init() {
   ContactCompute::init();
   const grainscope::Arguments errors(lmp, name_);
-  grainscope::require_no_bodies(lmp, errors, "they would count sphere by sphere");
+  grainscope::require_no_bodies(lmp, errors, "each of their spheres would count as a grain");
   settings_.require_dimension(errors, domain->dimension);
   if (domain->dimension == 2 && (quantities_.blocks() & FieldSums::axes))
     errors.fail("Q, S2 and director need dimension 3");

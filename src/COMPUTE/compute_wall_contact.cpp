@@ -214,7 +214,8 @@ void ComputeWallContact::init() {
 void ComputeWallContact::require_losses() const {
   for (const grainscope::Wall &wall : impl_->walls->walls()) {
     const std::string why = wall.law ? wall.law->why_no_losses() : "";
-    if (!why.empty()) Arguments(lmp, name_).fail("wall '" + wall.name + "': " + why + ". Or say 'losses no'");
+    if (!why.empty())
+      Arguments(lmp, name_).fail("wall '" + wall.name + "': " + why + ": change its models, or use 'losses no'");
   }
 }
 
@@ -229,7 +230,7 @@ void ComputeWallContact::warn_of_unknown_areas() {
     impl_->warned = true;
     if (comm->me == 0)
       error->warning(FLERR, (name_ + " " + id + ": the area of wall '" + wall.name + "' is not known (" + why +
-                             "): area and tractions are 0. 'area " + wall.name + " A' gives it")
+                             "): area and tractions are 0. Give it by 'area " + wall.name + " A'")
                                 .c_str());
   }
 }

@@ -17,12 +17,11 @@ void ClippingWatch::watch(LAMMPS_NS::LAMMPS *lmp, double inputs, const PressureC
   const bool reversed = input.clipped && input.velocity * velocity_before_ < 0.0;
   reversed_ += 0.01 * ((reversed ? 1.0 : 0.0) - reversed_);
   velocity_before_ = input.velocity;
-  const std::string message = who_ +
-                              ": %.2g of the last hundred inputs were clipped (limit %g), long after the "
-                              "start or one way and the other: the " +
-                              stress +
-                              " is not under control. Use gain auto, a smaller gain or a shorter interval, or raise "
-                              "'limit' and 'maxrate'";
+  const std::string message =
+      who_ +
+      ": %.2g of the last hundred inputs were clipped (limit %g), long after the start or with alternating sign: the " +
+      stress +
+      " is not under control. Use gain auto, a smaller gain or a shorter interval, or raise 'limit' and 'maxrate'";
   warning_.watch(lmp, (settled_ && clipped_ > often_clipped) || reversed_ > often_clipped, message.c_str(), clipped_,
                  often_clipped);
 }

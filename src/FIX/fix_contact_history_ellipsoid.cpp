@@ -47,8 +47,8 @@ void FixContactHistoryEllipsoid::restart(char *buffer) {
   const double marked = state[1] - std::floor(state[1]);
   if (marked != 0.0 && marked != mark())
     error->all(FLERR, ("the restart file holds " + std::to_string(dnum_ + more()) +
-                       " numbers per contact, as many as this pair_style has, but other ones: give the contact models, "
-                       "'ledger' and 'time_level' that it was written with")
+                       " numbers per contact, as many as this pair_style, but with other meanings: use the contact "
+                       "models, 'ledger' and 'time_level' that it was written with")
                           .c_str());
 }
 

@@ -112,7 +112,7 @@ void FixGrainRecord::require_room() const {
     if (const FixGrainRecord *one = dynamic_cast<const FixGrainRecord *>(modify->fix[k])) numbers += one->width_;
   if (numbers > most_numbers)
     error->all(FLERR, ("all computes together must remember at most " + std::to_string(most_numbers) +
-                       " numbers per grain, got " + std::to_string(numbers) + ": take fewer 'lags'")
+                       " numbers per grain, got " + std::to_string(numbers) + ": use fewer 'lags'")
                           .c_str());
 }
 

@@ -213,7 +213,7 @@ void FixLedgerRecord::pre_initial_integrate() {
   if (!impl_->ledger.pending() && impl_->dt != update->dt)
     fail("the time step changed from " + grainscope::Arguments::text(impl_->dt) + " to " +
          grainscope::Arguments::text(update->dt) +
-         " without a new set-up of the run: the forces of one belong to the half steps of the other");
+         " without a new set-up of the run, in a run or before 'pre no': the two half steps of one force would differ");
   impl_->dt = update->dt;
   impl_->start_step(impl_->ledger, lmp, groupbit);
   impl_->after_run.reset();

@@ -30,10 +30,11 @@ void FixNVESpheroid::init() {
   for (int k = 0; k < modify->nfix; k++) {
     if (strcmp(modify->fix[k]->style, "couple/cfd/force/implicit") != 0) continue;
     const std::string coupling = std::string("fix ") + modify->fix[k]->id + " (couple/cfd/force/implicit)";
-    error->all(FLERR, ("fix nve/spheroid: " + coupling +
-                       " leaves its torque to the integrator, and this one knows nothing of it: "
-                       "use fix nve/superquadric")
-                          .c_str());
+    error->all(
+        FLERR,
+        ("fix nve/spheroid: " + coupling +
+         " leaves its torque to the integrator, and fix nve/spheroid does not apply it: use fix nve/superquadric")
+            .c_str());
   }
 }
 

@@ -191,7 +191,7 @@ void FixWallGranInsitu::init() {
   law.exponent = impl_->exponent;
   if (impl_->pair->keeps_past() && impl_->past_column < 0)
     grainscope::end_run(lmp, who() + "must be defined after 'pair_style gran/insitu ... ledger on', which keeps more "
-                                     "numbers for each of its contacts, got it before");
+                                     "numbers for each contact, got it defined before");
   if (impl_->pair->keeps_past() && impl_->level)
     grainscope::end_run(lmp, who() + "'time_level synchronized' needs pair_style gran/insitu with 'ledger off', got "
                                      "'ledger on'");
@@ -233,9 +233,8 @@ void FixWallGranInsitu::require_across_plane() {
     }
     MPI_Allreduce(MPI_IN_PLACE, &leans, 1, MPI_INT, MPI_MAX, world);
     if (leans)
-      errors.fail(
-          "with 'dimension 2' the triangles of a mesh must stand upright, along z, got some that lean in mesh '" +
-          std::string(mesh_list()[m]->id) + "'");
+      errors.fail("with 'dimension 2' the triangles of a mesh must be parallel to z, got others in mesh '" +
+                  std::string(mesh_list()[m]->id) + "'");
   }
 }
 
@@ -282,10 +281,10 @@ void FixWallGranInsitu::restart(char *buffer) {
   const SavedWall saved = grainscope::read_state<SavedWall>(lmp, *this, style, buffer);
   const long long n = grainscope::whole_count(saved.numbers, 1e9);
   if (n < 0 || n % grainscope::MeshVelocities::width != 0)
-    error->all(FLERR,
-               ("fix " + std::string(id) + " (wall/gran): the restart file holds no number of mesh velocities, but " +
-                std::to_string(saved.numbers))
-                   .c_str());
+    error->all(FLERR, ("fix " + std::string(id) +
+                       " (wall/gran): the restart file must hold a whole number of mesh velocities, got " +
+                       std::to_string(saved.numbers))
+                          .c_str());
   std::vector<double> numbers(static_cast<std::size_t>(n));
   memcpy(numbers.data(), grainscope::state_block::tail(buffer), numbers.size() * sizeof(double));
   impl_->velocities.set_numbers(numbers.data(), numbers.size());

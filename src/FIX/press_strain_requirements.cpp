@@ -37,7 +37,7 @@ void PressStrainRequirements::require_controllable_box(const ShearedBox &box) co
       press_strain_error(lmp, std::string("cannot move box edges along '") + "xyz"[k] +
                                   "': the box must be periodic there" +
                                   (settings_.motions[k].how == BoxMotion::How::mean
-                                       ? std::string(" (or keep it, by '") + "xyz"[k] + " fixed')"
+                                       ? std::string(" (or keep it: '") + "xyz"[k] + " fixed')"
                                        : std::string()));
   for (const Tilt &tilt : tilts) {
     if (!settings_.motions[tilt.index].given) continue;
@@ -47,7 +47,7 @@ void PressStrainRequirements::require_controllable_box(const ShearedBox &box) co
     for (const Tilt &other : tilts)
       if (!settings_.motions[other.index].given && !takes_part(other) && box.tilt(other) != 0.0)
         press_strain_error(lmp, "with " + shear + " the tilt " + other.name + " must be 0, got " +
-                                    Arguments::text(box.tilt(other)) + " (or keep it, by 'shear " + other.name +
+                                    Arguments::text(box.tilt(other)) + " (or keep it: 'shear " + other.name +
                                     " fixed')");
   }
   require_alone();
@@ -89,9 +89,8 @@ void PressStrainRequirements::require_known_stiffness() const {
   if (!settings_.control.automatic || settings_.controlled_modes(domain->dimension).empty()) return;
   const auto require = [this](const ContactLaw &law, const std::string &got) {
     if (!law.knows_stiffness())
-      press_strain_error(lmp, std::string("'gain auto' knows the stiffness of the normal models ") +
-                                  ContactLaw::elastic_models() + " only: give a number, or change the models of " +
-                                  got);
+      press_strain_error(lmp, std::string("'gain auto' works with the normal models ") + ContactLaw::elastic_models() +
+                                  " only: give a number, or change the models of " + got);
   };
   const LAMMPS_NS::PairGranInsitu *pair = LAMMPS_NS::PairGranInsitu::required_by(lmp, "fix press/strain");
   require(pair->law(), "pair_style gran/insitu, got '" + pair->law().models + "'");

@@ -158,7 +158,8 @@ PressStrainSettings::PressStrainSettings(LAMMPS_NS::LAMMPS *lmp, int narg, char 
 void PressStrainSettings::take_axis(const Arguments &errors, const Words &words, const std::set<std::string> &given) {
   const bool nothing = std::none_of(std::begin(motions), std::end(motions), [](const BoxMotion &m) { return m.given; });
   if (!given.count("axis") && !given.count("target")) {
-    if (nothing && !has_mean) errors.fail("nothing is to move: give 'axis' and 'target', x, y, z, 'mean' or 'shear'");
+    if (nothing && !has_mean)
+      errors.fail("no motion of the box is given: use 'axis' and 'target', 'x', 'y', 'z', 'mean' or 'shear'");
     return;
   }
   if (!given.count("axis")) errors.fail("'axis x', 'axis y' or 'axis z' is required");

@@ -32,7 +32,7 @@ void sum_over_ranks(const LAMMPS_NS::LAMMPS *lmp, double *values, int n) {
 
 void require_layers(LAMMPS_NS::LAMMPS *lmp, const std::string &who, double grains) {
   require_finite(lmp, who, grains, "the positions",
-                 "grains are not finite, so that no layer holds them: look at what moves or pushes them");
+                 "grains are not finite, so they belong to no layer: check what moves or pushes them");
 }
 
 void MeanFlow::read(Arguments &arguments) {

@@ -31,7 +31,8 @@ void last_words(LAMMPS_NS::LAMMPS *lmp, const char *format, ...) __attribute__((
 /** Where the last words of a signal handler go: descriptors of the log file, the screen and stderr, each place once. */
 std::vector<int> last_descriptors(LAMMPS_NS::LAMMPS *lmp);
 
-/** An error message about a style, a compute or a fix in the current command or formula, with what there is. */
+/** An error message about a style, a compute, a fix or a variable in the current command or formula, with what there
+ *  is. */
 std::string explained(LAMMPS_NS::LAMMPS *lmp, const char *message);
 
 /** The formula that error messages are about, while it is evaluated. */

@@ -20,7 +20,7 @@ inline void require_grains(LAMMPS_NS::LAMMPS *lmp, const Arguments &errors) {
 
 /** Errors unless there is a box: the host makes no fix before, and a memory of grains is one. */
 inline void require_box(LAMMPS_NS::LAMMPS *lmp, const Arguments &errors) {
-  if (!lmp->domain->box_exist) errors.fail("remembers what grains did: define it after the simulation box");
+  if (!lmp->domain->box_exist) errors.fail("keeps data of each grain: define it after the simulation box");
 }
 
 }

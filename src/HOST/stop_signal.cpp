@@ -81,7 +81,7 @@ void forward_to_host(LAMMPS_NS::LAMMPS *lmp, int all) {
   if (!(all & (quit | restart))) return;
   wants_restart = 0;
   if ((all & quit) && !SignalHandler::request_quit)
-    say(lmp, "SIGINT or SIGTERM: the run ends after the coming step, or after this one when it is its last");
+    say(lmp, "SIGINT or SIGTERM: the run ends after the next step, or after this one if it is the last");
   if (!(all & quit) && !SignalHandler::enable_restart_writing)
     return say(lmp, "SIGUSR1: no restart file, because of write_restart_on_signal no");
   SignalHandler::request_write_restart = SignalHandler::enable_restart_writing;

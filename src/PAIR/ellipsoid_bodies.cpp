@@ -74,7 +74,7 @@ void EllipsoidBodies::refuse_other_blockiness() {
   MPI_Bcast(blockiness, 2, MPI_DOUBLE, first.rank, world);
   char message[200];
   snprintf(message, sizeof message,
-           "surface ellipsoid needs blockiness 2 2 of every grain, got %g %g of grain %d: use surface superquadric",
+           "surface ellipsoid: every grain must have blockiness 2 2, got %g %g of grain %d: use surface superquadric",
            blockiness[0], blockiness[1], first.tag);
   error->all(FLERR, message);
 }
@@ -87,12 +87,9 @@ void EllipsoidBodies::refuse_other_than_spheres() {
     if (!is_sphere(i)) first = std::min(first, atom->tag[i]);
   MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, world);
   if (first == none) return;
-  const std::string message = "surface ellipsoid: '" + sphere_model_ +
-                              "' knows the distance of spheres only, and "
-                              "grain " +
-                              std::to_string(first) +
-                              " is none: use cohesion sjkr or sjkr2, whose area surface ellipsoid "
-                              "provides, or spheres";
+  const std::string message =
+      "surface ellipsoid: '" + sphere_model_ + "' works with spheres only, and grain " + std::to_string(first) +
+      " is not a sphere: use spheres, or cohesion sjkr or sjkr2, for which surface ellipsoid gives the contact area";
   error->all(FLERR, message.c_str());
 }
 
@@ -138,8 +135,8 @@ void EllipsoidBodies::count(const Query &query, EllipsoidContact &contact) {
   warned_ = true;
   char message[200];
   snprintf(message, sizeof message,
-           "surface ellipsoid: no regular contact of grains %d and %d (concentric?), their normal is arbitrary "
-           "(told once per rank; compute contact/solver counts)",
+           "surface ellipsoid: grains %d and %d have no regular contact (concentric?), so their normal is arbitrary "
+           "(reported once per rank; counted by compute contact/solver)",
            atom->tag[query.i], atom->tag[query.j]);
   error->warning(FLERR, message);
 }

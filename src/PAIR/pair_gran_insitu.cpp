@@ -180,9 +180,8 @@ void PairGranInsitu::add_past_columns() {
   for (FILE *out : {screen, logfile})
     if (out)
       fprintf(out,
-              "pair_style gran/insitu: 'ledger on' keeps %d numbers more for every pair of neighbours (%d instead of "
-              "%d); restart files "
-              "with and without them are not interchangeable\n",
+              "pair_style gran/insitu: 'ledger on' keeps %d more numbers for every pair of neighbours (%d instead of "
+              "%d); restart files with and without them are not interchangeable\n",
               ContactReader::past_columns, dnum_pairgran, dnum_pairgran - ContactReader::past_columns);
 }
 
@@ -198,9 +197,8 @@ void PairGranInsitu::init_style() {
           contact_match("surface", "default") ? 0 : grainscope::TimeLevel::kept_columns, impl_->level.kept() >= 0}});
   impl_->renumbered = atom->natoms < impl_->grains && !grainscope::contacts_know_their_grains(lmp);
   if (impl_->renumbered && comm->me == 0)
-    error->warning(FLERR, "grains were given other IDs, and the host keeps tangential springs by ID: some are now "
-                          "those of other contacts. Say "
-                          "'compress no' to delete_atoms");
+    error->warning(FLERR, "grains got new IDs, and LIGGGHTS keeps tangential springs by ID: some springs now belong to "
+                          "other contacts. Use 'delete_atoms ... compress no'");
   const std::string words = impl_->models + (impl_->ledger ? " ledger on" : "") +
                             (impl_->level.synchronized() ? " time_level synchronized" : "");
   grainscope::require_surface_models(lmp, this, words + (impl_->neutral ? " setup neutral" : ""));

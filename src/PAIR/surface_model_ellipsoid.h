@@ -26,8 +26,9 @@ class SurfaceModel<SURFACE_ELLIPSOID> : public SurfaceModelBase {
   SurfaceModel(LAMMPS *lmp, IContactHistorySetup *setup, ContactModelBase *model)
       : SurfaceModelBase(lmp, setup, model), setup_(setup) {
     if (!atom->superquadric_flag)
-      error->all(FLERR,
-                 "surface ellipsoid needs atom_style superquadric (spheres are ellipsoids with three equal semi-axes)");
+      error->all(FLERR, (std::string("surface ellipsoid needs atom_style superquadric, got '") + atom->atom_style +
+                         "' (a sphere is a superquadric with three equal semi-axes)")
+                            .c_str());
     if (model->is_wall())
       for (const char *name : {"inequality_obb", "touching", "cpx", "cpy", "cpz", "a1"})
         setup->add_history_value(name, "0");

@@ -62,7 +62,7 @@ void require_surface_models(LAMMPS *lmp, PairGran *pair, const std::string &mode
     if (!wall || std::string(wall->style).compare(0, 9, "wall/gran") != 0) continue;
     if (const char *got = sphere_surface(wall))
       end_run(lmp, "fix " + std::string(wall->id) + " (" + wall->style + "): " + why + got + "'. Add 'surface " +
-                       surface_for(lmp) + "' behind its other models");
+                       surface_for(lmp) + "' after its other models");
   }
 }
 

@@ -10,12 +10,12 @@ using half_step::Moment;
 using half_step::Motion;
 
 std::string TimeLevel::why_not(const ContactLaw &law) {
-  if (!law.elastic) return std::string("knows the normal models ") + ContactLaw::elastic_models() + " only";
+  if (!law.elastic) return std::string("works with the normal models ") + ContactLaw::elastic_models() + " only";
   if (law.tangential != TangentialLaw::viscous && law.tangential != TangentialLaw::spring)
-    return "knows 'tangential' history and no_history only";
-  if (law.cohesive) return "knows 'cohesion' off only";
-  if (law.rolls) return "knows 'rolling_friction' off only";
-  if (!law.known_surface) return "knows 'surface' default, superquadric and ellipsoid only";
+    return "works with 'tangential' history and no_history only";
+  if (law.cohesive) return "works with 'cohesion' off only";
+  if (law.rolls) return "works with 'rolling_friction' off only";
+  if (!law.known_surface) return "works with 'surface' default, superquadric and ellipsoid only";
   return "";
 }
 

@@ -88,13 +88,13 @@ void FixRunGuard::warn_of_damping() {
   *warned_of_damping_ = true;
   if (comm->me != 0) return;
   std::ostringstream message;
-  message << "step " << update->ntimestep << ": in the first evaluation of a run LIGGGHTS does not limit tangential "
-          << "damping: a contact pushes with ";
-  if (std::isinf(excess)) message << "a tangential force though it has no friction";
-  else message << excess << " times its friction limit";
+  message << "step " << update->ntimestep << ": LIGGGHTS does not limit tangential damping in the first evaluation of "
+          << "a run, and a contact has ";
+  if (std::isinf(excess)) message << "a tangential force although its friction is 0";
+  else message << "a tangential force of " << excess << " times its friction limit";
   const bool clumps = grainscope::has_bodies(lmp);  // which 'setup neutral' refuses
-  message << ". " << (clumps ? "" : "Say 'setup neutral' in pair_style gran/insitu to keep the limit, or ")
-          << "'tangential_damping off'" << (clumps ? " has no such force" : "");
+  message << ". " << (clumps ? "" : "Use 'setup neutral' in pair_style gran/insitu, which limits it, or ")
+          << "'tangential_damping off'" << (clumps ? ", which has no such force" : "");
   error->warning(FLERR, message.str().c_str());
 }
 
@@ -157,9 +157,9 @@ std::string FixRunGuard::not_finite(bool forces) const {
   if (all > 5) message << " and " << all - 5 << " more";
   message << " is not finite";
   if (forces)
-    message << ". Look at the time step (doc/stability.md), at overlaps of grains that were just inserted, and at the "
-               "material's constants";
-  else message << ": look at the commands that set it";
+    message << ". Check the time step (doc/stability.md), overlaps of grains that were just inserted, and material "
+               "properties";
+  else message << ": check the commands that set it";
   return message.str();
 }
 
@@ -184,8 +184,8 @@ void FixRunGuard::pre_neighbor() {
   std::ostringstream message;
   message << "step " << update->ntimestep << ": " << lost
           << " grains were lost though the box is periodic: they moved farther than its length "
-          << "between two neighbour lists. Look at the time step (doc/stability.md) and at overlaps of grains that "
-             "were just inserted";
+          << "between two neighbour lists. Check the time step (doc/stability.md) and overlaps of grains that were "
+             "just inserted";
   error->all(FLERR, message.str().c_str());
 }
 
@@ -216,7 +216,7 @@ void FixRunGuard::restart(char *buffer) {
   const std::string written(grainscope::state_block::tail(buffer), grainscope::whole_count(saved.length, 1e6));
   if (written.empty() || written == settings_ || comm->me != 0) return;
   error->warning(FLERR, ("pair_style gran/insitu: the restart file was written with '" + written +
-                         "', and now it is '" + settings_ + "'")
+                         "', this run uses '" + settings_ + "'")
                             .c_str());
 }
 

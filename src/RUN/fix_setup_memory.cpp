@@ -72,7 +72,7 @@ int FixSetupMemory::setmask() { return FixConst::PRE_EXCHANGE | FixConst::PRE_FO
 
 void FixSetupMemory::init() {
   grainscope::require_no_bodies(lmp, grainscope::Arguments(lmp, "pair_style gran/insitu setup neutral"),
-                                "a run that begins counts the forces on them again: 'setup host'");
+                                "their forces would be summed twice when a run begins: use 'setup host'");
   impl_->running = false;
   impl_->memory->evaluation.give_up_repetition();
   next_reneighbor = -1;
@@ -145,8 +145,8 @@ int FixSetupMemory::pack_restart(int i, double *buffer) {
 void FixSetupMemory::unpack_restart(int i, int nth) {
   const double *numbers = grainscope::restart_numbers(atom, i, nth, GrainMemory::width);
   if (!numbers)
-    error->one(FLERR, "pair_style gran/insitu: the restart file holds another kind of memory of the set-up: say "
-                      "'setup host'");
+    error->one(FLERR, "pair_style gran/insitu: the restart file holds the memory of 'setup neutral' in another form: "
+                      "use 'setup host'");
   impl_->memory->evaluation.grains.read(i, numbers);
 }
 

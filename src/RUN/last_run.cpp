@@ -62,7 +62,7 @@ bool LastRun::goes_on(LAMMPS *lmp, const GrainMemory &memory) const {
     for (FILE *out : {lmp->screen, lmp->logfile})
       if (out)
         fprintf(out, "pair_style gran/insitu: grains, box, time step or fixes were changed since the last run: "
-                     "forces are recomputed with the velocities of whole steps, within the friction limit\n");
+                     "forces are recomputed with full-step velocities, within the friction limit\n");
   return !changed;
 }
 
