@@ -13,7 +13,7 @@ void ClippingWatch::watch(LAMMPS_NS::LAMMPS *lmp, double inputs, const PressureC
                           const std::string &stress) {
   clipped_ += 0.01 * ((input.clipped ? 1.0 : 0.0) - clipped_);
   settled_ = settled_ || (inputs >= 100.0 && clipped_ < often_clipped / 4.0);
-  // A start is clipped one way; a loop that is not stable, one way and the other.
+  // Inputs of a start are clipped with one sign, those of an unstable loop with alternating sign.
   const bool reversed = input.clipped && input.velocity * velocity_before_ < 0.0;
   reversed_ += 0.01 * ((reversed ? 1.0 : 0.0) - reversed_);
   velocity_before_ = input.velocity;

@@ -29,8 +29,8 @@ double FixContactHistoryEllipsoid::mark() const {
   return static_cast<double>(grainscope::checksum(names.data(), names.size()) % (marks - 1) + 1) / marks;
 }
 
-/** The host reads the first number alone. The second ends with the mark of the columns; it has none in files of the
- *  host and of grainscope before. */
+/** LIGGGHTS reads only the first number. The second ends with the mark of the columns; files of LIGGGHTS and of earlier
+ *  versions of grainscope have no mark. */
 void FixContactHistoryEllipsoid::write_restart(FILE *file) {
   if (comm->me != 0) return;
   const double state[] = {static_cast<double>(dnum_ + more()), maxtouch_ + mark()};

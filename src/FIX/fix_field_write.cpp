@@ -83,7 +83,7 @@ void FixFieldWrite::begin_window() {
   next_ = next_sample(update->ntimestep);
 }
 
-/** What was sampled of another compute, or of another step's numbers, does not count. */
+/** Samples of another compute, or of steps that were renumbered, do not count. */
 void FixFieldWrite::init() {
   if (find_source() || next_ < update->ntimestep) begin_window();
   modify->addstep_compute_all(next_);

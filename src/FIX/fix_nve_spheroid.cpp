@@ -40,7 +40,7 @@ void FixNVESpheroid::init() {
 
 int FixNVESpheroid::grains() const { return igroup == atom->firstgroup ? atom->nfirst : atom->nlocal; }
 
-/** Asked with every neighbour list, and so whenever grains were inserted. Collective: every rank names the same
+/** Checked with every neighbour list, and so whenever grains were inserted. Collective: every rank names the same
  *  grain. */
 void FixNVESpheroid::require_symmetric_tops() const {
   int first = INT_MAX, at = 0;

@@ -36,8 +36,8 @@ using LIGGGHTS::Walls::IGranularWall;
 
 namespace {
 
-/** Stands for the wall's contact models while the host's constructor runs: our members are not there yet, which the
- *  models call when they are made. */
+/** Takes the place of the contact models of the wall while the constructor of the base class runs: the models call
+ *  members of ours when they are made, and these do not exist yet. */
 class Deferred : public IGranularWall {
  public:
   explicit Deferred(int64_t hash) : hash(hash) {}
@@ -58,7 +58,7 @@ IGranularWall *create(LAMMPS *lmp, FixWallGran *wall, int64_t hash) {
   return grainscope::create_observed_wall(hash, lmp, wall);
 }
 
-/** The host's list of walls warns of every entry that is given twice: here all of them are replaced. */
+/** LIGGGHTS warns of every entry that is registered twice in its list of walls: here all of them are replaced. */
 LAMMPS *take_over(LAMMPS *lmp) {
   static bool done = false;
   if (done) return lmp;
@@ -214,7 +214,7 @@ void FixWallGranInsitu::init() {
   impl_->meshes.assign(mesh_list(), mesh_list() + n_meshes());
 }
 
-/** Errors unless the grains of two dimensions meet it in their plane. Collective. */
+/** Errors unless the wall meets the grains of two dimensions in their plane. Collective. */
 void FixWallGranInsitu::require_across_plane() {
   const grainscope::Arguments errors(lmp, "fix wall/gran " + std::string(id));
   if (!is_mesh_wall()) {
@@ -238,8 +238,8 @@ void FixWallGranInsitu::require_across_plane() {
   }
 }
 
-/** The forces of the first evaluation; where it repeats the last of the run before, with its places and velocities,
- *  and without leaving a trace in the contact history. */
+/** The forces of the first evaluation. If it repeats the last evaluation of the run before, it uses the positions and
+ *  velocities of that one and leaves the contact history unchanged. */
 void FixWallGranInsitu::setup(int vflag) {
   const std::shared_ptr<grainscope::EvaluationMemory> memory = impl_->pair ? impl_->pair->evaluation_memory() : nullptr;
   if (memory && memory->repeats()) {

@@ -62,8 +62,8 @@ bool LedgerRequirements::shares_grains(int other_groupbit) const {
   return any;
 }
 
-/** Kinetic energy is booked as velocity Verlet moves it: every grain of the group by one such fix, or not at all
- *  (frozen). */
+/** Kinetic energy is booked as velocity Verlet changes it: every grain of the group must be moved by one such fix, or
+ *  not at all (frozen). */
 LedgerRequirements::Movers LedgerRequirements::require_moved_by_verlet() const {
   Movers movers;
   for (int k = 0; k < modify->nfix; k++) {

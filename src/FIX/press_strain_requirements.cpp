@@ -21,7 +21,8 @@ using LAMMPS_NS::PrimitiveWall;
 
 namespace {
 
-/** Asked at a point that lies on no wall's axis or face; the host's own PrimitiveWall::axis() knows cylinders only. */
+/** Evaluated at a point that lies on no axis or face of a wall; PrimitiveWall::axis() of LIGGGHTS is right for
+ *  cylinders only. */
 bool pushes_along(PrimitiveWall *wall, int axis) {
   double point[3] = {0.1234567891, 0.2345678912, 0.3456789123}, push[3];
   wall->resolveContact(point, 0.0, push);
@@ -53,7 +54,7 @@ void PressStrainRequirements::require_controllable_box(const ShearedBox &box) co
   require_alone();
 }
 
-/** A box that is sheared in xy and yz takes on the tilt xz. */
+/** A box that is sheared in xy and yz gets the tilt xz. */
 bool PressStrainRequirements::takes_part(const Tilt &tilt) const {
   return tilt.index == 4 && settings_.motions[5].given && settings_.motions[3].given;
 }

@@ -272,7 +272,7 @@ void PressStrainSettings::evaluate_rates(LAMMPS_NS::LAMMPS *lmp) {
   }
   if (every == Every::strain && strain_rate(rates) == 0.0)
     press_strain_error(lmp, "'every' counts strain, and all rates are 0");
-  // Beside a driven edge another must be free to move as fast as both others at constant volume, and to dilate.
+  // If an edge is driven, another must be free to move as fast as both others at constant volume, and to dilate.
   const double fastest = std::max(of_shears, 3.0 * of_edges);
   if (!max_rate_given) control.max_rate = fastest > 0.0 ? fastest : HUGE_VAL;
 }

@@ -17,9 +17,9 @@ SURFACE_MODEL(SURFACE_ELLIPSOID,ellipsoid,11)
 
 namespace LIGGGHTS { namespace ContactModels {
 
-/** Grains of atom_style superquadric with blockiness 2 2, by the exact contact of ellipsoids: `surface superquadric` in
- *  keywords and physics, walls included; but models that know spheres only are given spheres (sphere_geometry.h). See
- *  doc/surface_ellipsoid.md. */
+/** Grains of atom_style superquadric with blockiness 2 2, by the exact contact of ellipsoids. Keywords and physics are
+ *  those of `surface superquadric`, walls included; but models that know spheres only are given spheres
+ *  (sphere_geometry.h). See doc/surface_ellipsoid.md. */
 template <>
 class SurfaceModel<SURFACE_ELLIPSOID> : public SurfaceModelBase {
  public:
