@@ -34,7 +34,7 @@ std::string id_of(const std::vector<std::string> &words) { return words.empty() 
 
 bool alike(double a, double b, double tolerance = 1e-12) { return std::fabs(a - b) <= tolerance * std::fabs(b); }
 
-/** The host makes bounding spheres 1e-4 wider, but not those of grains that were never given a shape. */
+/** LIGGGHTS makes bounding spheres 1e-4 wider, except those of grains that were never given a shape. */
 constexpr double margin = 2e-4;
 
 }
@@ -79,7 +79,7 @@ void AtomVecSuperquadricFiles::data_atom(double *x, tagint image, char **values)
   line::normalise(quaternion);
 }
 
-/** Integrators go on from the angular momentum. */
+/** Integrators continue from the angular momentum. */
 void AtomVecSuperquadricFiles::data_vel(int i, char **values) {
   using MathExtraLiggghtsNonspherical::omega_to_angmom;
   AtomVecSuperquadric::data_vel(i, values);
@@ -128,7 +128,7 @@ void AtomVecSuperquadricFiles::pack_data(double **buf, int tag_offset) {
   }
 }
 
-/** Angular velocities that do not belong to the angular momentum are not what a run would go on with. */
+/** An angular velocity that does not match the angular momentum would not be the one that a run continues with. */
 void AtomVecSuperquadricFiles::pack_vel(double **buf, int tag_offset) {
   AtomVecSuperquadric::pack_vel(buf, tag_offset);
   for (int i = 0; i < atom->nlocal; i++) {

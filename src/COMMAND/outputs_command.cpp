@@ -23,7 +23,8 @@ using grainscope::Outputs;
 
 namespace {
 
-/** A private member of the host's class Variable: the texts of all variables. An explicit instantiation may name it. */
+/** A private member of the class Variable of LIGGGHTS: the texts of all variables. An explicit instantiation may name
+ *  it. */
 struct TextsOfVariables {
   using Member = char ***Variable::*;
   friend Member member_of(TextsOfVariables);
@@ -82,7 +83,7 @@ struct Line {
 
 std::string in_brackets(std::size_t k) { return "[" + std::to_string(k) + "]"; }
 
-/** Every output with the words that reach it. */
+/** Every output with the expression that reads it. */
 std::vector<Line> lines_of(const Source &source, const std::string &prefix) {
   const Outputs &outputs = source.declared->outputs();
   std::vector<Line> lines;
@@ -147,8 +148,8 @@ std::string table_of(const Source &source, const std::vector<Line> &lines) {
   return text;
 }
 
-/** The variables that this command defined, with their formulas: of a compute that has changed since, they are
- * replaced. */
+/** The variables that this command defined, with their formulas: if the compute has changed since, they are replaced.
+ */
 std::map<std::string, std::string> &defined_here() {
   static std::map<std::string, std::string> formulas;
   return formulas;
@@ -165,7 +166,7 @@ std::string other_meaning(Variable &variable, const std::string &name, const std
   return text == formula ? "" : "equal to " + text;
 }
 
-/** Nothing is defined where one of the names is taken. */
+/** If one of the names is taken, no variable is defined. */
 void define(LAMMPS *lmp, const std::vector<Line> &lines, const Arguments &errors) {
   Variable &variable = *lmp->input->variable;
   for (const Line &one : lines) {

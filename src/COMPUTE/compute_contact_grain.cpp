@@ -91,7 +91,7 @@ double ComputeContactGrain::angle_to_flow(int i) const {
   return grainscope::major_axis_angle(scope_.shear_plane().of(p), axis.shape);
 }
 
-/** Collective. Errors when grains were sorted, added or removed since their contacts were seen. */
+/** Collective. An error if grains were sorted, added or removed after their contacts were seen. */
 void ComputeContactGrain::require_same_grains() const {
   const std::vector<int> &tags = impl_->tags;
   int changed = static_cast<int>(tags.size()) != atom->nlocal || !std::equal(tags.begin(), tags.end(), atom->tag);

@@ -115,7 +115,7 @@ struct SurfaceSums {
   }
 };
 
-/** The pressure that forces are divided by is that of all contacts, whichever are counted in bins. */
+/** The pressure by which forces are divided is that of all contacts, whichever are counted in bins. */
 struct PressureSum : grainscope::ContactCompute::Accumulator {
   Vector3d moments = Vector3d::Zero();  // sums of F_a r_a, of this rank
 
@@ -230,7 +230,7 @@ void ComputeContactSurface::require_one_shape() {
   for (double area : impl_->unit_areas) impl_->sums().unit_area += area;
 }
 
-/** What depends on who is there; grains come and go with neighbour lists only. Collective. */
+/** What depends on the grains in the group; grains come and go with neighbour lists only. Collective. */
 void ComputeContactSurface::measure_grains() {
   if (impl_->build == neighbor->lastcall) return;
   impl_->build = neighbor->lastcall;

@@ -79,7 +79,7 @@ struct ComputeVelocityCorrelation::Impl {
     }
   };
 
-  /** What the search of another compute found for this one, should it be asked of the same. */
+  /** The result that the search of another compute found for this one, in case it is requested. */
   struct Foreseen {
     bigint step = -1;
     PeriodicCell cell;
@@ -241,7 +241,7 @@ bool ComputeVelocityCorrelation::Impl::looks_for_the_pairs_of(const Impl &other)
          scope.within() == other.scope.within();
 }
 
-/** Of other computes, those that are asked in this step too and can be answered by the same search. */
+/** The other computes that are requested in this step too and can share the search. */
 std::vector<ComputeVelocityCorrelation::Impl *> ComputeVelocityCorrelation::Impl::asked_with(
     const ComputeVelocityCorrelation &one) const {
   std::vector<Impl *> found;

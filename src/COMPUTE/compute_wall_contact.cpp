@@ -219,7 +219,7 @@ void ComputeWallContact::require_losses() const {
   }
 }
 
-/** Once: what is 0 because it is not known must not be taken for a number. */
+/** Once: a 0 that means unknown must not be read as a number. */
 void ComputeWallContact::warn_of_unknown_areas() {
   if (impl_->warned) return;
   for (int row = 0; row < impl_->walls->size(); row++) {
@@ -254,7 +254,7 @@ void ComputeWallContact::add_contacts(grainscope::ContactSpan contacts) {
   });
 }
 
-/** The first evaluation of a run is of places that were there before. */
+/** The first evaluation of a run repeats positions that were counted before. */
 void ComputeWallContact::end_contacts() {
   if (impl_->impacts) impl_->impacts->end(*impl_->record, observer_->springs_move(), *atom, world);
 }

@@ -31,7 +31,7 @@ void ContactCompute::init() {
 }
 
 bool ContactCompute::wants_contacts() {
-  // Numbers of single grains are not kept after a run: commands may renumber, add and remove grains.
+  // Values of single grains are not kept after a run: commands may renumber, add and remove grains.
   const bool at_end = update->ntimestep == update->laststep && (!peratom_flag || update_on_run_end());
   if (!matchstep(update->ntimestep) && !at_end) return false;
   tallied_ = update->ntimestep;
@@ -64,7 +64,7 @@ bool ContactCompute::lanes_need_motion() const {
   return std::any_of(sums_.begin(), sums_.end(), [](const Accumulator *one) { return one->lanes_need_motion(); });
 }
 
-/** An answer that was kept when the run ended stays: what moves grains since then is not of the contacts. */
+/** A result that was kept when the run ended stays: later motions of grains do not belong to the contacts. */
 void ContactCompute::answer_once(LAMMPS_NS::bigint &answered) {
   require_tally();
   if (kept_since_run(answered)) return;

@@ -19,7 +19,7 @@ using LAMMPS_NS::FixMultisphere;
 
 namespace {
 
-/** What ranks tell each other of a body. */
+/** The data of a body that ranks exchange. */
 enum {
   TAG,
   SPHERES,
@@ -126,7 +126,7 @@ void Bodies::update(const BoxState &box, int groupbit) {
   require_whole(groupbit);
 }
 
-/** So that the nearest image of a clump's centre is the right one for each of its spheres. */
+/** Then the nearest image of the centre of a clump is the right one for each of its spheres. */
 void Bodies::require_small() const {
   const double diameter = 2.0 * fix_->max_r_bound();
   for (int k = 0; k < 3; k++)

@@ -26,7 +26,7 @@ namespace {
 
 const char *formula = nullptr;
 
-/** The name of the current command is the host's own matter: a derived class may look. */
+/** Access to the name of the current command, which is protected in LIGGGHTS. */
 struct CurrentCommand : Input {
   static const char *of(Input *input) { return input->*(&CurrentCommand::command); }
 };
@@ -142,7 +142,7 @@ std::string describe_missing_variable(const std::string &name, const LAMMPS_NS::
          (defined_by.empty() ? "" : (nearest.empty() ? ": " : " ") + defined_by);
 }
 
-/** What the references of the formula or command may give: of those that cannot be right, where there are any. */
+/** What the references of the formula or command may give; if some of them cannot be right, only these. */
 std::string about_outputs(LAMMPS *lmp) {
   std::string text = formula ? formula : "";
   for (int k = 0; !formula && k < lmp->input->narg; k++) text += std::string(" ") + lmp->input->arg[k];
@@ -162,7 +162,7 @@ std::string about_outputs(LAMMPS *lmp) {
   return listed;
 }
 
-/** Of a style that does not exist, the nearest that does. */
+/** For a style that does not exist the name of the nearest one. */
 std::string about_style(LAMMPS *lmp, const std::string &message) {
   const char *command = CurrentCommand::of(lmp->input);
   for (const StyleNames &styles : style_names()) {

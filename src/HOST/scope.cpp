@@ -99,7 +99,7 @@ void Scope::init() {
   else if ((keywords_ & volume) && !volume_given_) warn_of_whole_box();
 }
 
-/** What will be asked of the region must be known. */
+/** What is needed of the region must be known. */
 void Scope::init_region() {
   region_->init();
   if (!(keywords_ & volume)) return;

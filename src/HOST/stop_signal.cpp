@@ -86,7 +86,7 @@ void forward_to_host(LAMMPS_NS::LAMMPS *lmp, int all) {
     return say(lmp, "SIGUSR1: no restart file, because of write_restart_on_signal no");
   SignalHandler::request_write_restart = SignalHandler::enable_restart_writing;
   SignalHandler::request_quit = all & quit;
-  // The host prints a row of thermo output on the step: what it shows must be ready. In the last one it is.
+  // LIGGGHTS prints a row of thermo output on the step: its values must be available. In the last step they are.
   if (lmp->update->ntimestep < lmp->update->laststep) lmp->modify->addstep_compute_all(lmp->update->ntimestep + 1);
   else lmp->output->restart_requested(lmp->update->ntimestep);
 }

@@ -53,7 +53,7 @@ void EllipsoidBodies::read_shapes(int n) {
   }
 }
 
-/** The host takes a blockiness within 0.01 of 2 for an ellipsoid's; so do we. */
+/** LIGGGHTS treats a blockiness within 0.01 of 2 as that of an ellipsoid; so do we. */
 void EllipsoidBodies::refuse_other_blockiness() {
   const int none = std::numeric_limits<int>::max();
   struct {
@@ -119,7 +119,8 @@ void EllipsoidBodies::count(const Query &query, EllipsoidContact &contact) {
   counts.fallbacks++;
   const double r = equivalent_radius(query.i), *d = query.d;
   if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < 1e-20 * r * r && atom->tag[query.i] > atom->tag[query.j]) {
-    // Concentric: its two owners must choose the same normal, so the one that sees it the other way round turns round.
+    // Concentric: both owners must choose the same normal, so the one that sees the pair the other way round reverses
+    // it.
     const EllipsoidContact turned = solve_alone({query.j, query.i, {-d[0], -d[1], -d[2]}, 0.0});
     for (int k = 0; k < 3; k++) {
       contact.normal[k] = -turned.normal[k];

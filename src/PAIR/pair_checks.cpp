@@ -25,7 +25,7 @@ namespace {
 
 const double rounding = 1e-9;  // of positions that are equal, over the radius
 
-/** What a restart file holds for fixes that are not defined yet is the host's own matter: a derived class may look. */
+/** Access to what a restart file holds for fixes that are not defined yet, which is protected in LIGGGHTS. */
 struct RestartData : Modify {
   static const char *of(Modify *modify, const char *id) {
     for (int k = 0; k < modify->*(&RestartData::nfix_restart_global); k++)

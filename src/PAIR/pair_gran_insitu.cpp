@@ -288,8 +288,8 @@ void PairGranInsitu::set_tangential_bound() {
   TangentialBound::get().set(!first ? Mode::off : impl_->neutral ? Mode::bound : Mode::watch);
 }
 
-/** The host re-evaluates all contacts for compute pair/gran/local, and its surface model writes to the contact history
- *  while at it. */
+/** LIGGGHTS re-evaluates all contacts for compute pair/gran/local, and its surface model writes to the contact history
+ *  then. */
 void PairGranInsitu::compute_pgl(int eflag, int vflag) {
   const grainscope::KeptHistory kept(listgranhistory, list, dnum());
   PairGran::compute_pgl(eflag, vflag);
@@ -312,7 +312,7 @@ bool PairGranInsitu::contact_match(const std::string kind, const std::string mod
   return impl_->loop->contact_match(kind, model);
 }
 
-/** Which periodic image each ghost is, in whole box edges. The swaps know it exactly; positions do not, because grains
+/** The periodic image of each ghost, in whole box edges. The swaps know it exactly; positions do not, because grains
  *  drift out of the box between two neighbour lists. Once per neighbour list that is observed. */
 void PairGranInsitu::update_image_shifts() {
   if (impl_->images_of_build == neighbor->lastcall) return;

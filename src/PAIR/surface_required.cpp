@@ -12,7 +12,7 @@ using namespace LAMMPS_NS;
 namespace grainscope {
 namespace {
 
-/** The words of a model with `surface` where the host wants it: behind the other models, before their settings. */
+/** The words of a model with `surface` where LIGGGHTS requires it: after the other models, before their settings. */
 std::string with_surface(const std::string &models, const std::string &surface) {
   std::istringstream words(models);
   std::string keyword, value, line;
@@ -39,7 +39,7 @@ std::string surface_for(LAMMPS *lmp) {
   return any ? "superquadric" : "ellipsoid";
 }
 
-/** The host's models that know spheres only. */
+/** The surface models of LIGGGHTS for spheres only. */
 template <class Style>
 const char *sphere_surface(Style *style) {
   for (const char *surface : {"default", "multicontact"})

@@ -44,7 +44,8 @@ void TimeLevel::enter(Surfaces &s) {
   s.v_j = s.omega_i = s.omega_j = zero_;
 }
 
-/** In the evaluation that is repeated; what was not (a wall that is new) goes the host's way, as in a first one. */
+/** In a repeated evaluation; a contact that was not evaluated before (a new wall) is handled by LIGGGHTS, as in a first
+ *  one. */
 bool TimeLevel::was_seen(const Surfaces &s) const {
   if (columns_.kept < 0) return true;
   const double *const normal = s.contact_history + columns_.kept + half_step::kept_normal;

@@ -79,7 +79,7 @@ void FixSetupMemory::init() {
   impl_->order.allow_sorting();
 }
 
-/** A run that goes on would not sort grains now. */
+/** A run that continues would not sort grains now. */
 void FixSetupMemory::setup_pre_exchange() {
   if (!impl_->memory->run.there_was_none()) impl_->order.prevent_sorting();
 }
@@ -95,8 +95,8 @@ void FixSetupMemory::setup_pre_force(int) {
 
 void FixSetupMemory::setup(int) { impl_->memory->evaluation.end_repetition(); }
 
-/** In the step after a restart file: what the host does next too, but in an order that does not depend on the ranks'
- *  past. */
+/** In the step after a restart file: LIGGGHTS does the same next, but in an order that depends on the history of the
+ *  ranks. */
 void FixSetupMemory::pre_exchange() {
   if (update->ntimestep != next_reneighbor) return;
   if (domain->triclinic) domain->x2lamda(atom->nlocal);
@@ -150,8 +150,8 @@ void FixSetupMemory::unpack_restart(int i, int nth) {
   impl_->memory->evaluation.grains.read(i, numbers);
 }
 
-/** Comes before the grains are written. The run that begins from the file wraps grains and builds lists where this
- *  one does. */
+/** Called before the grains are written. The run that begins from the file wraps grains and builds lists at the same
+ *  point as this one. */
 void FixSetupMemory::write_restart(FILE *file) {
   Memory &memory = *impl_->memory;
   if (impl_->running) {
