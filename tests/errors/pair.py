@@ -63,8 +63,8 @@ def continued_otherwise(ranks):
         packing = dense_packing(1.5 if refused else 1.0, atom_style=style)
         with_it, without = (Deck(packing, surface="ellipsoid", extra=words) for words in (SYNCHRONIZED, ""))
         for first, second, said in (
-            (with_it, without, "it was written with 'time_level synchronized'. Say 'time_level synchronized'"),
-            (without, with_it, "it was written without 'time_level synchronized'. Say 'time_level host'"),
+            (with_it, without, "it was written with 'time_level synchronized'. Use 'time_level synchronized'"),
+            (without, with_it, "it was written without 'time_level synchronized'. Use 'time_level host'"),
         ):
             file = run(replace(first, body=["run 3", "write_restart a.restart"]), ranks).folder / "a.restart"
             again = second.restarted(file, ["run 3"])
