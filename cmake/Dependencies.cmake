@@ -1,4 +1,4 @@
-# What must be on the machine. All that is missing is reported at once, with the one line that cures it.
+# What must be installed. Everything that is missing is reported at once, with the command that installs it.
 
 set(missing "")
 set(packages "")
@@ -15,9 +15,10 @@ if(GRAINSCOPE_HOST)
 endif()
 find_package(Eigen3 3.3 QUIET NO_MODULE)
 need(Eigen3_FOUND "Eigen 3" libeigen3-dev)
-# Headers alone, by what is included: CMake 3.30 and later warn of the module that find_package(Boost) would take.
-find_path(Boost_INCLUDE_DIR boost/math/special_functions/beta.hpp HINTS ${BOOST_ROOT} ${Boost_ROOT} ENV BOOST_ROOT ENV Boost_ROOT
-          PATH_SUFFIXES include)
+# Only headers are used, so one of them is looked for: CMake 3.30 and later warn of the module behind
+# find_package(Boost).
+find_path(Boost_INCLUDE_DIR boost/math/special_functions/beta.hpp
+          HINTS ${BOOST_ROOT} ${Boost_ROOT} ENV BOOST_ROOT ENV Boost_ROOT PATH_SUFFIXES include)
 need(Boost_INCLUDE_DIR "Boost headers" libboost-dev)
 if(GRAINSCOPE_HOST)
   find_path(FFTW_INCLUDE_DIR fftw3-mpi.h)
@@ -30,9 +31,9 @@ if(GRAINSCOPE_HOST)
 endif()
 if(GRAINSCOPE_VTK)
   enable_language(C)
-  find_package(VTK QUIET COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersCore FiltersGeneral IOLegacy IOXML
-               IOParallelXML ParallelCore ParallelMPI)
-  need(VTK_FOUND "VTK (asked for by GRAINSCOPE_VTK)" libvtk9-dev)
+  find_package(VTK QUIET COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersCore FiltersGeneral IOLegacy
+               IOXML IOParallelXML ParallelCore ParallelMPI)
+  need(VTK_FOUND "VTK (for GRAINSCOPE_VTK)" libvtk9-dev)
 endif()
 if(GRAINSCOPE_TESTS)
   find_package(GTest QUIET)

@@ -5,7 +5,8 @@
 # Sets HOST_SOURCE, the folder that holds pair_gran_base.h.
 
 set(LIGGGHTS_SOURCE_DIR "" CACHE PATH "An existing LIGGGHTS-PUBLIC checkout, its root or its src/ (read only)")
-set(GRAINSCOPE_DOWNLOADS "${CMAKE_SOURCE_DIR}/build/host-source" CACHE PATH "Where a fetched LIGGGHTS is kept, shared by presets")
+set(GRAINSCOPE_DOWNLOADS "${CMAKE_SOURCE_DIR}/build/host-source" CACHE PATH
+    "Where a fetched LIGGGHTS is kept, shared by presets")
 set(HOST_TARBALL_SHA256 c18721d9a870c5170f03b91e4f1ffe13335c66ed1f0ff2c64ebd3be91c37867a)
 set(HOST_GIT_URL https://github.com/CFDEMproject/LIGGGHTS-PUBLIC.git)
 set(HOST_GIT_COMMIT bbd23c8521fe0a4f3f5bfd0d3dc9a7dddd68d90b)
@@ -21,7 +22,8 @@ function(host_is_at folder result)
   endforeach()
 endfunction()
 
-# apt writes only below GRAINSCOPE_DOWNLOADS; it checks the archive's signature, and the tarball is checked against our pin.
+# apt writes only below GRAINSCOPE_DOWNLOADS. It checks the signature of the archive; the tarball is checked against the
+# SHA-256 above.
 function(get_host_by_apt target why)
   set(${why} "" PARENT_SCOPE)
   find_program(APT_GET apt-get)
@@ -39,8 +41,8 @@ function(get_host_by_apt target why)
     get_filename_component(name "${list}" NAME)
     file(WRITE "${apt}/sources.d/${name}" "${text}")
   endforeach()
-  set(private -o Dir::Etc::sourcelist=/dev/null -o Dir::Etc::sourceparts=${apt}/sources.d -o Dir::State::lists=${apt}/lists
-      -o Dir::Cache=${apt} -o APT::Sandbox::User=root -qq)
+  set(private -o Dir::Etc::sourcelist=/dev/null -o Dir::Etc::sourceparts=${apt}/sources.d
+      -o Dir::State::lists=${apt}/lists -o Dir::Cache=${apt} -o APT::Sandbox::User=root -qq)
   message(STATUS "LIGGGHTS: asking apt for the source package (private sources list)")
   execute_process(COMMAND ${APT_GET} ${private} -o APT::Update::Error-Mode=any update
                   OUTPUT_QUIET ERROR_VARIABLE complaint RESULT_VARIABLE failed)
@@ -76,7 +78,8 @@ function(get_host_by_git target why)
   message(STATUS "LIGGGHTS: cloning ${HOST_GIT_URL} at ${HOST_GIT_COMMIT}")
   set(clone "${target}.part")
   file(REMOVE_RECURSE "${clone}")
-  execute_process(COMMAND ${CMAKE_COMMAND} -E env GIT_TERMINAL_PROMPT=0 ${GIT_EXECUTABLE} clone --quiet --no-checkout ${HOST_GIT_URL} ${clone}
+  execute_process(COMMAND ${CMAKE_COMMAND} -E env GIT_TERMINAL_PROMPT=0
+                          ${GIT_EXECUTABLE} clone --quiet --no-checkout ${HOST_GIT_URL} ${clone}
                   ERROR_VARIABLE complaint RESULT_VARIABLE failed)
   if(NOT failed)
     execute_process(COMMAND ${GIT_EXECUTABLE} -C ${clone} checkout --quiet ${HOST_GIT_COMMIT} -- src
@@ -93,8 +96,8 @@ endfunction()
 if(LIGGGHTS_SOURCE_DIR)
   host_is_at("${LIGGGHTS_SOURCE_DIR}" HOST_SOURCE)
   if(NOT HOST_SOURCE)
-    message(FATAL_ERROR "LIGGGHTS_SOURCE_DIR must be a LIGGGHTS-PUBLIC checkout (or its src/), got '${LIGGGHTS_SOURCE_DIR}': "
-                        "no pair_gran_base.h there or in its src/.")
+    message(FATAL_ERROR "LIGGGHTS_SOURCE_DIR must be a LIGGGHTS-PUBLIC checkout (or its src/), got "
+                        "'${LIGGGHTS_SOURCE_DIR}': no pair_gran_base.h there or in its src/.")
   endif()
 else()
   host_is_at("${GRAINSCOPE_DOWNLOADS}/liggghts" HOST_SOURCE)
@@ -108,10 +111,10 @@ else()
     host_is_at("${GRAINSCOPE_DOWNLOADS}/liggghts" HOST_SOURCE)
   endif()
   if(NOT HOST_SOURCE)
-    message(FATAL_ERROR "No LIGGGHTS source could be had.\n"
+    message(FATAL_ERROR "No LIGGGHTS source was found.\n"
       "  apt: ${apt_failure}\n  git: ${git_failure}\n"
-      "Either connect this machine to the network, or get LIGGGHTS-PUBLIC (${HOST_GIT_URL}) elsewhere, copy it here and configure with "
-      "-DLIGGGHTS_SOURCE_DIR=<its folder>.")
+      "Connect this machine to the network, or download LIGGGHTS-PUBLIC (${HOST_GIT_URL}) elsewhere, copy it here and "
+      "configure with -DLIGGGHTS_SOURCE_DIR=<its folder>.")
   endif()
 endif()
 message(STATUS "LIGGGHTS source: ${HOST_SOURCE}")

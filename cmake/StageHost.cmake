@@ -1,8 +1,9 @@
-# Lays the host out in the build tree: a symlink per source file, a mended copy in place of a link where a mend applies,
-# and the generated style_*.h lists that let LIGGGHTS know our styles. The source itself is never written to.
+# Puts the source of LIGGGHTS (the host) in the build tree: a symlink per file, a mended copy where a mend applies, and
+# the generated style_*.h lists that make our styles known to LIGGGHTS. The source itself is never written to.
 # Sets HOST_STAGE (folder) and HOST_FILES (the .cpp files to compile).
 
-# One stage per source: another LIGGGHTS_SOURCE_DIR must not meet objects of the one before, which may be newer than its files.
+# One stage per source: objects of an earlier LIGGGHTS_SOURCE_DIR, which may be newer than the files of this one, must
+# not be used.
 string(SHA1 source_key "${HOST_SOURCE}")
 string(SUBSTRING "${source_key}" 0 8 source_key)
 set(HOST_STAGE "${CMAKE_BINARY_DIR}/host-${source_key}")
@@ -17,7 +18,8 @@ if(NOT GRAINSCOPE_VTK)
   list(FILTER staged EXCLUDE REGEX "^dump_.*vt[km]\\.(h|cpp)$")
 endif()
 
-# One mend: `old` becomes `new` in `file`, only where `old` stands. What was mended is reported at the end of the configure run.
+# One mend: `old` becomes `new` in `file`, if `old` is found there. The mends that were made are listed, with `why`, at
+# the end of the configure run.
 set(HOST_MENDS "")
 function(mend file old new why)
   if(NOT EXISTS "${HOST_SOURCE}/${file}")
@@ -84,14 +86,16 @@ foreach(header IN LISTS marked our_headers)
   set(markers_of_${name} "${markers}")
 endforeach()
 foreach(entry
-    "ANGLE_CLASS angle_ angle" "ATOM_CLASS atom_vec_ atom" "BODY_CLASS body_ body" "BOND_CLASS bond_ bond" "COMMAND_CLASS - command"
-    "COMPUTE_CLASS compute_ compute" "DIHEDRAL_CLASS dihedral_ dihedral" "DUMP_CLASS dump_ dump" "FIX_CLASS fix_ fix"
-    "IMPROPER_CLASS improper_ improper" "INTEGRATE_CLASS - integrate" "KSPACE_CLASS - kspace" "MINIMIZE_CLASS min_ minimize"
+    "ANGLE_CLASS angle_ angle" "ATOM_CLASS atom_vec_ atom" "BODY_CLASS body_ body" "BOND_CLASS bond_ bond"
+    "COMMAND_CLASS - command" "COMPUTE_CLASS compute_ compute" "DIHEDRAL_CLASS dihedral_ dihedral"
+    "DUMP_CLASS dump_ dump" "FIX_CLASS fix_ fix" "IMPROPER_CLASS improper_ improper" "INTEGRATE_CLASS - integrate"
+    "KSPACE_CLASS - kspace" "MINIMIZE_CLASS min_ minimize"
     "PAIR_CLASS pair_ pair" "SURFACE_MODEL surface_model_ surface_model" "NORMAL_MODEL normal_model_ normal_model"
     "TANGENTIAL_MODEL tangential_model_ tangential_model" "COHESION_MODEL cohesion_model_ cohesion_model"
     "ROLLING_MODEL rolling_model_ rolling_model" "READER_CLASS reader_ reader" "REGION_CLASS region_ region"
-    "CFD_DATACOUPLING_CLASS cfd_datacoupling_ cfd_datacoupling" "CFD_REGIONMODEL_CLASS cfd_regionmodel_ cfd_regionmodel" "LB_CLASS - lb"
-    "SPH_KERNEL_CLASS sph_kernel_ sph_kernel" "MESHMODULE_CLASS mesh_module_ mesh_module" "MESHMOVER_CLASS mesh_mover_ mesh_mover")
+    "CFD_DATACOUPLING_CLASS cfd_datacoupling_ cfd_datacoupling"
+    "CFD_REGIONMODEL_CLASS cfd_regionmodel_ cfd_regionmodel" "LB_CLASS - lb" "SPH_KERNEL_CLASS sph_kernel_ sph_kernel"
+    "MESHMODULE_CLASS mesh_module_ mesh_module" "MESHMOVER_CLASS mesh_mover_ mesh_mover")
   string(REPLACE " " ";" entry "${entry}")
   list(GET entry 0 marker)
   list(GET entry 1 prefix)
@@ -137,8 +141,8 @@ endif()
 string(REPLACE ";" "\n" combinations "${combinations}\n")
 write_if_changed("${HOST_STAGE}/style_contact_model.h" "${combinations}")
 file(STRINGS "${HOST_SOURCE}/version_liggghts.txt" host_version LIMIT_COUNT 1)
-# Restart files carry this text; LIGGGHTS parses the number after the first word. (The word is not LIGGGHTS-PUBLIC: that makes the host
-# print random remarks, through a dangling pointer, after every error.)
+# Restart files carry this text; LIGGGHTS parses the number after the first word. (The word is not LIGGGHTS-PUBLIC: with
+# that LIGGGHTS prints random remarks, through a dangling pointer, after every error.)
 write_if_changed("${HOST_STAGE}/version_liggghts.h"
                  "#define LIGGGHTS_VERSION \"LIGGGHTS ${host_version} with grainscope ${PROJECT_VERSION}\"\n")
 

@@ -488,7 +488,8 @@ add_cases(tools-plot cases/tools_plot.py LABEL case STYLES tools CASES
 add_cases(tools-rows cases/tools_rows.py LABEL case STYLES tools CASES
   tables files-of-the-program incomplete command-line)
 add_cases(tools-fields cases/field_pictures.py LABEL case STYLES tools CASES
-  cells-in-order profiles empty-cells error-bands several-files maps tilted-maps slices arrows rings animation groups-and-columns
+  cells-in-order profiles empty-cells error-bands several-files maps tilted-maps slices arrows rings animation
+  groups-and-columns
   not-finite bad-files command-line)
 add_cases(study-slurm cases/study_slurm.py LABEL long STYLES study CASES slurm-grid)
 
@@ -513,7 +514,8 @@ add_cases(gran/insitu-first-evaluation cases/first_evaluation.py LABEL case
 add_cases(gran/insitu-first-evaluation cases/first_evaluation.py LABEL case
   STYLES gran/insitu run/guard contact/local contact/grain dissipation stress/contact RANKS 1 2 CASES
   as-the-host packings beside-a-mesh-moved-before beside-a-mesh-moved-after)
-add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation gran/insitu CASES
+add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case
+  STYLES contact/local dissipation gran/insitu CASES
   sjkr sjkr2 sjkr-reduces-friction sjkr-no-history sjkr-limit-force neutral neutral-slippery neutral-two-types)
 add_cases(contact/local+contact/grain+contact/surface-friction-limit cases/friction_limit.py LABEL case
   STYLES contact/local contact/grain contact/surface dissipation CASES
@@ -549,7 +551,8 @@ add_cases(gran/insitu-faces cases/moving_faces.py LABEL case STYLES gran/insitu 
 # Data files
 add_cases(superquadric-data-file cases/data_files.py LABEL case STYLES superquadric RANKS 1 2 CASES
   there-and-back there-and-back-triclinic there-and-back-after-steps by-hand-18-columns)
-add_cases(property/atom-of-superquadrics cases/data_files.py LABEL case STYLES property/atom superquadric RANKS 1 2 CASES
+add_cases(property/atom-of-superquadrics cases/data_files.py LABEL case
+  STYLES property/atom superquadric RANKS 1 2 CASES
   property-atom)
 add_cases(granular_superquadric-data-file cases/data_files.py LABEL case STYLES granular_superquadric CASES
   by-the-other-name)
@@ -632,7 +635,8 @@ set(with_outputs stress/contact fabric contact/direction contact/surface contact
   contact/force packing
   displacement/shear dissipation energy/ledger fluctuation layering nematic velocity/correlation velocity/memory
   property/atom press/strain press/wall)
-add_cases(every-style-outputs cases/outputs_declared.py LABEL case STYLES outputs ${with_outputs} RANKS 1 2 CASES every-number)
+add_cases(every-style-outputs cases/outputs_declared.py LABEL case STYLES outputs ${with_outputs} RANKS 1 2
+  CASES every-number)
 add_cases(every-style-outputs cases/outputs_declared.py LABEL case STYLES outputs ${with_outputs} CASES
   norm json-is-made pages declared-in-words)
 add_cases(outputs-variables cases/outputs.py LABEL case STYLES outputs stress/contact RANKS 1 2 CASES
@@ -640,7 +644,8 @@ add_cases(outputs-variables cases/outputs.py LABEL case STYLES outputs stress/co
 add_cases(outputs-variables cases/outputs.py LABEL case STYLES outputs stress/contact dissipation press/strain CASES
   prefixes)
 add_cases(outputs-variables cases/outputs.py LABEL case
-  STYLES outputs fabric contact/local property/atom contact/direction stress/contact CASES chosen listed-only users-own given-again)
+  STYLES outputs fabric contact/local property/atom contact/direction stress/contact
+  CASES chosen listed-only users-own given-again)
 
 # Walls: what one grain at a wall does, in closed form, and the balance of the forces of walls with the stress
 add_cases(stress/contact-at-walls cases/wall_analytic.py LABEL case
@@ -648,7 +653,8 @@ add_cases(stress/contact-at-walls cases/wall_analytic.py LABEL case
   RANKS 1 LONG_RANKS 2
   CASES bouncing-ball-0.1 bouncing-ball-0.3 bouncing-ball-0.5 bouncing-ball-0.7 bouncing-ball-0.9 sliding-block-30
   sliding-block-60 slipping-ball-45 slipping-ball-60 spinning-ball-rolls thrown-ball-rolls backspin full-box plates
-  spheroid-lies-ellipsoid spheroid-lies-superquadric spheroid-stands-ellipsoid spheroid-stands-superquadric block-in-a-drum)
+  spheroid-lies-ellipsoid spheroid-lies-superquadric spheroid-stands-ellipsoid spheroid-stands-superquadric
+  block-in-a-drum)
 
 # Tools: dumps read, and converted for ParaView and OVITO
 add_cases(tools-dumps cases/tools_dumps.py LABEL case STYLES tools CASES
@@ -703,7 +709,8 @@ add_cases(gran/insitu-two-dimensions cases/two_dimensions_runs.py LABEL case STY
   RANKS 1 LONG_RANKS 2 4 CASES in-parts)
 # What is measured: the shared keywords
 set(scoped stress/contact dissipation fabric contact/grain)
-add_cases(stress/contact+dissipation+fabric-scope cases/scopes.py LABEL case STYLES ${scoped} RANKS 1 4 CASES rows-by-types chosen-types)
+add_cases(stress/contact+dissipation+fabric-scope cases/scopes.py LABEL case STYLES ${scoped} RANKS 1 4
+  CASES rows-by-types chosen-types)
 add_cases(stress/contact-scope cases/scopes.py LABEL case STYLES stress/contact RANKS 1 LONG_RANKS 4 CASES
   planes-and-pressures volumes whole-box-warned-of)
 add_cases(nematic-scope cases/scopes.py LABEL case STYLES nematic RANKS 1 LONG_RANKS 4 CASES

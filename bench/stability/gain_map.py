@@ -102,18 +102,20 @@ fix          young all property/global youngsModulus peratomtype 5e6
 fix          poisson all property/global poissonsRatio peratomtype 0.3
 fix          restitution all property/global coefficientRestitution peratomtypepair 1 0.1
 fix          friction all property/global coefficientFriction peratomtypepair 1 0.4
-pair_style   gran/insitu model hertz tangential history surface ellipsoid tangential_damping off gaussianCurvature yes curvatureLimitFactor 100
+pair_style   gran/insitu model hertz tangential history surface ellipsoid tangential_damping off gaussianCurvature yes &
+             curvatureLimitFactor 100
 pair_coeff   * *
 timestep     {dt!r}
 fix          move all nve/spheroid
-fix          press all press/strain axis y target {target!r} shear xy rate {rate!r} every/step {steps} gain {gain} {clip}
+fix          press all press/strain axis y target {target!r} shear xy rate {rate!r} every/step {steps} &
+             gain {gain} {clip}
 outputs      press
 thermo_style custom step f_press v_press_target v_press_L v_press_L_rate v_press_clipped
 thermo_modify format float %.12g flush yes
 thermo       {steps}
 reset_timestep 0
 run          {length}
-"""  # noqa: E501, a deck
+"""
 
 
 class Bench:

@@ -7,4 +7,4 @@ mend(surface_model_default.h "${settings}" "${settings}        int rank;
             error->warning(FLERR, \"grains of atom_style superquadric without a surface model collide as their \"
                                   \"bounding spheres: add 'surface superquadric', or 'surface ellipsoid' where \"
                                   \"every blockiness is 2\");
-" "superquadrics without a surface model collide as their bounding spheres, without a word")
+" "superquadrics without a surface model collide as their bounding spheres, without a warning")

@@ -1,16 +1,17 @@
-# Data files of superquadrics. What lines hold is in src/ATOM: the host asks it here, and reads lines as long as theirs.
+# Data files of superquadrics. src/ATOM knows what their lines hold: here LIGGGHTS calls it, and reads lines of their
+# length.
 
 mend(atom_vec.h "\n  virtual void data_atom(double *, tagint, char **) = 0;" "
   virtual int columns_of_atoms(int, char *) {return size_data_atom;}
   virtual void check_velocities(int, char *) {}
-  virtual void data_atom(double *, tagint, char **) = 0;" "a data file's lines are not shown to the atom style")
+  virtual void data_atom(double *, tagint, char **) = 0;" "the atom style cannot read the lines of a data file itself")
 mend(atom.cpp "\n  if (nwords != avec->size_data_atom && nwords != avec->size_data_atom + 3)" "
   const int columns = avec->columns_of_atoms(n,buf);
-  if (nwords != columns && nwords != columns + 3)" "columns of a data file that may or may not be there")
+  if (nwords != columns && nwords != columns + 3)" "a data file cannot have optional columns")
 mend(atom.cpp "\n  if (nwords > avec->size_data_atom) imageflag = 1;" "\n  if (nwords > columns) imageflag = 1;"
-     "likewise")
+     "image flags behind optional columns are not found")
 mend(atom.cpp "\n  if (nwords != avec->size_data_vel)" "
   avec->check_velocities(n,buf);
-  if (nwords != avec->size_data_vel)" "likewise, of velocities")
+  if (nwords != avec->size_data_vel)" "the atom style cannot check the velocities of a data file")
 mend(read_data.cpp "\n#define MAXLINE 256\n" "\n#define MAXLINE 1024\n"
-     "a data file's lines are cut after 255 characters")
+     "lines of a data file are cut after 255 characters")

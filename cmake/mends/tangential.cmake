@@ -1,4 +1,4 @@
-# Tangential damping that may exceed the friction limit.
+# Tangential damping that may exceed the friction limit: pair_style gran/insitu notes it, or limits it.
 
 function(mend_damping name limit indent)
   set(file tangential_model_${name}.h)
@@ -9,10 +9,10 @@ ${indent}const double acting = grainscope::TangentialBound::get().damping(gammat
     string(APPEND old "\n${indent}Ft${k} -= (gammat*sidata.vtr${k});")
     string(APPEND new "\n${indent}Ft${k} -= (acting*sidata.vtr${k});")
   endforeach()
-  mend(${file} "${old}" "${new}"
-       "tangential damping beyond the friction limit in the first evaluation of a run: noted, or kept to it, as pair_style gran/insitu asks")
-  mend(${file} "P_diss_local = gammat*" "P_diss_local = acting*" "likewise, in its heat")
-  mend(${file} "\n#include \"tangential_model_base.h\"" "\n#include \"tangential_model_base.h\"\n#include \"tangential_bound.h\"" "likewise")
+  mend(${file} "${old}" "${new}" "tangential damping exceeds the friction limit in the first evaluation of a run")
+  mend(${file} "P_diss_local = gammat*" "P_diss_local = acting*" "heat of tangential damping likewise")
+  set(include "\n#include \"tangential_model_base.h\"")
+  mend(${file} "${include}" "${include}\n#include \"tangential_bound.h\"" "the header that limits tangential damping")
   set(MENDED_FILES ${MENDED_FILES} PARENT_SCOPE)
   set(HOST_MENDS ${HOST_MENDS} PARENT_SCOPE)
 endfunction()

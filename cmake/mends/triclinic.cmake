@@ -1,12 +1,12 @@
 # Triclinic boxes that lose grains.
 
 mend(domain.cpp "prd_lamda[0] = prd_lamda[1] = prd_lamda[2] = 0.0;" "prd_lamda[0] = prd_lamda[1] = prd_lamda[2] = 1.0;"
-     "prd_lamda of 0 loses atoms of triclinic boxes")
+     "prd_lamda is 0, which loses atoms of triclinic boxes")
 mend(domain.cpp "prd_half_lamda[0] = prd_half_lamda[1] = prd_half_lamda[2] = 0.0;"
-     "prd_half_lamda[0] = prd_half_lamda[1] = prd_half_lamda[2] = 0.5;" "prd_half_lamda of 0, likewise")
+     "prd_half_lamda[0] = prd_half_lamda[1] = prd_half_lamda[2] = 0.5;" "prd_half_lamda is 0 likewise")
 
-# A box that has moved since the last neighbour list leaves grains outside: they go to the rank of their image, and are wrapped, velocities and all,
-# when the run begins.
+# When a box has moved since the last neighbour list, grains may lie outside it: they go to the rank of their image, and
+# are wrapped, with their velocities, when the run begins.
 mend(read_restart.cpp "\n        if (coord[0] >= sublo[0] && coord[0] < subhi[0] &&" "
         double inside[3];
         for (int k = 0; k < 3; k++) {

@@ -34,7 +34,7 @@ std::string id_of(const std::vector<std::string> &words) { return words.empty() 
 
 bool alike(double a, double b, double tolerance = 1e-12) { return std::fabs(a - b) <= tolerance * std::fabs(b); }
 
-/** The host makes bounding spheres 1e-4 wider, but not those of grains that were never given a shape. */
+/** LIGGGHTS makes bounding spheres 1e-4 wider, except those of grains that were never given a shape. */
 constexpr double margin = 2e-4;
 
 }
@@ -55,7 +55,7 @@ int AtomVecSuperquadricFiles::columns_of_atoms(int n, char *lines) {
     std::string problem = line::problem_of_grain(words, atom->ntypes, IMGMAX);
     if (!first) first = words.size();
     if (problem.empty() && words.size() != first)
-      problem = "all lines must have as many columns, got " + std::to_string(words.size()) + " after " +
+      problem = "all lines must have the same number of columns, got " + std::to_string(words.size()) + " after " +
                 std::to_string(first);
     if (!problem.empty()) refuse("Atoms", id_of(words), problem);
   });
@@ -79,7 +79,7 @@ void AtomVecSuperquadricFiles::data_atom(double *x, tagint image, char **values)
   line::normalise(quaternion);
 }
 
-/** Integrators go on from the angular momentum. */
+/** Integrators continue from the angular momentum. */
 void AtomVecSuperquadricFiles::data_vel(int i, char **values) {
   using MathExtraLiggghtsNonspherical::omega_to_angmom;
   AtomVecSuperquadric::data_vel(i, values);
@@ -104,11 +104,9 @@ void AtomVecSuperquadricFiles::require_grains_of_shape_and_density() {
   MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, world);
   if (first == INT_MAX) return;
   const std::string grain = std::to_string(first);
-  const std::string problem =
-      "write_data: the radius, volume, mass or moments of inertia of grain " + grain +
-      " are "
-      "not those of its shape and density, and a data file of superquadrics holds no others: set its shape and "
-      "density, or use write_restart";
+  const std::string problem = "write_data: the radius, volume, mass or moments of inertia of grain " + grain +
+                              " are not those of its shape and density, and a data file of superquadrics cannot hold "
+                              "others: set its shape and density, or use write_restart";
   error->all(FLERR, problem.c_str());
 }
 
@@ -130,7 +128,7 @@ void AtomVecSuperquadricFiles::pack_data(double **buf, int tag_offset) {
   }
 }
 
-/** Angular velocities that do not belong to the angular momentum are not what a run would go on with. */
+/** An angular velocity that does not match the angular momentum would not be the one that a run continues with. */
 void AtomVecSuperquadricFiles::pack_vel(double **buf, int tag_offset) {
   AtomVecSuperquadric::pack_vel(buf, tag_offset);
   for (int i = 0; i < atom->nlocal; i++) {

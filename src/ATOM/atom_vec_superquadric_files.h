@@ -17,16 +17,16 @@ AtomStyle(granular_superquadric,AtomVecSuperquadricFiles)
 
 namespace LAMMPS_NS {
 
-/** The host's atom style superquadric, with data files that hold a grain whole: shape, orientation, images, spin.
- *  Mended lines of Atom and AtomVec ask two of its members.
+/** The atom style superquadric of LIGGGHTS, with data files that hold all of a grain: shape, orientation, images, spin.
+ *  Mended lines of Atom and AtomVec call two of its members.
  *  See doc/data_files.md. */
 class AtomVecSuperquadricFiles : public AtomVecSuperquadric {
  public:
   explicit AtomVecSuperquadricFiles(class LAMMPS *lmp);
 
-  /** Looks at `n` lines of the section Atoms; how many columns they have, image flags apart. Collective. */
+  /** Reads `n` lines of the section Atoms; returns the number of columns without image flags. Collective. */
   int columns_of_atoms(int n, char *lines) override;
-  /** Looks at `n` lines of the section Velocities. Collective. */
+  /** Checks `n` lines of the section Velocities. Collective. */
   void check_velocities(int n, char *lines) override;
 
   void data_atom(double *x, tagint image, char **values) override;

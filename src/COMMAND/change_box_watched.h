@@ -12,7 +12,7 @@ CommandStyle(change_box,ChangeBoxWatched)
 
 namespace LAMMPS_NS {
 
-/** The host's command change_box; computes that follow grains in the box are called before and after it. */
+/** The command change_box of LIGGGHTS; computes that follow grains in the box are called before and after it. */
 class ChangeBoxWatched : protected Pointers {
  public:
   explicit ChangeBoxWatched(class LAMMPS *lmp) : Pointers(lmp) {}

@@ -23,7 +23,8 @@ using grainscope::Outputs;
 
 namespace {
 
-/** A private member of the host's class Variable: the texts of all variables. An explicit instantiation may name it. */
+/** A private member of the class Variable of LIGGGHTS: the texts of all variables. An explicit instantiation may name
+ *  it. */
 struct TextsOfVariables {
   using Member = char ***Variable::*;
   friend Member member_of(TextsOfVariables);
@@ -63,12 +64,13 @@ Source source_of(const Modify &modify, const std::string &id, const Arguments &e
     if (one.declared) found.push_back(one);
     else other = one.description;
   }
-  const std::string requirement = "'ID' must be that of a compute or fix with named outputs, got '" + id + "'";
+  const std::string requirement = "'ID' must be the ID of a compute or fix with named outputs, got '" + id + "'";
+  const std::string page = " (doc/outputs.md)";
   if (found.size() > 1)
-    errors.fail(requirement + ", which is both " + found[0].description + " and " + found[1].description +
+    errors.fail(requirement + ", which is the ID of both " + found[0].description + " and " + found[1].description +
                 ": rename one");
-  if (found.empty() && !other.empty()) errors.fail(requirement + ", " + other + ", whose outputs have no names");
-  if (found.empty()) errors.fail(requirement + grainscope::nearest_name(id, named));
+  if (found.empty() && !other.empty()) errors.fail(requirement + ": the outputs of " + other + " have no names" + page);
+  if (found.empty()) errors.fail(requirement + grainscope::nearest_name(id, named) + page);
   return found[0];
 }
 
@@ -81,7 +83,7 @@ struct Line {
 
 std::string in_brackets(std::size_t k) { return "[" + std::to_string(k) + "]"; }
 
-/** Every output with the words that reach it. */
+/** Every output with the expression that reads it. */
 std::vector<Line> lines_of(const Source &source, const std::string &prefix) {
   const Outputs &outputs = source.declared->outputs();
   std::vector<Line> lines;
@@ -139,15 +141,15 @@ std::string table_of(const Source &source, const std::vector<Line> &lines) {
     rows.push_back(
         {one.kind, one.index, output.name, output.unit, text_of(output.extent), one.read_as, output.meaning});
   }
-  std::string text = "Outputs of " + source.description + "\n" + table_of(rows);
+  std::string text = "Outputs of " + source.description + ", " + source.declared->page() + "\n" + table_of(rows);
   const Outputs &outputs = source.declared->outputs();
   if (!outputs.columns.empty())
     text += "array: i from 1 to " + std::to_string(outputs.rows) + ", one row per " + outputs.row + "\n";
   return text;
 }
 
-/** The variables that this command defined, with their formulas: of a compute that has changed since, they are
- * replaced. */
+/** The variables that this command defined, with their formulas: if the compute has changed since, they are replaced.
+ */
 std::map<std::string, std::string> &defined_here() {
   static std::map<std::string, std::string> formulas;
   return formulas;
@@ -157,21 +159,21 @@ std::map<std::string, std::string> &defined_here() {
 std::string other_meaning(Variable &variable, const std::string &name, const std::string &formula) {
   const int found = variable.find(const_cast<char *>(name.c_str()));
   if (found < 0) return "";
-  if (!variable.equalstyle(found)) return "of another style than equal";
+  if (!variable.equalstyle(found)) return "not of style equal";
   const std::string text = (variable.*member_of(TextsOfVariables()))[found][0];
   const auto ours = defined_here().find(name);
   if (ours != defined_here().end() && ours->second == text) return "";
   return text == formula ? "" : "equal to " + text;
 }
 
-/** Nothing is defined where one of the names is taken. */
+/** If one of the names is taken, no variable is defined. */
 void define(LAMMPS *lmp, const std::vector<Line> &lines, const Arguments &errors) {
   Variable &variable = *lmp->input->variable;
   for (const Line &one : lines) {
     const std::string other = other_meaning(variable, one.variable, one.formula);
     if (!other.empty())
-      errors.fail("'" + one.formula + "' would be variable '" + one.variable + "', which exists and is " + other +
-                  ": delete that variable first, or give another 'prefix'");
+      errors.fail("the variable '" + one.variable + "' for '" + one.formula + "' exists already and is " + other +
+                  ": delete it first, or give another 'prefix'");
   }
   for (const Line &one : lines) {
     if (one.variable.empty()) continue;

@@ -6,15 +6,16 @@
 
 namespace grainscope {
 
-/** From the centre of j, or the contact point at a wall, to that of i: of clumps the centres of mass. */
+/** Branch vector: from the centre of j, or from the contact point at a wall, to the centre of i. The centre of a clump
+ *  is its centre of mass. */
 inline Eigen::Vector3d branch_of(const Contact &c, const Bodies &bodies) {
   if (!bodies.any()) return c.branch;
   const Eigen::Vector3d branch = c.branch - bodies.arm(c.i);
   return c.with_wall() ? branch : Eigen::Vector3d(branch + bodies.arm(c.j()));
 }
 
-/** Branches go from the centre of mass of a clump to that of another. Of a region's stress, the part of each branch
- *  that lies in it; contacts are counted where their points are. */
+/** Branches between clumps go from one centre of mass to the other. For the stress of a region the part of each branch
+ *  that lies in it counts; contacts are counted where their points are. */
 struct Branches {
   template <class KernelOf>
   static void add(ContactSpan contacts, const ContactCompute &of, const KernelOf &kernel_of) {

@@ -50,7 +50,7 @@ std::vector<std::string> ChosenWalls::names_that_there_are() const {
 
 std::string ChosenWalls::there_are() const {
   const std::vector<std::string> names = names_that_there_are();
-  if (names.empty()) return "there are none, define it after fix wall/gran";
+  if (names.empty()) return "there are none yet, define it after fix wall/gran";
   return "there are " + listed(names);
 }
 
@@ -67,7 +67,7 @@ int ChosenWalls::index_of(const std::string &name, const std::string &keyword, c
   const auto found = std::find(names_.begin(), names_.end(), name);
   if (found == names_.end()) {
     require_known(name, keyword, errors);
-    errors.fail("'" + keyword + "' names '" + name + "', which is none of the chosen walls");
+    errors.fail("'" + keyword + "' names '" + name + "', which is not one of the chosen walls");
   }
   return static_cast<int>(found - names_.begin());
 }
@@ -83,12 +83,13 @@ std::vector<int> ChosenWalls::find(const Arguments &errors) {
   }
   const std::vector<std::string> there = names_that_there_are();
   for (const std::string &name : names_)
-    if (!has(there, name)) errors.fail("wall '" + name + "' is gone: " + there_are() + ". Define the compute again");
+    if (!has(there, name))
+      errors.fail("wall '" + name + "' no longer exists: " + there_are() + ". Define the compute again");
   for (const std::string &name : there)
     if (all_ && !has(names_, name))
-      errors.fail("wall '" + name +
-                  "' was made after it, and all walls were meant: define the compute again, or name "
-                  "its walls");
+      errors.fail(
+          "wall '" + name +
+          "' was defined after the compute, which measures all walls: define the compute again, or name its walls");
   return place;
 }
 
@@ -100,12 +101,13 @@ double primitive_area(const std::vector<std::string> &wall, const BoxState &box,
     return 0.0;
   };
   if (wall[0].compare(1, std::string::npos, "plane") == 0) {
-    if (!fixed[u] || !fixed[v]) return unknown("the box follows the grains along it, boundary s or m");
-    if (box.edges(axis, u) != 0.0 || box.edges(axis, v) != 0.0) return unknown("it is parallel to no face of the box");
+    if (!fixed[u] || !fixed[v]) return unknown("the box is shrink-wrapped along it, boundary s or m");
+    if (box.edges(axis, u) != 0.0 || box.edges(axis, v) != 0.0)
+      return unknown("it is not parallel to a face of the box");
     return box.edges.col(u).cross(box.edges.col(v)).norm();
   }
-  if (!fixed[axis]) return unknown("the box follows the grains along its axis, boundary s or m");
-  if (!along_axis(box.edges, axis)) return unknown("its axis is along no edge of the box");
+  if (!fixed[axis]) return unknown("the box is shrink-wrapped along its axis, boundary s or m");
+  if (!along_axis(box.edges, axis)) return unknown("its axis is not along an edge of the box");
   const double radius = std::stod(wall[1]);
   Eigen::Vector3d middle = box.cell_centre;
   middle[u] = std::stod(wall[2]);

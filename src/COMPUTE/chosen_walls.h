@@ -12,20 +12,20 @@ namespace grainscope {
 class Arguments;
 struct BoxState;
 
-/** The walls of a compute, by their names: those that it names, or all that there are when it is defined. */
+/** The walls of a compute, by name: those that it names, or all that exist when it is defined. */
 class ChosenWalls {
  public:
   enum class Kind { any, mesh };
 
-  /** `named` none: all. Errors that say which there are. */
+  /** Without `named` all walls. Errors say which walls there are. */
   ChosenWalls(LAMMPS_NS::LAMMPS *lmp, const Arguments &errors, Kind kind, const std::vector<std::string> &named);
   const std::vector<std::string> &names() const { return names_; }
   int size() const { return static_cast<int>(names_.size()); }
   /** Which of these it is; an error about `keyword` when there is none of that name. */
   int index_of(const std::string &name, const std::string &keyword, const Arguments &errors) const;
 
-  /** In init(): finds them again; an error when one is gone, or one is new and all were meant. Number among these of
-   *  each wall, by PartnerWall::wall; -1: not chosen. */
+  /** In init(): finds them again. An error when one no longer exists, or when one is new and all were chosen. For each
+   *  wall, by PartnerWall::wall, its number among these; -1: not chosen. */
   std::vector<int> find(const Arguments &errors);
   /** As they were found. */
   const std::vector<Wall> &walls() const { return walls_; }
@@ -42,9 +42,10 @@ class ChosenWalls {
   void require_known(const std::string &name, const std::string &keyword, const Arguments &errors) const;
 };
 
-/** The area of a primitive wall within the box: a plane parallel to one of its faces, a cylinder inside it along one of
- *  its edges, where the box does not follow the grains. 0 where it is not known, and `why`. `fixed`: both faces across
- *  an edge stay where they are, or move as commanded. In two dimensions: the length of the line that the wall is. */
+/** The area of a primitive wall within the box: a plane parallel to a face of the box, or a cylinder inside the box
+ *  along one of its edges, where the box is not shrink-wrapped. 0 if it is not known, with the reason in `why`.
+ *  `fixed`: both faces across an edge stay in place, or move as commanded. In two dimensions: the length of the line
+ *  that the wall is. */
 double primitive_area(const std::vector<std::string> &wall, const BoxState &box, const std::array<bool, 3> &fixed,
                       std::string &why);
 /** Of this rank's triangles of a mesh, as it is now. */

@@ -163,7 +163,7 @@ void ComputeContactForce::answer() {
   const grainscope::ForceMoments &m = impl_->all_moments;
   const grainscope::ForceDistribution &p = impl_->all;
   grainscope::require_finite(lmp, name_ + " " + id, m.not_finite(), "the force",
-                             "contacts is not finite: look at what moves or pushes these grains");
+                             "contacts is not finite: check what moves or pushes these grains");
   const double n = m.contacts(), per_contact = n > 0.0 ? 1.0 / n : 0.0;
   const double mean_square = m.normal_squared() * per_contact;
   scalar = m.mean_normal();

@@ -91,14 +91,14 @@ double ComputeContactGrain::angle_to_flow(int i) const {
   return grainscope::major_axis_angle(scope_.shear_plane().of(p), axis.shape);
 }
 
-/** Collective. Errors when grains were sorted, added or removed since their contacts were seen. */
+/** Collective. An error if grains were sorted, added or removed after their contacts were seen. */
 void ComputeContactGrain::require_same_grains() const {
   const std::vector<int> &tags = impl_->tags;
   int changed = static_cast<int>(tags.size()) != atom->nlocal || !std::equal(tags.begin(), tags.end(), atom->tag);
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, world);
   if (changed)
     grainscope::Arguments(lmp, name_ + " " + id)
-        .fail("grains were sorted, added or removed since the last step of the run: ask within a run");
+        .fail("grains were sorted, added or removed after the last step of the run: use it during a run");
 }
 
 void ComputeContactGrain::compute_peratom() {

@@ -14,8 +14,8 @@ ComputeStyle(contact/grain,ComputeContactGrain)
 
 namespace LAMMPS_NS {
 
-/** What a grain's contacts do, grain by grain, to colour a picture by; contacts between grains of the group. Powers are
- *  instantaneous, half of each contact's; theta is in (-pi/2, pi/2], 0 for spheres. Zero outside the group.
+/** Contacts of each grain, to colour pictures of grains; contacts between grains of the group. Powers are
+ *  instantaneous, half of the power of each contact; theta is in (-pi/2, pi/2], 0 for spheres. Zero outside the group.
  *  Source: Bilotto, Trulsson & Molinari 2025, Eq. (4), Figs. 2, 12; doi 10.1103/tj41-6qqk. */
 class ComputeContactGrain : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
  public:

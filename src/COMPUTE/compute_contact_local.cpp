@@ -30,7 +30,7 @@ double *put(double *at, const Vector3d &v) { return std::copy(v.data(), v.data()
 
 constexpr auto intensive = grainscope::Extent::intensive;
 
-/** What one keyword asks for: outputs named after `parts`, none for a single one. */
+/** The columns of one keyword: outputs named after `parts`, none for a single one. */
 struct Column {
   const char *name, *parts, *unit, *meaning;
   void (*write)(const Row &, double *);
@@ -86,7 +86,7 @@ const Column columns[] = {
     {"strong", one, "-", "1 if fn is above the mean of all rows, else 0", after_all},
     {"cluster", one, "-", "lowest ID of the grains that strong contacts connect with i, 0 when not strong", after_all}};
 
-/** The columns that are written where none is asked for: scripts count them. */
+/** The default columns: scripts count them. */
 const int usual_columns = 15;
 
 }

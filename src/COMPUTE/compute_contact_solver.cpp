@@ -31,16 +31,16 @@ ComputeContactSolver::ComputeContactSolver(LAMMPS *lmp, int &iarg, int narg, cha
   grainscope::Arguments arguments(lmp, "compute contact/solver", iarg, narg, arg);
   arguments.require_none();
   if (igroup != 0)
-    arguments.fail(std::string("the group must be 'all', as the pairs of all grains are counted, got '") + arg[1] +
+    arguments.fail(std::string("the group must be 'all', because the pairs of all grains are counted, got '") + arg[1] +
                    "'");
   declare(this, declared());
 }
 
 void ComputeContactSolver::init() {
-  if (!PairGranInsitu::required_by(lmp, "compute contact/solver")->contact_match("surface", "ellipsoid"))
-    error->all(
-        FLERR,
-        "compute contact/solver requires a pair_style with surface ellipsoid: other surfaces have other solvers");
+  PairGranInsitu *const pair = PairGranInsitu::required_by(lmp, "compute contact/solver");
+  if (!pair->contact_match("surface", "ellipsoid"))
+    grainscope::Arguments(lmp, "compute contact/solver")
+        .fail("needs a pair_style with 'surface ellipsoid', got '" + pair->models() + "'");
 }
 
 void ComputeContactSolver::compute_vector() {

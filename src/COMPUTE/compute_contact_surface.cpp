@@ -65,7 +65,8 @@ void require_axes(const Atom *atom, const Domain *domain, const grainscope::Argu
   if (domain->dimension == 2)
     errors.fail("needs three dimensions, got 'dimension 2': discs have no axes to measure angles from");
   if (!atom->superquadric_flag)
-    errors.fail("needs atom_style superquadric: grains of other styles have no axes to measure angles from");
+    errors.fail("needs atom_style superquadric, got '" + std::string(atom->atom_style) +
+                "': other grains have no axes to measure angles from");
 }
 
 /** Sums of each bin, over the contacts of this rank; a grain's angle is measured from `axis`. */
@@ -114,7 +115,7 @@ struct SurfaceSums {
   }
 };
 
-/** The pressure that forces are divided by is that of all contacts, whichever are counted in bins. */
+/** The pressure by which forces are divided is that of all contacts, whichever are counted in bins. */
 struct PressureSum : grainscope::ContactCompute::Accumulator {
   Vector3d moments = Vector3d::Zero();  // sums of F_a r_a, of this rank
 
@@ -176,7 +177,7 @@ ComputeContactSurface::~ComputeContactSurface() {}
 
 void ComputeContactSurface::init() {
   require_axes(atom, domain, grainscope::Arguments(lmp, name_));
-  grainscope::require_no_bodies(lmp, grainscope::Arguments(lmp, name_), "their surface is not that of their grains");
+  grainscope::require_no_bodies(lmp, grainscope::Arguments(lmp, name_), "their surface is not that of their spheres");
   ContactCompute::init();
   require_known_losses();
   require_one_shape();
@@ -206,7 +207,7 @@ void ComputeContactSurface::require_one_shape() {
   MPI_Allreduce(MPI_IN_PLACE, bad, 2, MPI_INT, MPI_MIN, world);
   MPI_Allreduce(MPI_IN_PLACE, extremes, 4, MPI_DOUBLE, MPI_MAX, world);
   if (bad[0] != none)
-    errors.fail("needs ellipsoids, blockiness 2 2, but grain " + std::to_string(bad[0]) + " has another");
+    errors.fail("needs ellipsoids, blockiness 2 2, got another blockiness of grain " + std::to_string(bad[0]));
   if (bad[1] != none)
     errors.fail("'axis' must be x, y or z for triaxial grains, got 'auto' and grain " + std::to_string(bad[1]));
   if (extremes[0] == 0.0) {  // nobody in the group
@@ -218,8 +219,8 @@ void ComputeContactSurface::require_one_shape() {
   for (int k = 0; k < 2; k++)
     if (extremes[k] + extremes[2 + k] > 1e-9 * extremes[k])
       errors.fail("needs grains of one shape in group '" + std::string(group->names[igroup]) +
-                  "', got semi-axes across over along the axis from " + std::to_string(-extremes[2 + k]) + " to " +
-                  std::to_string(extremes[k]));
+                  "', got ratios of the semi-axes across and along the axis from " + std::to_string(-extremes[2 + k]) +
+                  " to " + std::to_string(extremes[k]));
   const Vector3d proportions(extremes[0], extremes[1], 1.0);
   if (proportions != impl_->proportions) {
     impl_->proportions = proportions;
@@ -229,7 +230,7 @@ void ComputeContactSurface::require_one_shape() {
   for (double area : impl_->unit_areas) impl_->sums().unit_area += area;
 }
 
-/** What depends on who is there; grains come and go with neighbour lists only. Collective. */
+/** What depends on the grains in the group; grains come and go with neighbour lists only. Collective. */
 void ComputeContactSurface::measure_grains() {
   if (impl_->build == neighbor->lastcall) return;
   impl_->build = neighbor->lastcall;

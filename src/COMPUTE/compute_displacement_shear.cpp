@@ -48,7 +48,7 @@ grainscope::Outputs declared(bool time) {
   return outputs;
 }
 
-/** What is kept of a grain: X of the last call, d, and whether it was there at the start. */
+/** The memory of a grain: X of the last call, d, and whether it existed at the start. */
 enum { POSITION = 0, DISPLACEMENT = 3, TRACKED = 6, WIDTH };
 
 /** What all ranks share: whether it has started, strain at the start and at the last call, that call's time, step and
@@ -75,7 +75,7 @@ enum {
 
 const int no_remap = 0;  // of the host's numbers for none x v
 
-/** Mean flows that hold the box's own flow too. */
+/** Mean flows that include the box's own flow. */
 bool moves_with_box(Kind flow) {
   return flow == Kind::none || flow == Kind::rate || flow == Kind::fit || flow == Kind::gradient;
 }
@@ -134,7 +134,7 @@ void ComputeDisplacementShear::require_flow_of_all() {
     const grainscope::Arguments errors(lmp, name);
     if (deform->remapflag == no_remap)
       errors.fail(which + " must move grains along with the box, 'remap v' or 'remap x', got 'remap none': "
-                          "displacements against its flow would be wrong");
+                          "displacements relative to its flow would be wrong");
     int others = 0;
     for (int i = 0; i < atom->nlocal && !others; i++)
       others = atom->mask[i] & groupbit && !(atom->mask[i] & deform->groupbit);
@@ -177,7 +177,7 @@ void ComputeDisplacementShear::begin(double strain) {
   if (grains == 0.0 && comm->me == 0) {
     const std::string in_region = impl_->scope.within() ? " and region '" + impl_->scope.within()->id() + "'" : "";
     error->warning(FLERR, (std::string(name) + " " + id + ": there is no grain in group '" + group->names[igroup] +
-                           "'" + in_region + " when it starts, and it follows those that are there then")
+                           "'" + in_region + " at its start, and it follows only grains that are present then")
                               .c_str());
   }
   Map<Matrix3d>(shared + EDGES) = box.edges;
@@ -194,7 +194,7 @@ Vector3d ComputeDisplacementShear::centre(int i, const grainscope::Bodies &bodie
   return body ? body->centre : Vector3d(Map<const Vector3d>(atom->x[i]));
 }
 
-/** Carries every grain's displacement on to now. */
+/** Advances the displacement of every grain to the present. */
 void ComputeDisplacementShear::advance() {
   const grainscope::UnwrappedBox box(*domain, *impl_->record);
   const grainscope::Bodies bodies = bodies_now();
@@ -241,7 +241,7 @@ void ComputeDisplacementShear::advance() {
   shared[TIME_1] = impl_->record->passed_time();
 }
 
-/** What the grains have come by against their mean flow is added to their displacements. */
+/** Adds the displacement of the grains relative to their mean flow. */
 void ComputeDisplacementShear::subtract_mean(std::vector<Fluctuations::Grain> moved, std::vector<Vector3d> places) {
   grainscope::MeanFlow flow = impl_->flow;
   flow.rate *= impl_->record->passed_time() - impl_->shared()[TIME_1];
@@ -250,7 +250,7 @@ void ComputeDisplacementShear::subtract_mean(std::vector<Fluctuations::Grain> mo
     Map<Vector3d>(impl_->record->of(g.index) + DISPLACEMENT) += motion.velocity(g);
 }
 
-/** A grain that has left the region is not followed any more. */
+/** A grain that has left the region is no longer followed. */
 void ComputeDisplacementShear::forget_those_outside() {
   if (!impl_->scope.within()) return;
   impl_->scope.update(grainscope::BoxState(lmp));
@@ -286,7 +286,7 @@ void ComputeDisplacementShear::before_change_box() {
   if (impl_->shared()[STARTED] != 0.0) advance();
 }
 
-/** With `remap` grains moved affinely, without they stayed: in neither case do they come any farther. */
+/** With `remap` grains moved affinely, without it they stayed: in both cases their displacement does not change. */
 void ComputeDisplacementShear::after_change_box() {
   impl_->record = FixGrainRecord::find(lmp, id);
   impl_->record->note_changed_box();

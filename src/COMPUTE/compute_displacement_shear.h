@@ -19,13 +19,13 @@ namespace LAMMPS_NS {
 
 class FixGrainRecord;
 
-/** How far grains have moved against the affine motion of a sheared box since a given strain. Between two calls, X
- *  is a grain's position with image flags from boxlo + (L_x, L_y, L_z)/2, H the box edges with the driven tilt
- *  continued through flips, s = H^-1 X:  d += (H_1 + H_2)/2 (s_2 - s_1). Against another mean flow:  d += u less the
- *  mean flow of u,  u = d of the box and, where the flow is fitted or given, its affine motion.
- *  Along an axis whose faces follow the grains (boundary s or m) there is no affine motion: its edge is taken as it
- *  is at the second call.
- *  Scalar: <d_y^2>. Vector: strain, <d^2>, and D, half their slope over strain, least squares with free intercept
+/** Displacement of grains relative to the affine motion of a sheared box since a given strain. Between two calls, with
+ *  X the position of a grain with image flags from boxlo + (L_x, L_y, L_z)/2, H the box edges with the driven tilt
+ *  continued through flips, and s = H^-1 X:  d += (H_1 + H_2)/2 (s_2 - s_1). Relative to another mean flow:  d += u
+ *  less the mean flow of u, where u is d of the box plus, if the flow is fitted or given, the affine motion.
+ *  Along an axis with shrink-wrapped faces (boundary s or m) there is no affine motion: the edge is taken as it is at
+ *  the second call.
+ *  Scalar: <d_y^2>. Vector: strain, <d^2>, and D, half their slope over strain, by least squares with free intercept
  *  over all calls. Zero before the start and for an empty group.
  *  Source: Bilotto, Trulsson & Molinari 2025, App. E, Fig. 16; doi 10.1103/tj41-6qqk. */
 class ComputeDisplacementShear : public Compute, public grainscope::DeclaresOutputs, public grainscope::BoxWatcher {

@@ -84,7 +84,7 @@ struct DampingForces : grainscope::ContactCompute::Accumulator {
     of.normal.add(c, m.normal_damping * c.normal, lever_i, lever_j, image_velocity);
     if (m.damped) of.tangential.add(c, -m.tangential_damping * m.tangential_velocity, lever_i, lever_j, image_velocity);
   }
-  /** Makes powers of sums of this rank whose friction is an energy. */
+  /** Converts sums of this rank to powers, if the friction is an energy. */
   void to_powers(LossSums &sums) const {
     for (auto one : {std::make_pair(&grains, sums.of_grains()), std::make_pair(&walls, sums.of_walls())}) {
       one.second[LossSums::normal_damping] = -one.first->normal.power(atom->v[0], atom->omega[0]);
@@ -146,7 +146,7 @@ ComputeDissipation::ComputeDissipation(LAMMPS *lmp, int &iarg, int narg, char **
   if (impl_->mode == Mode::ledger) {
     grainscope::require_box(lmp, arguments);
     if (scope_.by_types() || !scope_.type_pair().any() || scope_.within())
-      arguments.fail("'mode ledger' knows no losses by types or of a region: 'mode step' does");
+      arguments.fail("'mode ledger' has no losses by types or of a region: use 'mode step'");
   }
   using Of = LossSums::Of;
   impl_->sums.mine().of = impl_->mode == Mode::instantaneous ? Of::powers
@@ -178,7 +178,7 @@ void ComputeDissipation::init() {
   if (impl_->mode == Mode::ledger) FixLedgerRecord::find(lmp, id);
 }
 
-/** A ledger that does not close, as grains came, is no matter of a run that does not ask for it. */
+/** A ledger that does not close, because grains came, does not concern a run that does not use it. */
 bool ComputeDissipation::answers_after_run() const { return impl_->mode != Mode::ledger; }
 
 bool ComputeDissipation::needs_images() const { return impl_->mode == Mode::step; }

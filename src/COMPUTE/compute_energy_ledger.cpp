@@ -19,7 +19,7 @@ void add_rates(grainscope::OutputList &vector, const grainscope::OutputList &tot
     vector.add({one.name + "_rate", "energy/time", extensive, "rate of " + one.name + " in the last step"});
 }
 
-/** Indices stay what they are: what was added later is behind the rates of the first. */
+/** Indices never change: later outputs are behind the rates of the first ones. */
 grainscope::Outputs declared() {
   grainscope::OutputList first, later, axes;
   first.add_each("shear box frame other", {"W_*", "energy", extensive, "work W_* since the compute was defined"})

@@ -13,11 +13,11 @@ ComputeStyle(energy/ledger,ComputeEnergyLedger)
 
 namespace LAMMPS_NS {
 
-/** Where the energy of a group goes: what came in (W), what is stored (U, K) and what was lost (D, G) since the
- *  compute was defined, whether it adds up (residual), and the rates of all of it in the last step, 0 before the
- *  first; the share of walls in it (_w), of each axis in W_box.
- *  Scalar: |residual| over |D_n| + |D_t| + |D_damp| + |D_rolling|; 0 while nothing was lost. Zero for an empty
- *  group. */
+/** Where the energy of a group goes: what came in (W), what is stored (U, K) and what was lost (D, G) since the compute
+ *  was defined, whether it adds up (residual), and the rates of all of these in the last step, 0 before the first step;
+ *  the share of walls in them (_w), the share of each axis in W_box.
+ *  Scalar: |residual| over |D_n| + |D_t| + |D_damp| + |D_rolling|; 0 while nothing was lost. Zero for an empty group.
+ */
 class ComputeEnergyLedger : public Compute, public grainscope::DeclaresOutputs {
  public:
   ComputeEnergyLedger(class LAMMPS *lmp, int &iarg, int narg, char **arg);

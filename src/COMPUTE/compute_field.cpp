@@ -68,7 +68,7 @@ FieldQuantities ComputeField::read(int &iarg, int narg, char **arg) {
 void ComputeField::init() {
   ContactCompute::init();
   const grainscope::Arguments errors(lmp, name_);
-  grainscope::require_no_bodies(lmp, errors, "they would count sphere by sphere");
+  grainscope::require_no_bodies(lmp, errors, "each of their spheres would count as a grain");
   settings_.require_dimension(errors, domain->dimension);
   if (domain->dimension == 2 && (quantities_.blocks() & FieldSums::axes))
     errors.fail("Q, S2 and director need dimension 3");
@@ -80,7 +80,7 @@ void ComputeField::init() {
   map_ = settings_.map(box);
 }
 
-/** Where nothing is asked of contacts, none are read. */
+/** If no quantity needs contacts, none are read. */
 bool ComputeField::wants_contacts() {
   if (!ContactCompute::wants_contacts()) return false;
   if (quantities_.need_contacts()) return true;
@@ -162,7 +162,7 @@ void ComputeField::add_branch(const Contact &c, const Vector3d &centre) {
   });
 }
 
-/** What a cell has of a grain. */
+/** The share of a grain in a cell. */
 struct ComputeField::Share {
   int cell;
   double weight;
@@ -214,13 +214,13 @@ void ComputeField::add_grain(int i) {
   if (kind.shape == grainscope::Shape::oblate) flat_ += 1.0;
 }
 
-/** The axis that stands for grain i, where one is asked for; index -1 where it has none. */
+/** The axis that represents grain i, if one is needed; index -1 if it has none. */
 grainscope::SymmetryAxis ComputeField::axis_of(int i) const {
   if (!atom->superquadric_flag || !sums_.has(FieldSums::axes)) return {grainscope::Shape::sphere, -1};
   return grainscope::chosen_axis(atom->shape[i], scope_.axis_choice());
 }
 
-/** Of grains against the mean motion about each cell, which must be known. */
+/** For grains relative to the mean motion about each cell, which must be known. */
 void ComputeField::add_motion() {
   const grainscope::FieldMotion mean(map_, sums_, settings_.wraps(box_), settings_.jumps(box_));
   FieldSums mine(FieldSums::motion, sums_.cells());

@@ -186,10 +186,9 @@ void ComputeFluctuation::compute_vector() {
   vector[13] = vector[along] * std::sqrt(layers / n) / unit;
   const double limit = std::max(straight_enough, 2.0 * vector[13]);
   impl_->bent.watch(lmp, vector[12] > limit,
-                    "compute fluctuation: the velocity profile is off the box's flow by %.3g of rate x L (rms over "
-                    "layers; limit %g; a "
-                    "flow in one thin layer has 0.29): what is measured against that flow is not fluctuation alone. "
-                    "Look for a shear band, or use 'flow layers'",
+                    "compute fluctuation: the velocity profile deviates from the box's flow by %.3g of rate x L (rms "
+                    "over layers; limit %g; a flow in one thin layer has 0.29), so that this deviation is counted as "
+                    "fluctuation. Look for a shear band, or use 'flow layers'",
                     vector[12], limit);
 }
 

@@ -182,7 +182,7 @@ void ComputePacking::answer() {
   if (!std::isfinite(pressure))
     grainscope::Arguments(lmp, name_ + " " + id)
         .fail("step " + std::to_string(update->ntimestep) +
-              ": the pressure is not finite: look at overlaps and at the material's constants");
+              ": the pressure is not finite: check overlaps and material properties");
   const grainscope::Plane &plane = scope_.shear_plane();
   const double rate = my.rate.given() ? my.rate.now() : std::fabs(box.velocity_gradient(plane.flow, plane.gradient));
   const double inertial = pressure > 0.0 ? rate * d * std::sqrt(rho * force->mvv2e * force->nktv2p / pressure) : 0.0;

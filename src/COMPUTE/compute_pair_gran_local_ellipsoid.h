@@ -13,8 +13,8 @@ ComputeStyle(pair/gran/local,ComputePairGranLocalEllipsoid)
 
 namespace LAMMPS_NS {
 
-/** The host's compute, which reads `history`, `delta` and `contactPoint` from the contact history: of `surface
- *  ellipsoid` it is given the columns of `surface superquadric`. */
+/** The compute pair/gran/local of LIGGGHTS, which reads `history`, `delta` and `contactPoint` from the contact history:
+ *  with `surface ellipsoid` it gets the columns of `surface superquadric`. */
 class ComputePairGranLocalEllipsoid : public ComputePairGranLocal {
  public:
   using ComputePairGranLocal::ComputePairGranLocal;

@@ -14,9 +14,9 @@ ComputeStyle(property/atom,ComputePropertySuperquadric)
 
 namespace LAMMPS_NS {
 
-/** The host's compute property/atom, which knows shapes and orientations of atom style ellipsoid only, and with atom
- *  style superquadric: shapex shapey shapez semi-axes [length], quatw quati quatj quatk quaternion from the grain's
- *  frame to the laboratory's [-], blockiness1 blockiness2 [-]. Zero outside the group. See
+/** The compute property/atom of LIGGGHTS, which knows shapes and orientations of atom style ellipsoid only. With atom
+ *  style superquadric it also gives shapex shapey shapez semi-axes [length], quatw quati quatj quatk quaternion from
+ *  the frame of the grain to that of the laboratory [-], blockiness1 blockiness2 [-]. Zero outside the group. See
  *  doc/compute_property_atom.md. */
 class ComputePropertySuperquadric : public ComputePropertyAtom, public grainscope::DeclaresOutputs {
  public:

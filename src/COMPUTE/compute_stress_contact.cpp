@@ -100,8 +100,9 @@ void ComputeStressContact::init() {
   ContactCompute::init();
   stiffness_of_build_ = -1;
   if (!knows_sliding() && comm->me == 0)
-    error->warning(FLERR, "compute stress/contact: sliding is known for 'tangential' off, no_history and history only; "
-                          "other contacts never count as sliding in element 32");
+    error->warning(FLERR,
+                   "compute stress/contact: sliding is known for 'tangential' off, no_history and history only; "
+                   "other contacts are never counted as sliding (output sliding, doc/compute_stress_contact.md)");
 }
 
 /** Of all contacts that are counted. */
@@ -196,15 +197,14 @@ void ComputeStressContact::answer() {
   if (!unasked())
     soft_.watch(lmp, is_whole && pressure > 0.0 && kappa < hard_grains,
                 ("compute stress/contact " + std::string(id) +
-                 ": the stiffness number kappa is %.4g, below the hard-grain limit of %g: results depend on how stiff "
-                 "the grains are. Stiffer grains, or a lower pressure")
+                 ": the stiffness number kappa is %.4g, below the hard-grain limit of %g: results depend on the "
+                 "stiffness of the grains. Use stiffer grains or a lower pressure")
                     .c_str(),
                 kappa, hard_grains);
   for (int k = 0; k < size_vector; k++) vector[k] += 0.0;  // no negative zeros
   if (!grainscope::all_finite(vector, size_vector))
     error->all(FLERR, ("compute stress/contact: the stress of step " + std::to_string(update->ntimestep) +
-                       " is not finite, though every force is: look "
-                       "at overlaps and at the material's constants")
+                       " is not finite, though every force is: check overlaps and material properties")
                           .c_str());
   scalar = pressure + 0.0;
   if (impl_->of_types) put_rows(unit);

@@ -79,7 +79,7 @@ struct ComputeVelocityCorrelation::Impl {
     }
   };
 
-  /** What the search of another compute found for this one, should it be asked of the same. */
+  /** The result that the search of another compute found for this one, in case it is requested. */
   struct Foreseen {
     bigint step = -1;
     PeriodicCell cell;
@@ -216,9 +216,9 @@ PairSums ComputeVelocityCorrelation::Impl::share_of_pairs(LAMMPS *lmp, const Per
   try {
     size = grainscope::mesh_size(cell, distances, mesh_per_bin, most_mesh_cells);
   } catch (const std::length_error &wanted) {
-    Arguments(lmp, name).fail("'mesh' " + std::to_string(mesh_per_bin) + " must ask for less than 1e9 cells, got " +
+    Arguments(lmp, name).fail("'mesh' " + std::to_string(mesh_per_bin) + " must give fewer than 1e9 cells, got " +
                               wanted.what() +
-                              ": take fewer bins or 'method direct', which is fast when the range is short");
+                              ": use fewer bins or 'method direct', which is fast when the range is short");
   }
   PairSums sums = mesh->pair_sums(cell, points, distances, size);
   bytes = mesh->memory_usage();
@@ -232,7 +232,7 @@ void ComputeVelocityCorrelation::Impl::require_finite(LAMMPS *lmp, const PointVa
     strays += std::isfinite(points.s[0][i] + points.s[1][i] + points.s[2][i]) ? 0.0 : 1.0;
   MPI_Allreduce(MPI_IN_PLACE, &strays, 1, MPI_DOUBLE, MPI_SUM, lmp->world);
   grainscope::require_finite(lmp, name, strays, "the positions",
-                             "grains are not finite: look at what moves or pushes them");
+                             "grains are not finite: check what moves or pushes them");
 }
 
 /** Of the same group, but maybe of other components. */
@@ -241,7 +241,7 @@ bool ComputeVelocityCorrelation::Impl::looks_for_the_pairs_of(const Impl &other)
          scope.within() == other.scope.within();
 }
 
-/** Of other computes, those that are asked in this step too and can be answered by the same search. */
+/** The other computes that are requested in this step too and can share the search. */
 std::vector<ComputeVelocityCorrelation::Impl *> ComputeVelocityCorrelation::Impl::asked_with(
     const ComputeVelocityCorrelation &one) const {
   std::vector<Impl *> found;

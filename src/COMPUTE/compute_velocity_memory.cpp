@@ -119,7 +119,7 @@ void ComputeVelocityMemory::sample_if_due() {
   sample(strain);
 }
 
-/** A grain that is not of this sample counts from the next one that it is of: it was not seen in between. */
+/** A grain that is not in this sample counts from the next sample that it is in: it was not seen in between. */
 void ComputeVelocityMemory::forget_others(const Fluctuations &motion) {
   std::vector<char> chosen(atom->nlocal, 0);
   for (const Fluctuations::Grain &g : motion.local()) chosen[g.index] = 1;

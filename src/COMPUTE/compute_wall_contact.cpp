@@ -214,11 +214,12 @@ void ComputeWallContact::init() {
 void ComputeWallContact::require_losses() const {
   for (const grainscope::Wall &wall : impl_->walls->walls()) {
     const std::string why = wall.law ? wall.law->why_no_losses() : "";
-    if (!why.empty()) Arguments(lmp, name_).fail("wall '" + wall.name + "': " + why + ". Or say 'losses no'");
+    if (!why.empty())
+      Arguments(lmp, name_).fail("wall '" + wall.name + "': " + why + ": change its models, or use 'losses no'");
   }
 }
 
-/** Once: what is 0 because it is not known must not be taken for a number. */
+/** Once: a 0 that means unknown must not be read as a number. */
 void ComputeWallContact::warn_of_unknown_areas() {
   if (impl_->warned) return;
   for (int row = 0; row < impl_->walls->size(); row++) {
@@ -229,7 +230,7 @@ void ComputeWallContact::warn_of_unknown_areas() {
     impl_->warned = true;
     if (comm->me == 0)
       error->warning(FLERR, (name_ + " " + id + ": the area of wall '" + wall.name + "' is not known (" + why +
-                             "): area and tractions are 0. 'area " + wall.name + " A' gives it")
+                             "): area and tractions are 0. Give it by 'area " + wall.name + " A'")
                                 .c_str());
   }
 }
@@ -253,7 +254,7 @@ void ComputeWallContact::add_contacts(grainscope::ContactSpan contacts) {
   });
 }
 
-/** The first evaluation of a run is of places that were there before. */
+/** The first evaluation of a run repeats positions that were counted before. */
 void ComputeWallContact::end_contacts() {
   if (impl_->impacts) impl_->impacts->end(*impl_->record, observer_->springs_move(), *atom, world);
 }

@@ -14,9 +14,9 @@ ComputeStyle(wall/contact,ComputeWallContact)
 
 namespace LAMMPS_NS {
 
-/** What grains of the group do at walls, a row for each wall and the sum of the rows: contacts, force and torque on the
- *  wall, tractions, the power that it gives to the grains, losses, and, with `impacts yes`, the grains that began to
- *  touch it since the compute was defined. Zero for an empty group. */
+/** Contacts of the group with walls, a row for each wall and the sum of the rows: contacts, force and torque on the
+ *  wall, tractions, the power that the wall gives to the grains, losses, and, with `impacts yes`, the grains that began
+ *  to touch it since the compute was defined. Zero for an empty group. */
 class ComputeWallContact : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
  public:
   ComputeWallContact(class LAMMPS *lmp, int &iarg, int narg, char **arg);

@@ -52,8 +52,8 @@ struct ComputeWallTriangle::Impl {
   std::vector<double *> rows;
   bool told = false;  // of the last evaluation; after a run its meshes may be gone
 
-  /** In the first evaluation of a run: IDs are known when a mesh is distributed. What was worn stays, unless there are
-   *  other triangles. */
+  /** In the first evaluation of a run, because the IDs are known when a mesh is distributed. The wear is kept, unless
+   *  there are other triangles. */
   void count_triangles() {
     if (!triangles.empty()) return;
     for (const grainscope::Wall &wall : walls->walls()) triangles.push_back(wall.mesh->triMesh()->tag_max() + 1);
@@ -99,7 +99,7 @@ void ComputeWallTriangle::begin_contacts() {
   ContactCompute::begin_contacts();
 }
 
-/** The first evaluation of a run is of a moment that was counted before, or of no step. */
+/** The first evaluation of a run is at a time that was counted before, or in no step. */
 void ComputeWallTriangle::end_contacts() {
   if (!observer_->springs_move()) return;
   for (std::size_t k = 0; k < impl_->wear.size(); k++)

@@ -14,9 +14,9 @@ ComputeStyle(wall/triangle,ComputeWallTriangle)
 
 namespace LAMMPS_NS {
 
-/** One row per triangle of mesh walls: where it is, its area, and what grains of the group do there per area: pressure,
- *  power lost by friction, wear by Archard's law. Each triangle once over all ranks, with the sums of all; for dump
- *  local. */
+/** One row per triangle of mesh walls: its place and area, and pressure, power lost by friction and wear by Archard's
+ *  law, per area, from contacts with grains of the group. Each triangle once over all ranks, with the sums of all
+ *  ranks; for dump local. */
 class ComputeWallTriangle : public grainscope::ContactCompute, public grainscope::DeclaresOutputs {
  public:
   ComputeWallTriangle(class LAMMPS *lmp, int &iarg, int narg, char **arg);

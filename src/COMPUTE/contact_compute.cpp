@@ -31,7 +31,7 @@ void ContactCompute::init() {
 }
 
 bool ContactCompute::wants_contacts() {
-  // Numbers of single grains are not kept after a run: commands may renumber, add and remove grains.
+  // Values of single grains are not kept after a run: commands may renumber, add and remove grains.
   const bool at_end = update->ntimestep == update->laststep && (!peratom_flag || update_on_run_end());
   if (!matchstep(update->ntimestep) && !at_end) return false;
   tallied_ = update->ntimestep;
@@ -64,7 +64,7 @@ bool ContactCompute::lanes_need_motion() const {
   return std::any_of(sums_.begin(), sums_.end(), [](const Accumulator *one) { return one->lanes_need_motion(); });
 }
 
-/** An answer that was kept when the run ended stays: what moves grains since then is not of the contacts. */
+/** A result that was kept when the run ended stays: later motions of grains do not belong to the contacts. */
 void ContactCompute::answer_once(LAMMPS_NS::bigint &answered) {
   require_tally();
   if (kept_since_run(answered)) return;
@@ -108,7 +108,8 @@ bool ContactCompute::in_group(int i) const { return atom->mask[i] & groupbit; }
 
 TypePairs ContactCompute::type_pairs() const {
   if (atom->ntypes < 1)
-    Arguments(lmp, name_).fail("'rows types' needs to know the atom types: define it after the box");
+    Arguments(lmp, name_)
+        .fail("'rows types' needs the number of atom types: define the compute after the simulation box");
   return TypePairs(atom->ntypes);
 }
 
@@ -126,7 +127,8 @@ void ContactCompute::require_known_losses() const {
   if (scope_.chosen_walls() == Walls::no) return;
   for (const Wall &wall : walls_of(lmp)) {
     const std::string of_wall = wall.law ? wall.law->why_no_losses() : "";
-    if (!of_wall.empty()) Arguments(lmp, name_).fail("wall '" + wall.name + "': " + of_wall + ". Or say 'walls no'");
+    if (!of_wall.empty())
+      Arguments(lmp, name_).fail("wall '" + wall.name + "': " + of_wall + ": change its models, or use 'walls no'");
   }
 }
 
@@ -144,14 +146,14 @@ void ContactCompute::require_tally() const {
   if (attached() && tallied_ == update->ntimestep) return;
   const std::string message =
       name_ + " " + id +
-      ": not tallied on this step, because nobody announced it: ask through thermo, "
-      "fix ave/time, a dump, or a variable that one of them uses, or after the last step of a run";
+      ": not evaluated on this step, because nothing requested it in advance: use it in thermo, fix ave/time, a dump "
+      "or a variable of one of them, or after the last step of a run";
   error->all(FLERR, message.c_str());
 }
 
 void ContactCompute::require_finite(double contacts) const {
   grainscope::require_finite(lmp, name_ + " " + id, contacts, "the place or direction",
-                             "contacts is not finite: look at what moves or pushes these grains");
+                             "contacts is not finite: check what moves or pushes these grains");
 }
 
 void ContactCompute::sum_over_ranks(double *values, int n) const {

@@ -17,13 +17,13 @@ class ContactObserver;
 struct Contact;
 struct ContactLaw;
 
-/** A compute that sees contacts: it listens to the force evaluations of the steps it is announced for, as LAMMPS
- *  announces computes (thermo, fix ave/time, dumps and variables in them do), and of the last step of every run; it
- *  refuses to answer for any other. What it gives as a whole or as rows is computed when a run ends, so that the input
- *  script can ask for it until the next run begins.
+/** A compute that sees contacts. It gets the contacts of the force evaluations of the steps for which LIGGGHTS
+ *  announced it (through thermo, fix ave/time, dumps, or variables in them), and of the last step of every run; on any
+ *  other step it gives an error. Scalar, vector, array and rows are computed when a run ends, so that the input script
+ *  can use them until the next run begins.
  *
  *  A measure that is made of sums declares them (`sums_over`, see contact_sums.h) and fills its outputs from them in
- *  `answer`. One that keeps contacts or grains overrides begin_contacts and add_contacts. */
+ *  `answer`. A measure that keeps contacts or grains overrides begin_contacts and add_contacts. */
 class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
  public:
   /** What a measure adds up. */
@@ -38,7 +38,7 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
     virtual bool lanes_need_motion() const { return true; }
   };
 
-  /** `keywords`: those of Scope that the measure understands. `walls`: what it takes of walls where nothing is said. */
+  /** `keywords`: those of Scope that the measure understands. `walls`: the default of the keyword `walls`. */
   ContactCompute(LAMMPS_NS::LAMMPS *lmp, int &iarg, int narg, char **arg, unsigned keywords, Walls walls = Walls::yes);
 
   void init() override;
@@ -48,14 +48,14 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
   bool wants_contacts() override;
   void begin_contacts() override;
   void add_contacts(ContactSpan contacts) override;
-  /** Where all contacts between grains belong to the measure, and all its sums take them so. */
+  /** True if all contacts between grains belong to the measure, and all its sums take them side by side. */
   bool takes_lanes() const override;
   void add_lanes(const ContactLanes &contacts) override;
   bool lanes_need_motion() const override;
   void end_run() override;
   bool needs_motion() const override { return reads_motion() || scope_.within(); }
 
-  /** The contacts that belong to the measure: all of their grains are in the group, and the scope has them. */
+  /** The contacts that belong to the measure: all of their grains are in the group, and they are in the scope. */
   struct Selection {
     const int *mask;
     int bit;
@@ -102,9 +102,9 @@ class ContactCompute : public LAMMPS_NS::Compute, public ContactSink {
   void require_known_losses() const;
   /** Errors unless the current step was tallied, with all its contacts. */
   void require_tally() const;
-  /** False where an answer that nobody asked for may end the run. */
+  /** False if a result that was not requested could end the run. */
   virtual bool answers_after_run() const { return true; }
-  /** Nobody has asked yet: no warnings. */
+  /** No result was requested yet: no warnings. */
   bool unasked() const { return unasked_; }
   /** Errors unless `contacts`, the number over all ranks of those whose place or direction is not finite, is 0. */
   void require_finite(double contacts) const;

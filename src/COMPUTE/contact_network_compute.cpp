@@ -42,8 +42,8 @@ int ContactNetworkCompute::numbers_of_grains() const {
   return local_and_ghosts() + tags;
 }
 
-/** A rank knows the links that it keeps: the lowest numbers of their sets go from ghosts to owners, from owners to
- *  ghosts and, of clumps, to all ranks, until no rank finds a lower one. */
+/** Each rank knows the links that it keeps. The lowest numbers of their sets go from ghosts to owners, from owners to
+ *  ghosts and, for clumps, to all ranks, until no rank finds a lower one. */
 std::vector<double> ContactNetworkCompute::clusters(const std::vector<Link> &links) {
   const auto id = [this](int i) { return bodies().of(i) ? bodies().of(i)->first_id : atom->tag[i]; };
   const int numbers = numbers_of_grains(), clumps = numbers - local_and_ghosts();

@@ -8,8 +8,8 @@
 
 namespace grainscope {
 
-/** A compute that follows contacts from grain to grain, over ranks too. Its numbers of grains, local ones and then
- *  ghosts, are those of the evaluation: use them before its end, in end_contacts. */
+/** A compute that follows contacts from grain to grain, over ranks too. Its numbers of grains, local grains and then
+ *  ghosts, are those of the evaluation: use them before it ends, in end_contacts. */
 class ContactNetworkCompute : public ContactCompute {
  public:
   ContactNetworkCompute(LAMMPS_NS::LAMMPS *lmp, int &iarg, int narg, char **arg, unsigned keywords);
@@ -22,7 +22,7 @@ class ContactNetworkCompute : public ContactCompute {
   void unpack_reverse_comm(int n, int *list, double *buf) override;
 
  protected:
-  /** Of a contact that two owners see, one: so that each contact is kept once over all ranks. */
+  /** Selects one of the two owners of a contact, so that each contact is kept once over all ranks. */
   bool is_mine(const Contact &contact) const;
   /** A contact that is kept: grains i and j, j < 0 for a wall. */
   struct Link {

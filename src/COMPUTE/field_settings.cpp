@@ -77,11 +77,13 @@ void FieldSettings::complete(const Arguments &errors) {
   if (numbers_[0] == 0) errors.fail("needs 'grid nx ny nz'");
   const bool bounded = bounded_[0] || bounded_[1] || bounded_[2];
   if (is_smooth() != has_width_)
-    errors.fail(has_width_ ? "'width' is of kernel lucy and gaussian, not of kernel cell"
-                           : "kernel lucy and gaussian need 'width w'");
-  if (!region_.empty() && bounded) errors.fail("bounds are given by 'region' or by 'x', 'y', 'z', not by both");
+    errors.fail(has_width_ ? "'width' needs 'kernel lucy' or 'kernel gaussian', got 'kernel cell'"
+                           : "'kernel lucy' and 'kernel gaussian' need 'width w'");
+  if (!region_.empty() && bounded)
+    errors.fail("'region' excludes 'x', 'y' and 'z': give the bounds by one or the other");
   if (frame_ == Frame::automatic) frame_ = bounded || !region_.empty() || are_rings() ? Frame::lab : Frame::box;
-  if (frame_ == Frame::box && !region_.empty()) errors.fail("a region stands in space: 'frame lab'");
+  if (frame_ == Frame::box && !region_.empty())
+    errors.fail("'region' needs 'frame lab', got 'frame box': a region does not move with the box");
   if (frame_ == Frame::box)
     for (int k = 0; k < 3; k++)
       if (bounded_[k] && (bounds_[k][0] < 0.0 || bounds_[k][1] > 1.0))
@@ -94,13 +96,15 @@ void FieldSettings::complete(const Arguments &errors) {
 
 void FieldSettings::complete_rings(const Arguments &errors) {
   if (is_smooth()) errors.fail("kernel", "cell with 'about'", kernel_ == FieldKernel::Kind::lucy ? "lucy" : "gaussian");
-  if (frame_ == Frame::box) errors.fail("'about' goes with frame lab");
-  if (!region_.empty()) errors.fail("'about' goes with 'r' and bounds along the axis, not with 'region'");
+  if (frame_ == Frame::box) errors.fail("'about' needs 'frame lab', got 'frame box'");
+  if (!region_.empty()) errors.fail("'about' excludes 'region': give 'r' and bounds along the axis");
   if (numbers_[1] != 1)
     errors.fail("grid", "nr 1 nz with 'about'",
                 std::to_string(numbers_[0]) + " " + std::to_string(numbers_[1]) + " " + std::to_string(numbers_[2]));
   for (int k = 0; k < 3; k++)
-    if (k != about_ && bounded_[k]) errors.fail("rings are bounded by 'r' and along their axis");
+    if (k != about_ && bounded_[k])
+      errors.fail(std::string("'about ") + "xyz"[about_] + "' takes bounds by 'r' and '" + "xyz"[about_] + "', got '" +
+                  "xyz"[k] + "'");
 }
 
 void FieldSettings::find_region(LAMMPS_NS::LAMMPS *lmp, const std::string &style) {
@@ -111,10 +115,11 @@ void FieldSettings::find_region(LAMMPS_NS::LAMMPS *lmp, const std::string &style
   LAMMPS_NS::Region *const region = lmp->domain->regions[found];
   Vector3d low, high;
   if (!is_standing_block(region, low, high))
-    errors.fail("region '" + region_ + "': a grid is that of the inside of a block that does not move");
+    errors.fail("region '" + region_ + "' must be the inside of a block that does not move");
   for (int k = 0; k < 3; k++) {
     const bool from = low[k] > -infinite, to = high[k] < infinite;
-    if (from != to) errors.fail("region '" + region_ + "': both bounds along an axis, or INF twice");
+    if (from != to)
+      errors.fail("region '" + region_ + "' must have two bounds or two INF along each axis, got one INF");
     if (k == 2 && lmp->domain->dimension == 2) continue;  // the grains' plane is in it
     bounded_[k] = from;
     bounds_[k] = {{low[k], high[k]}};
@@ -125,7 +130,7 @@ void FieldSettings::find_region(LAMMPS_NS::LAMMPS *lmp, const std::string &style
 void FieldSettings::require_dimension(const Arguments &errors, int dimension) const {
   if (dimension == 3) return;
   if (numbers_[2] != 1) errors.fail("grid", "nx ny 1 with 'dimension 2'", std::to_string(numbers_[2]) + " along z");
-  if (bounded_[2]) errors.fail("'z' needs dimension 3");
+  if (bounded_[2]) errors.fail("'z' needs 'dimension 3', got 'dimension 2'");
   if (are_rings() && about_ != 2) errors.fail("'about' must be z with 'dimension 2'");
 }
 
@@ -152,12 +157,12 @@ FieldMap FieldSettings::map(const BoxState &box) const {
 
 void FieldSettings::require_cells(const Arguments &errors, const BoxState &box) const {
   if (are_rings() && !(radii_[0] < radii_[1]))
-    errors.fail("the axis of rings must lie in the box, or 'r lo hi' be given");
+    errors.fail("the axis of rings must lie in the box, or 'r lo hi' must be given");
   const FieldMap map = this->map(box);
   for (int k = 0; k < 3; k++)
     if (!(map.images(k) < most_images))
-      errors.fail("the grid and its kernel see " + Arguments::text(map.images(k)) + " images of the box along " +
-                  "xyz"[k] + ", at most " + Arguments::text(most_images) + ": nearer bounds, or a smaller width");
+      errors.fail("the grid and its kernel cover " + Arguments::text(map.images(k)) + " images of the box along " +
+                  "xyz"[k] + ", at most " + Arguments::text(most_images) + ": use closer bounds or a smaller 'width'");
 }
 
 FieldCells FieldSettings::blocks(const BoxState &box) const {

@@ -16,7 +16,7 @@ namespace grainscope {
 
 class Arguments;
 
-/** Where a field is: the words of its grid, and the cells that they make of the box as it is. */
+/** The grid of a field: its keywords, and the cells that they define in the present box. */
 class FieldSettings {
  public:
   static std::vector<std::string> keywords();
@@ -24,9 +24,9 @@ class FieldSettings {
   bool read(Arguments &arguments, const std::string &keyword);
   /** Errors when words are missing or do not go together. */
   void complete(const Arguments &errors);
-  /** Before use: finds the region, where it is now. Errors when it is not there, or no block that stands. */
+  /** Before use: finds the region at its present place. Errors when it does not exist, or is not a block at rest. */
   void find_region(LAMMPS_NS::LAMMPS *lmp, const std::string &style);
-  /** Radii that nobody gave reach to the nearest face of the box as it is now, from then on. */
+  /** Radii that were not given reach to the nearest face of the present box, from then on. */
   void fix_radii(const BoxState &box);
 
   /** Errors for a grid that two dimensions do not have. */
@@ -37,7 +37,7 @@ class FieldSettings {
   bool is_smooth() const { return kernel_ != FieldKernel::Kind::cell; }
   /** The cells as the box is. */
   FieldMap map(const BoxState &box) const;
-  /** Errors where the cells are none, or see more images of the box than can be meant. */
+  /** Errors if there are no cells, or if they cover more images of the box than can be intended. */
   void require_cells(const Arguments &errors, const BoxState &box) const;
   bool moves_with_box() const { return frame_ == Frame::box; }
   /** Along which axes the last cell is followed by the first, in the next image of the box. */

@@ -36,11 +36,10 @@ void StrainSource::read(Arguments &arguments) {
 void StrainSource::find_press_strain(const Arguments &errors) {
   for (int k = 0; k < modify->nfix; k++) {
     if (!dynamic_cast<LAMMPS_NS::FixPressStrain *>(modify->fix[k])) continue;
-    if (fix_) errors.fail("several fixes press/strain are there: name the one that tells the strain, 'strain f_ID[1]'");
+    if (fix_) errors.fail("there are several fixes press/strain: name the one that gives the strain, 'strain f_ID[1]'");
     fix_ = modify->fix[k];
   }
-  if (!fix_)
-    errors.fail("needs to know the strain: use fix press/strain, or the keyword 'strain' with f_ID[n], v_name or time");
+  if (!fix_) errors.fail("needs a strain: use fix press/strain, or the keyword 'strain' with f_ID[n], v_name or time");
 }
 
 void StrainSource::init() {

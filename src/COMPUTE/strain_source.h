@@ -13,8 +13,8 @@ namespace grainscope {
 
 class Arguments;
 
-/** Where a compute takes the shear strain from: an element of a fix's vector, an equal-style variable, or the strain of
- *  the deck's only fix press/strain; or the time that has passed, in its place. */
+/** The source of the shear strain of a compute: an element of the vector of a fix, an equal-style variable, or the only
+ *  fix press/strain of the input script; or, in its place, the time that has passed. */
 class StrainSource : private LAMMPS_NS::Pointers {
  public:
   /** `style` is for messages. */

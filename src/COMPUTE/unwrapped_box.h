@@ -26,8 +26,8 @@ struct UnwrappedBox {
       rest[k] = 0.0;
     }
   }
-  /** Position of grain i, or of its clump, from the point at rest (from 0 across faces that follow the grains),
-   *  unwrapped with the edges that its image flags count. */
+  /** Position of grain i, or of its clump, from the point at rest (from 0 across shrink-wrapped faces), unwrapped with
+   *  the edges that its image flags count. */
   Eigen::Vector3d position(const LAMMPS_NS::Atom &atom, int i, const Bodies &bodies) const {
     if (const Body *body = bodies.of(i)) return body->centre + wrapped * body->boxes - rest;
     const LAMMPS_NS::tagint image = atom.image[i];

@@ -6,8 +6,8 @@
 
 namespace grainscope {
 
-/** The mean flow of a box that deforms, L (x - x_c): its velocity gradient L is upper triangular, as the edges of the
- *  box are. */
+/** The mean flow of a deforming box, L (x - x_c). Its velocity gradient L is upper triangular, as the matrix of the
+ *  edges is. */
 struct AffineFlow {
   Eigen::Matrix3d velocity_gradient = Eigen::Matrix3d::Zero();
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();

@@ -4,9 +4,9 @@
 
 namespace grainscope {
 
-// The places where a double becomes an index or a number of things. A conversion of NaN, or of what an int does not
-// hold, is undefined in C++: on x86 it is the most negative int. The choice is made among doubles, so that loops over
-// many numbers run on several at once.
+// Conversions of a double to an index or a number of items. In C++ the conversion of NaN, or of a number that an int
+// cannot hold, is undefined: on x86 it gives the most negative int. The choice is made among doubles, so that loops
+// over many numbers can be vectorised.
 
 /** The bin, of `bins` equal ones of width 1 from 0 on, that holds `at`; `none` for what lies outside, is infinite or
  *  no number. */

@@ -28,14 +28,14 @@ struct PartnerGrain {
   bool ghost = false;  // its owner sees this contact too
 };
 
-/** A wall that a grain touches: a surface of infinite mass that moves as it likes. */
+/** A wall that a grain touches: a surface of infinite mass with a prescribed motion. */
 struct PartnerWall {
   int wall = -1;      // number of the wall, from 0: a primitive wall, or one mesh of a mesh wall
   int triangle = -1;  // ID of the mesh's triangle; -1 for a primitive wall
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // at the contact point
 };
 
-/** How the two surfaces move against each other at the contact point, and what the contact law makes of it. */
+/** Relative motion of the two surfaces at the contact point, and the coefficients of the contact law there. */
 struct ContactMotion {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  // contact point
   // from the centre of i to the contact point; from that of j, a grain, it is arm + branch
@@ -71,7 +71,7 @@ struct Contact {
   // atom types of i and its partner; a wall has that of its material
   int type_i = 0, type_j = 0;
   std::variant<PartnerGrain, PartnerWall> partner;
-  const ContactLaw *law = nullptr;  // by which the two push each other; a wall may have another than grains
+  const ContactLaw *law = nullptr;  // the law of this contact; a wall may have another one
   // 1, or 1/2 when j is a ghost: weighted sums over ranks count each contact once
   double weight = 1.0;
   // r = x_i - x_j; at a wall x_i less the contact point
@@ -81,21 +81,21 @@ struct Contact {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   // total force on i
   // force . normal, > 0 pushes apart; damping (and cohesion) included
   double normal_force = 0.0;
-  Eigen::Vector3d tangential_force = Eigen::Vector3d::Zero();  // force on i less its normal part
+  Eigen::Vector3d tangential_force = Eigen::Vector3d::Zero();  // force on i without its normal part
   double friction = 0.0;                                       // mu_p of this pair of types
-  // mu_p times the normal force of the law: cohesion may be no part of it
+  // mu_p times the normal force of the law, which may exclude cohesion
   double friction_limit = 0.0;
-  // tangential_force less the drag of a liquid bridge, which no friction limits
+  // tangential_force without the drag of a liquid bridge, which has no limit
   Eigen::Vector3d friction_force = Eigen::Vector3d::Zero();
-  // the tangential spring was cut (friction limit reached) in this evaluation; in the first of a run also: damping
-  // takes the force to the limit or beyond
+  // the tangential spring was cut (friction limit reached) in this evaluation; in the first evaluation of a run also
+  // when damping brings the force to the limit or beyond
   bool sliding = false;
   double slip = 0.0;  // length cut from the spring, >= 0
 
   // When a sink needs it (ContactSink::needs_motion)
   std::optional<ContactMotion> motion;
   std::optional<ContactRolling> rolling;  // of a law with a rolling model
-  // With `ledger on` only, and not where sinks may take contacts side by side: GroupForces and PastLanes have it there
+  // Only with `ledger on`, and not when sinks take contacts side by side: GroupForces and PastLanes hold it then
   std::optional<ContactPast> past;      // of contacts that touched in the previous evaluation
   std::optional<ContactSpring> spring;  // of a law that has one
 

@@ -7,8 +7,8 @@
 
 namespace grainscope {
 
-/** Contacts between grains, side by side, as a Contact tells them one by one. In lanes that hold none all of `forces`
- *  is 0, `forces.weight` too; `forces.motion` says whether all of it is there. */
+/** Contacts between grains, side by side, with what a Contact says of one. In lanes without a contact all of `forces`
+ *  is 0, also `forces.weight`; `forces.motion` says whether all of the motion is filled in. */
 struct ContactLanes {
   const PairGroup &group;
   const GroupGeometry &geometry;

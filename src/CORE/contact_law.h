@@ -21,7 +21,7 @@ struct ContactLaw {
   double exponent = 1.5;      // of the elastic normal force in the overlap: 3/2 Hertz, 1 Hooke
   bool limits_force = false;  // a normal force that would be negative is set to 0
   bool cohesive = true;
-  bool liquid_bridges = false;  // cohesion has a tangential force of its own, which no friction limits
+  bool liquid_bridges = false;  // cohesion has a tangential force of its own, without a friction limit
   bool rolls = false;           // there is a rolling friction
   bool known_rolling = false;   // and it is a torque between the two grains, on both alike
   bool known_surface = false;
@@ -35,12 +35,13 @@ struct ContactLaw {
   /** dF_n/d(overlap) of the elastic part. */
   double tangent_stiffness(const ContactMotion &m) const { return exponent * m.normal_stiffness; }
   double friction_coefficient(int type_i, int type_j) const { return friction ? friction[type_i][type_j] : 0.0; }
-  /** What the law cuts the tangential force by; `normal_force` is the law's own, of which cohesion may be no part. */
+  /** The limit to which the law cuts the tangential force. `normal_force` is that of the law, which may exclude
+   *  cohesion. */
   static double friction_limit(double coefficient, double normal_force) {
     return coefficient * std::fabs(normal_force);
   }
 
-  // Why a measure cannot be right with this law, as what follows "compute x: "; empty where it can.
+  // Why a measure cannot be right with this law, as the text after "compute x: " in a message; empty if it can.
   /** Power lost to damping and friction. */
   std::string why_no_losses() const;
   /** Energy stored, lost and supplied: the ledger. */

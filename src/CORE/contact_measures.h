@@ -7,7 +7,7 @@
 
 namespace grainscope {
 
-/** |F_t| over the limit that the friction law cuts it by, at most 1 where it was cut; 0 for frictionless contacts. */
+/** |F_t| over the limit to which the friction law cuts it, at most 1 where it was cut; 0 for frictionless contacts. */
 inline double mobilisation(const Contact &c) {
   if (!(c.friction_limit > 0.0)) return 0.0;
   const double ratio = c.friction_force.norm() / c.friction_limit;

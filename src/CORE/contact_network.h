@@ -10,14 +10,13 @@
 
 namespace grainscope {
 
-/** Grains that carry nothing: fewer than `limit` contacts, those with rattlers not counted, which are therefore removed
- *  until none is left. What remains, the backbone, does not depend on the order: it is the largest set of grains that
- *  have `limit` contacts with each other and with walls. O'Hern, Silbert, Liu & Nagel 2003, doi
- *  10.1103/PhysRevE.68.011306.
+/** Rattlers: grains with fewer than `limit` contacts, where contacts with rattlers do not count. They are removed until
+ *  none is left. What remains, the backbone, does not depend on the order: it is the largest set of grains that have
+ *  `limit` contacts with each other and with walls. O'Hern, Silbert, Liu & Nagel 2003, doi 10.1103/PhysRevE.68.011306.
  *
- *  A grain is known by a number on its rank: those that the rank owns first, then others, ghosts or clumps of many
- *  ranks, which it does not remove. A contact with a ghost is seen by both owners, each for its own grain. `held` of a
- *  grain is 1 while it is not known to be a rattler, then 0. */
+ *  A grain has a number on each rank: first the grains that the rank owns, then others (ghosts, or clumps of many
+ *  ranks), which the rank does not remove. A contact with a ghost is seen by both owners, each for its own grain.
+ *  `held` of a grain is 1 until it is known to be a rattler, then 0. */
 class RattlerSearch {
  public:
   static constexpr int wall = -1;
@@ -72,7 +71,7 @@ class RattlerSearch {
   }
 };
 
-/** Which grains are connected, by links between them: trees of grains whose roots stand for the sets. */
+/** Sets of grains that are connected by links: trees of grains whose roots represent the sets. */
 class ConnectedSets {
  public:
   explicit ConnectedSets(int grains) : parent_(grains) { std::iota(parent_.begin(), parent_.end(), 0); }

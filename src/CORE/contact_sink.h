@@ -7,8 +7,9 @@ namespace grainscope {
 class ContactSpan;
 struct ContactLanes;
 
-/** Receives contacts. A source (pair_style gran/insitu) asks each sink before a force evaluation whether it wants it,
- *  then hands it every contact once per owner, many at a time. Sink and source may be destroyed in either order. */
+/** Receives contacts. Before a force evaluation a source (pair_style gran/insitu) asks each sink whether it wants the
+ *  contacts, and then hands it every contact once per owner, many at a time. Sink and source may be destroyed in either
+ *  order. */
 class ContactSink {
  public:
   class Source {
@@ -34,7 +35,7 @@ class ContactSink {
   /** True if contacts between grains of the evaluation that begins may also come side by side, to add_lanes(). */
   virtual bool takes_lanes() const { return false; }
   virtual void add_lanes(const ContactLanes &) {}
-  /** False if what GroupForces tells of the motion is not used there. */
+  /** False if the motion in GroupForces is not used there. */
   virtual bool lanes_need_motion() const { return true; }
   /** False if Contact::motion is not used. */
   virtual bool needs_motion() const { return true; }

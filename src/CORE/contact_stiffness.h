@@ -6,8 +6,8 @@
 
 namespace grainscope {
 
-/** How the force of a contact answers to a small relative motion of its bodies: by k_n and gamma_n along the normal, by
- *  k_t and gamma_t across it. k_n is the tangent stiffness; k_t is 0 for laws that do not stick, and gamma_t where the
+/** Response of the force of a contact to a small relative motion of its bodies: k_n and gamma_n along the normal, k_t
+ *  and gamma_t across it. k_n is the tangent stiffness. k_t is 0 for laws that do not stick, gamma_t is 0 where the
  *  tangential force is cut. */
 struct ContactStiffness {
   double k_n, k_t, gamma_n, gamma_t;

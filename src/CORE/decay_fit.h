@@ -6,8 +6,8 @@
 
 namespace grainscope {
 
-/** Least squares of exp(-r/length), which is 1 at r = 0, over the points with c > 0.05, 0 <= r < infinity (at r = 0
- *  they only count): length minimises S = sum (c - exp(-r/length))^2; error = sqrt(S/(points - 1) / sum (d
+/** Least-squares fit of exp(-r/length), which is 1 at r = 0, to the points with c > 0.05, 0 <= r < infinity (a point at
+ *  r = 0 only counts as a point). length minimises S = sum (c - exp(-r/length))^2; error = sqrt(S/(points - 1) / sum (d
  *  exp(-r/length)/d length)^2). */
 struct DecayFit {
   double length = 0.0;  // 0 without points, and when c does not decay: the best is beyond longest_decay x the largest r

@@ -4,8 +4,8 @@
 
 namespace grainscope {
 
-/** A spheroid or sphere as the contact solver wants it: semi-axes a along u and b across it, in any one unit of length;
- *  B = b^2 I + (a^2 - b^2) u u^T. */
+/** A spheroid or sphere in the form of the contact solver: semi-axes a along u and b across it, in any one unit of
+ *  length; B = b^2 I + (a^2 - b^2) u u^T. */
 struct Spheroid {
   double u[3];                             // unit vector of the symmetry axis
   double equatorial_square, polar_square;  // b^2, a^2
@@ -39,9 +39,9 @@ Triaxial make_triaxial(const double semi_axes[3], const double quaternion[4]);
  *  which is LIGGGHTS's definition. */
 struct EllipsoidContact {
   bool touching;
-  bool fallback;     // the answer is not the regular one: concentric, the iteration did not settle, or it is no number
+  bool fallback;     // no regular result: concentric, not converged, or not a number
   int steps;         // Newton or bisection steps taken, at most ELLIPSOID_STEPS
-  double lambda;     // 0 to 1: next time's start
+  double lambda;     // 0 to 1: the start of the next solution
   double normal[3];  // unit vector from 1 to 2
   double point[3];   // contact point from the centre of 1
   double depth[2];   // from the contact point to the surface of 1 along the normal, and to that of 2 against it; >= 0

@@ -18,8 +18,8 @@ struct Answer {
   Real lambda, normal[3], point[3], depth[2], curvature[2], gap, steps;
 };
 
-/** The solver, for one pair or for several side by side; a lane that has found its answer keeps it, whatever the others
- *  still need. Those that have not settled in `most_steps` are `unsettled`, and answered as far as they got. */
+/** The solver, for one pair or for several side by side. A lane that has converged keeps its result while the others go
+ *  on. Lanes that have not converged in `most_steps` are `unsettled` and give their last iterate. */
 template <class Pair>
 GRAINSCOPE_INLINE void solve(const typename Pair::Body &one, const typename Pair::Body &two,
                              const typename Pair::Real *d, typename Pair::Real start, double tolerance, int most_steps,

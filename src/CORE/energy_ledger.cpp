@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/** What the ledger is shown: contacts and grains. */
+/** Input of the ledger: contacts and grains. */
 #include "energy_ledger.h"
 #include "lane_vectors.h"
 #include "lanes.h"
@@ -19,8 +19,8 @@ double of_overlap(double overlap, double exponent) {
   return exponent == 1.5 ? std::sqrt(overlap) : exponent == 1.0 ? 1.0 : std::pow(overlap, exponent - 1.0);
 }
 
-/** As it would be had the velocities of the edges not been changed: those that keep a shear rate grow with the box,
- *  lengths move on. */
+/** The frame as it would be if the velocities of the edges had not been changed: velocities that keep a shear rate grow
+ *  with the box, and lengths advance. */
 LedgerFrame carried(const LedgerFrame &before, const LedgerFrame &after) {
   LedgerFrame frame = after;
   frame.velocity_gradient = before.velocity_gradient;
@@ -76,7 +76,7 @@ void EnergyLedger::begin_evaluation(int n_local, bool repeats) {
   stepped_ = stepped_ && repeats;
 }
 
-/** A force along one direction: what it does to its two grains, and what is summed of it. */
+/** A force along one direction: its work on the two grains, and what is summed of it. */
 struct EnergyLedger::Unit {
   Lanes force, torque_i, torque_j, diagonal, beside;
 
@@ -165,8 +165,8 @@ GRAINSCOPE_INLINE void EnergyLedger::add_contact(const Law &law, const Contact &
   add_part<partner>(elastic, elastic_force, normal, c, of_i, of_j);
   add_part<partner>(damping, m.normal_damping, normal, c, of_i, of_j);
   if (law.viscous) {
-    // In the first evaluation of a run the host does not turn springs into the contact plane: they may push along the
-    // normal too.
+    // In the first evaluation of a run LIGGGHTS does not rotate springs into the contact plane: they may have a
+    // component along the normal.
     Vector3d force = c.force - (elastic_force + m.normal_damping) * c.normal;
     if (m.damped) {
       const Vector3d viscous_force = -m.tangential_damping * m.tangential_velocity;
@@ -269,8 +269,8 @@ void EnergyLedger::start_of_step(const Grain &g, const double omega_after[3], co
   add_to(starts_.other, other);
   emptied_++;
 
-  // The coming drift in the frame: noted before it, because a grain that is wrapped afterwards takes on another
-  // velocity.
+  // The next drift in the frame. It is noted before the drift, because a grain that is wrapped afterwards takes on
+  // another velocity.
   const Vector3d after = p + flow, drift = dt * next_.gradient_times(after), middle = g.mass * (p - 0.5 * drift);
   const Vector3d lengths = next_.velocity_gradient.diagonal().cwiseProduct(after).cwiseProduct(middle);
   const double all = drift.dot(middle), box = dt * (lengths[0] + (lengths[1] + lengths[2]));

@@ -10,25 +10,26 @@
 
 namespace grainscope {
 
-/** The flow that velocities are measured against, and how fast the edges of the box change in length. */
+/** The flow that velocities are relative to, and the rates at which the edges of the box change in length. */
 struct LedgerFrame : AffineFlow {
   Eigen::Vector3d edge_lengths = Eigen::Vector3d::Ones();  // diagonal of H
   Eigen::Vector3d edge_rates = Eigen::Vector3d::Zero();    // diagonal of dH/dt
 };
 
-/** Where the energy of a group of grains goes, exactly as velocity Verlet moves it: what enters, what is stored, what
- *  is lost. Every entry is a sum over this rank's grains and contacts; sums over ranks are the truth. Losses and
- *  supplies are positive.
+/** Where the energy of a group of grains goes, exactly as velocity Verlet moves the grains: what enters, what is
+ *  stored, what is lost. Every entry is a sum over the grains and contacts of this rank; only sums over all ranks have
+ *  a meaning. Losses and supplies are positive.
  *
- *  The step from n to n+1 moves x^n to x^{n+1} with v = v^{n+1/2}, so that (F^n + F^{n+1})/2 . v dt, each force with
- *  its own lever arms, is exactly the change of K = sum m v^2/2 - dt^2 F^2/8m, and likewise for rotations. Velocities
- *  are peculiar, p = v - L (x - x_c); in terms of contact velocities u, sum_grains F.p + T.w = sum_contacts F.u -
- *  F.L r. A contact with a wall that moves with V at the contact point c: F.p + T.w = F.u - F.L r + F.P, r = x - c and
- *  P = V - L (c - x_c) the wall's velocity against the flow. F.P is what the wall does: W_wall. A wall's velocity at
- *  the end of a step is that of the whole step, as it moves before forces are evaluated; where a contact goes on, both
- *  of the step's forces are paired with it.
+ *  The step from n to n+1 moves x^n to x^{n+1} with v = v^{n+1/2}. So (F^n + F^{n+1})/2 . v dt, each force with its own
+ *  lever arms, is exactly the change of K = sum m v^2/2 - dt^2 F^2/8m; likewise for rotations. Velocities are peculiar,
+ *  p = v - L (x - x_c). In terms of contact velocities u, sum_grains F.p + T.w = sum_contacts F.u - F.L r. For a
+ *  contact with a wall that moves with V at the contact point c, F.p + T.w = F.u - F.L r + F.P, where r = x - c, and
+ *  P = V - L (c - x_c) is the velocity of the wall relative to the flow. F.P is the power of the wall: W_wall. The
+ *  velocity of a wall at the end of a step is that of the whole step, because walls move before forces are evaluated;
+ *  in a contact that goes on, both forces of the step are paired with it.
  *
- *  Per contact, s the tangential spring, 0 and 1 the two ends of the step, `cut` what friction takes from the spring:
+ *  Per contact, with s the tangential spring, 0 and 1 the two ends of the step, `cut` what friction takes from the
+ *  spring:
  *    D_t = (k0 s0 + k1 s1)/2 . cut          G_k = -(k1 - k0)/2 s0.s1          (k_t follows the overlap,
  *      the spring does not)
  *    G_p: the rest of the spring's work, (k0 s0.u0 + k1 s1.u1) dt/2 = dU_t + D_t + G_k + G_p: the spring is turned into
@@ -36,16 +37,16 @@ struct LedgerFrame : AffineFlow {
  *    G_open: the spring of a contact that opens, with the work of its last half step
  *    G_n: work of the elastic normal force that follows neither the overlap d nor the stiffness:
  *      -(F0 n0.u0 + F1 n1.u1) dt/2 - (F0 + F1)/2 (d1 - d0) - (dU_n/dk)_mean dk
- *    G_dt: what that trapezium rule over the overlap differs from dU_n: the error of the time step, of second
+ *    G_dt: the difference of that trapezium rule over the overlap from dU_n: the error of the time step, of second
  *      order in dt
- *  Then all terms cancel: what is left is rounding, the rotation of an integrator that does not conserve the energy of
- *  a free grain, and whatever moved the grains or their velocities behind the ledger's back.
+ *  Then all terms cancel. What is left is rounding, the rotation of an integrator that does not conserve the energy of
+ *  a free grain, and changes of positions or velocities that the ledger did not see.
  *  Source of the identities: velocity Verlet (kick, drift, kick); see doc/compute_energy_ledger.md. */
 class EnergyLedger {
  public:
-  /** Rows of the account, each an energy. Those with _w are the share of contacts with walls, G_w that of all G; those
-   *  with _x, _y, _z the share of the edges along one axis in W_box: what the diagonal element of L there does. They
-   *  are made of the components along that axis alone, F_a r_a and m p_a v_a, and of the change of sum m p_a^2/2. */
+  /** Rows of the account, each an energy. Those with _w are the share of contacts with walls; G_w is that of all G.
+   *  Those with _x, _y, _z are the share of the edges along one axis in W_box, by the diagonal element of L there: from
+   *  the components along that axis alone, F_a r_a and m p_a v_a, and the change of sum m p_a^2/2. */
   enum Entry {
     W_shear,
     W_box,
@@ -85,20 +86,20 @@ class EnergyLedger {
     const double *x, *v, *force, *torque;
   };
 
-  /** Many, in rows of three numbers, of quaternions four: spheroids, or without quaternions spheres of moment of
-   *  inertia `inertia_factor` m r^2, which have no inertia and momentum here. */
+  /** Many grains in arrays: rows of three numbers, of quaternions four. Spheroids; or, without quaternions, spheres of
+   *  moment of inertia `inertia_factor` m r^2, whose inertia and momentum are not given. */
   struct Grains {
     int n;
     const int *mask;
-    int bit, frozen;  // the ledger's; of grains that may be held, whatever their force
+    int bit, frozen;  // of the ledger; of grains that may be held still, whatever their force
     const double *mass, *x, *v, *force, *torque, *omega, *momentum, *inertia, *quaternion, *radius;
     double inertia_factor;
 
     bool four_free(int i) const;
   };
 
-  /** What grains bring when they come and take when they leave: their kinetic energy, and what is stored in contacts
-   *  that only exist with them, by partner. */
+  /** What grains bring when they come and take when they leave: their kinetic energy, and the energy stored in contacts
+   *  that exist only with them, by partner. */
   enum Partner { grains, walls, partners };
   struct Passage {
     double kinetic = 0.0;
@@ -109,10 +110,10 @@ class EnergyLedger {
   /** The laws of grains among each other, and of grains with each of the walls. */
   void set_laws(const ContactLaw &between_grains, const std::vector<const ContactLaw *> &with_walls = {});
 
-  /** A force evaluation begins: forget the contacts of the last. `repeats`: it repeats the last, where a run goes on as
-   *  if it had not ended. */
+  /** A force evaluation begins: the contacts of the last one are dropped. `repeats`: it repeats the last one, because a
+   *  run continues as if uninterrupted. */
   void begin_evaluation(int n_local, bool repeats = false);
-  /** The grains that the ledger is about: by local index, those with the bit; IDs tell them in any evaluation. */
+  /** The grains of the ledger: by local index, those with the bit. IDs identify them in any evaluation. */
   struct Members {
     const int *mask;
     int bit;
@@ -130,12 +131,13 @@ class EnergyLedger {
    *  momentum likewise. */
   void begin_end_of_step() { ends_ = Ends(); }
   void end_of_step(const Grain &grain, const double omega[3], const double momentum[3], double dt);
-  /** From grain i on as many as it can take side by side: the first that it has not taken; likewise at the start. */
+  /** Takes grains from i on side by side, as many as possible; returns the first that it has not taken. The same at the
+   *  start of a step. */
   int end_of_step(const Grains &grains, int i, double dt);
-  /** Its weight, whose work is not to be other work; likewise at the start of a step. */
+  /** The weight of the grain, whose work does not count as other work; the same at the start of a step. */
   void end_with_weight(const Grain &grain, const Eigen::Vector3d &weight);
-  /** Some left and some came since the step began, before its forces were evaluated. Kinetic energies are those of the
-   *  half step, without forces; of a contact also the work of its last or first half step is stored in it. */
+  /** Grains left and came since the step began, before its forces were evaluated. Kinetic energies are those of the
+   *  half step, without forces. The energy stored in a contact includes the work of its last or first half step. */
   void pass_in_step(const Passage &out, const Passage &in);
   /** Books the step from n-1 to n. */
   void book_step(double dt);
@@ -146,12 +148,12 @@ class EnergyLedger {
   void start_of_step(const Grain &grain, const double omega_after[3], const double momentum[3], double dt);
   int start_of_step(const Grains &grains, int i, double dt);
   void start_with_weight(const Grain &grain, const Eigen::Vector3d &weight, double dt);
-  /** Of its velocity `given` came with the frame's change, because the grain lies beyond a face; after
-   *  start_of_step(). */
+  /** `given`: the part of the velocity of a grain that came with the change of the frame, because the grain lies beyond
+   *  a face. After start_of_step(). */
   void start_with_jump(const Grain &grain, const Eigen::Vector3d &given);
   /** Books what was changed between the steps, and takes the frame. */
   void book_start(double dt);
-  /** Some left and some came between two steps. */
+  /** Grains left and came between two steps. */
   void pass_between_steps(const Passage &out, const Passage &in);
 
   /** The forces were evaluated and no step was booked since: at the beginning of a run, or in the middle of a step. */
@@ -202,8 +204,8 @@ class EnergyLedger {
         friction{}, stiffening{}, travel{}, revived{};
     void move_to(Contacts &sums);
   };
-  /** What more is known of contacts with walls: sums, c the contact point, F_a c_b xx yy zz, F.V, F_a c_b yz xz xy, -;
-   *  F; and each by itself. */
+  /** Further sums over contacts with walls, c the contact point: F_a c_b xx yy zz, F.V, F_a c_b yz xz xy, -; F; and
+   *  each by itself. */
   struct Touch {
     int grain, wall, triangle;
     Eigen::Vector3d velocity;
@@ -233,7 +235,7 @@ class EnergyLedger {
     double weight = 0.0;
   };
 
-  /** What of a contact law there is to be booked. */
+  /** The terms of a contact law that are booked. */
   struct Law {
     double exponent = 1.5;
     double energy_factor = 0.4;  // U_n = energy_factor k_n overlap^2

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/** How the ledger books what it was shown, what it reports, and what restart files hold of it. */
+/** How the ledger books its input, what it reports, and what restart files hold of it. */
 #include "energy_ledger.h"
 #include <algorithm>
 #include <iterator>
@@ -40,7 +40,7 @@ double EnergyLedger::wall_power(const WallContacts &sums, int part, const Ledger
          force[1] * centre[1] + force[2] * centre[2];
 }
 
-/** What contacts with one kind of partner take in the step, and the box's work on them. */
+/** Energies of contacts with one kind of partner in the step, and the work of the box on them. */
 void EnergyLedger::book_contacts(Partner partner, double dt, Entries &step) const {
   const Contacts &before = before_.contacts[partner], &now = now_.contacts[partner];
   double work[parts];
@@ -69,8 +69,8 @@ bool EnergyLedger::Touch::operator<(const Touch &other) const {
   return std::tie(grain, wall, triangle) < std::tie(other.grain, other.wall, other.triangle);
 }
 
-/** The velocity that the wall had at the beginning of the step was that of the step before. A grain that has gone from
- *  one triangle to another goes by the one where it is. */
+/** The velocity of the wall at the beginning of the step is that of the step before. For a grain that has moved from
+ *  one triangle to another it is the velocity of the new triangle. */
 void EnergyLedger::take_velocity_of_step(double dt) {
   WallContacts &before = before_.walls, &now = now_.walls;
   if (!before.moving && !now.moving) return;
@@ -171,7 +171,7 @@ void EnergyLedger::book_start(double dt) {
 
 double EnergyLedger::Passage::all() const { return kinetic + sum(normal) + sum(spring); }
 
-/** Without this, what is stored in a contact whose grain left would be lost as if the contact had opened. */
+/** Without this the energy stored in a contact whose grain left would count as lost, as if the contact had opened. */
 void EnergyLedger::pass_in_step(const Passage &out, const Passage &in) {
   passed_[W_in] = in.all();
   passed_[W_out] = out.all();
@@ -180,7 +180,7 @@ void EnergyLedger::pass_in_step(const Passage &out, const Passage &in) {
   passed_[G_w] = in.normal[walls] - out.normal[walls] + in.spring[walls] - out.spring[walls];
 }
 
-/** What is stored has changed by them, which was booked as work from outside, or will be. */
+/** The stored energy has changed by them; the change was booked as work from outside, or will be. */
 void EnergyLedger::pass_between_steps(const Passage &out, const Passage &in) {
   between_[W_in] += in.all();
   between_[W_out] += out.all();

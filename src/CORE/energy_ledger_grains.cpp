@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/** Grains that the ledger is shown four at a time: as start_of_step() and end_of_step() of EnergyLedger have it of
- *  one. */
+/** Grains in fours: the same as start_of_step() and end_of_step() of EnergyLedger for one grain. */
 #include "energy_ledger.h"
 #include "lane_rows.h"
 #include "spheroid_rotation.h"

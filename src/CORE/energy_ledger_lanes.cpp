@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/** Contacts that the ledger is shown side by side: as EnergyLedger::add() has it of one. */
+/** Contacts side by side: the same as EnergyLedger::add() for one contact. */
 #include "energy_ledger.h"
 #include "lane_vectors.h"
 #include <algorithm>
@@ -34,7 +34,7 @@ GRAINSCOPE_INLINE Lanes of_overlap(const Lanes &overlap, double exponent) {
 
 }
 
-/** Where contacts are, seen from their two grains, and where what they do to them is added up. */
+/** Contact points seen from the two grains, and where the forces on the grains are summed. */
 struct EnergyLedger::LaneArms {
   Lanes weight;
   const Lanes *i;

@@ -7,8 +7,8 @@
 
 namespace grainscope {
 
-/** `count` elements, with room for a few more. What was in them may be lost: vectors that are refilled with each
- *  neighbour list grow by little, and would double, and hold the old and the new at once while they do. */
+/** Gives a vector `count` elements, with room for a few more; its contents may be lost. For vectors that are refilled
+ *  with each neighbour list and grow little: resize() would double them, and hold old and new memory at once. */
 template <class Element>
 void fit(std::vector<Element> &elements, std::size_t count) {
   if (elements.capacity() < count || elements.capacity() / 2 > count) {

@@ -12,10 +12,9 @@ namespace grainscope {
 
 struct ContactLanes;
 
-/** Collects one kind of contact force per grain (force and torque), to be paired later with velocities that the contact
- *  loop does not know: those at the END of the step. A ghost partner's velocity differs from its owner's by the
- *  velocity of its image,
- *  V = dH/dt . shift; that part is summed contact by contact. */
+/** Sums one kind of contact force per grain (force and torque), to be paired later with velocities that are not known
+ *  in the contact loop: those at the END of the step. The velocity of a ghost differs from that of its owner by the
+ *  velocity of its image, V = dH/dt . shift; that part is summed contact by contact. */
 class GrainPower {
  public:
   void reset(int n_local) {

@@ -4,11 +4,11 @@
 
 #include "lanes.h"
 
-/** `time_level synchronized`. Velocity Verlet forms forces at x_n with the velocities of the middle of the step before.
- *  With normal and arms of x_n two surfaces that roll on each other then seem to slip: here normal and arms are those
- *  of the middle, too. The velocity of the surfaces against each other is turned from the normal of the middle to that
- *  of x_n, where the force acts, and the tangential spring from the normal of the step before: each by the shortest
- *  rotation, which keeps its length. */
+/** `time_level synchronized`. Velocity Verlet evaluates forces at x_n with the velocities v_{n-1/2}. With normal and
+ *  arms of x_n two surfaces that roll on each other then seem to slip. Here normal and arms are also those of n-1/2.
+ *  The relative velocity of the surfaces is rotated from the normal at n-1/2 to that at x_n, where the force acts; the
+ *  tangential spring is rotated from the normal of the step before. Both rotations are the shortest, which keeps
+ *  lengths. */
 namespace grainscope { namespace half_step {
 
 template <class Real>
@@ -23,7 +23,7 @@ GRAINSCOPE_INLINE void outer(const Real *a, const Real *b, Real *c) {
   c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/** How two grains move, or a grain and a wall, whose spin is 0. */
+/** Motion of two grains, or of a grain and a wall, whose spin is 0. */
 template <class Real>
 struct Motion {
   Real velocity[3];  // of the centre of i against that of j, or against the wall
@@ -68,12 +68,12 @@ struct Moment {
 };
 
 /** What is kept of a contact from step to step where its past does not follow from velocities (walls, grains that are
- *  no spheres), each of three numbers: the normal; the contact point against the middle of the two centres, or at a
- *  wall against that of i; and the velocity that was found, for evaluations that are repeated. */
+ *  not spheres), three numbers each: the normal; the contact point relative to the middle of the two centres, or at a
+ *  wall relative to the centre of i; and the velocity that was found, for evaluations that are repeated. */
 enum Kept { kept_normal = 0, kept_point = 3, kept_velocity = 6, kept_numbers = 9 };
 
-/** The same of any contact, from what was kept of it at the beginning of the step and from what it is `now`, which is
- *  kept. */
+/** The same for any contact, from what was kept at the beginning of the step and from its state `now`, which is kept.
+ */
 template <class Real>
 GRAINSCOPE_INLINE void of_kept(const Moment<Real> &now, bool wall, const Motion<Real> &motion, double dt, Real *kept,
                                Real *half, Real *velocity) {

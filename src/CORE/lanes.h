@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstring>
 
-// The vectors of the processor that the program finds itself on. Not AVX-512, which brings fused multiply-adds with it:
-// gcc makes some of them whatever -ffp-contract says, and results would not be the same to the last bit.
+// The vectors of the processor that the program runs on. Not AVX-512, which has fused multiply-adds: gcc uses some of
+// them whatever -ffp-contract says, and results would not be the same to the last bit.
 #if defined(__x86_64__) && defined(__GNUC__) && defined(__GLIBC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__)
 #define GRAINSCOPE_CLONES __attribute__((flatten, target_clones("avx2", "default")))

@@ -4,8 +4,9 @@
 
 namespace grainscope {
 
-/** The time that has passed in a run, whose steps may change their length and be renumbered. The host's own time is
- *  not in restart files, and `reset_timestep` moves it. While the length stays, steps are counted and not summed. */
+/** The time that has passed in a run whose time step may change and whose steps may be renumbered. The time of LIGGGHTS
+ *  is not in restart files, and `reset_timestep` changes it. While the time step stays the same, steps are counted and
+ *  not summed. */
 class PassedTime {
  public:
   /** In restart files: the time before steps of length dt, and how many of these. */

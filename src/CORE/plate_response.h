@@ -7,11 +7,11 @@
 
 namespace grainscope {
 
-/** What the grains say to a plate that moves along an axis a, over its contacts in one evaluation, or over its area and
- *  summed over several. Were the grains held, a plate that moves by dx at the velocity v would change its force by
- *  (stiffness) dx + (damping) v:
- *  stiffness = sum k n_a^2 + k_t (1 - n_a^2), damping = sum gamma_n n_a^2 + gamma_t (1 - n_a^2), by
- * ContactStiffness. */
+/** Force, stiffness and damping of the grains on a plate that moves along an axis a: of its contacts in one evaluation,
+ *  or per area and summed over several evaluations. If the grains were held, a plate that moves by dx at the velocity v
+ *  would change its force by (stiffness) dx + (damping) v:
+ *      stiffness = sum k n_a^2 + k_t (1 - n_a^2), damping = sum gamma_n n_a^2 + gamma_t (1 - n_a^2), by
+ *        ContactStiffness. */
 struct PlateResponse {
   double force = 0.0;  // of the grains on the plate, along the axis
   double stiffness = 0.0;
@@ -31,8 +31,8 @@ struct PlateResponse {
   }
 };
 
-/** A speed at which grains of a density that are hit push back, by their inertia, by a hundredth of the target; without
- *  bound where there are none, of density 0. */
+/** The speed at which the inertia of the grains that the plate hits gives a hundredth of the target pressure; infinite
+ *  without grains (density 0). */
 inline double soft_rate(double target, double density) {
   return density > 0.0 ? 0.1 * std::sqrt(target / density) : HUGE_VAL;
 }

@@ -18,11 +18,11 @@ struct BoxMode {
 inline constexpr BoxMode box_modes[6] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
 inline constexpr int number_of_box_modes = 6;
 
-/** What the contact network says, in one evaluation or summed over a window of evaluations. With every contact moved
- *  affinely at the rates e_b of the modes b, stresses fall by
- *    dP_a = sum_b (K_ab de_b + eta_ab d(de_b/dt)),
- *    K_ab = (1/volume) sum d_a . (k n n + k_t (1 - n n)) d_b,   d_a: r_gradient along `flow`, of mode a,
- *  eta likewise with gamma_n and gamma_t, by ContactStiffness. Both are symmetric and, being sums of squares, not
+/** Stress, stiffness and damping of the contact network, in one evaluation or summed over a window of evaluations. If
+ *  every contact moved affinely at the rates e_b of the modes b, stresses would fall by
+ *      dP_a = sum_b (K_ab de_b + eta_ab d(de_b/dt)),
+ *      K_ab = (1/volume) sum d_a . (k n n + k_t (1 - n n)) d_b,   d_a: r_gradient along `flow`, of mode a,
+ *  eta likewise with gamma_n and gamma_t, by ContactStiffness. Both matrices are symmetric and, as sums of squares, not
  *  negative. Plain doubles, so that ranks add them up. */
 struct NetworkResponse {
   // sum F_flow r_gradient / volume: the pressure along an edge, minus the shear stress of a tilt
@@ -83,13 +83,14 @@ struct NetworkResponse {
   }
 };
 
-/** The controller of one stress: at each input the rate of its mode becomes (P - P_target) times a gain, held until the
- *  next. The automatic gain is beta/D, D >= eta + K T, T the time between inputs. Of one mode that answers affinely the
- *  sampled recursion (window average, and the rate held before it) is stable for every beta < 1 by the Jury criterion.
- *  So are several modes at once when each D_a is the sum over the driven modes b of |eta_ab + K_ab T|: D - (eta + K T)
- *  is diagonally dominant then and not negative, every eigenvector of the loop obeys the recursion of one mode with
- *  the values that it takes of D^-1/2 K D^-1/2 and D^-1/2 eta D^-1/2, and these together are at most 1. beta = 0.5
- *  leaves a factor of two for what is not affine; smaller values make a dilute start slow. */
+/** The controller of one stress. At each input the rate of its mode becomes (P - P_target) times a gain, and is held
+ *  until the next input. The automatic gain is beta/D with D >= eta + K T, T the time between inputs. For one mode with
+ *  an affine response the sampled recursion (window average, and the rate held before it) is stable for every beta < 1,
+ *  by the Jury criterion. Several modes at once are stable too if each D_a is the sum over the driven modes b of
+ *  |eta_ab + K_ab T|: then D - (eta + K T) is diagonally dominant and not negative, and every eigenvector of the loop
+ *  obeys the recursion of one mode, with its values of D^-1/2 K D^-1/2 and D^-1/2 eta D^-1/2, which together are at
+ *  most 1. beta = 0.5 leaves a factor of two for the response that is not affine; smaller values make a dilute start
+ *  slow. */
 struct PressureControl {
   static constexpr double beta = 0.5;
 
@@ -108,9 +109,9 @@ struct PressureControl {
     return clip(error == 0.0 ? 0.0 : kp(resistance, length) * error, length, interval);
   }
 
-  /** Of a mode whose rate need not end at zero: `base`, a rate, is added to what the error asks for and takes a tenth
-   *  of the elastic share K T/D of that at each input, slowly against the loop; it stays while the rate is clipped.
-   *  `elastic`: K T. */
+  /** For a mode whose final rate need not be zero: a rate `base` is added to the rate that the error gives. At each
+   *  input `base` grows by a tenth of the elastic share K T/D of that rate, slowly compared with the loop; while the
+   *  rate is clipped it stays. `elastic`: K T. */
   Input input_with_base(double error, double resistance, double elastic, double length, double interval,
                         double &base) const {
     const double wanted = error == 0.0 ? 0.0 : kp(resistance, length) * error;
@@ -141,8 +142,8 @@ class Intervals {
     next_ = next;
   }
 
-  /** Advances; true if a multiple of the interval was reached or passed. Sums of steps err by ulps: 1e-9 of an interval
-   *  is forgiven. */
+  /** Advances; true if a multiple of the interval was reached or passed. Sums of steps have rounding errors: 1e-9 of an
+   *  interval is tolerated. */
   bool advance(double step) {
     passed_ += step;
     const double turns = passed_ / interval_ + 1e-9;

@@ -156,7 +156,7 @@ Verdict examine(const std::string &name) {
   verdict.sealed = find_seal(file.get(), length, seal);
   if (!verdict.sealed) {
     verdict.whole = !names_sealer(file.get(), length) && length > least_per_grain * header.grains;
-    if (!verdict.whole) verdict.reason = "was cut short or damaged: its seal is missing";
+    if (!verdict.whole) verdict.reason = "is truncated or damaged: its seal is missing";
     return verdict;
   }
   boost::crc_32_type crc;
@@ -166,8 +166,8 @@ Verdict examine(const std::string &name) {
       crc.checksum() == seal.checksum;
   if (!fits) verdict.reason = "is damaged: it does not match its seal";
   else if (seal.format != format)
-    verdict.reason = "was written by a version of grainscope that kept format " + std::to_string(seal.format) +
-                     ", this one keeps format " + std::to_string(format);
+    verdict.reason = "was written by a version of grainscope with format " + std::to_string(seal.format) +
+                     ", this one has format " + std::to_string(format);
   verdict.whole = verdict.reason.empty();
   return verdict;
 }

@@ -11,12 +11,12 @@
 
 namespace grainscope {
 
-/** Which neighbours need no look: a pair that was once found `gap` apart stays apart until its two grains have together
- *  moved and turned by as much. Motion is measured against the affine motion of the box, so that a shear flow spends
- *  little of it. Rigorous: a displacement changes a distance by at most its length; a turn by phi by at most (longest -
- *  shortest semi-axis) phi, the largest slope of an ellipsoid's support function; the affine part, F r - r, by at most
- *  |F - 1| r, bounded for r up to 1.5 times the reach: farther apart the pairs of a neighbour list that is fit for use
- *  are never. */
+/** Pairs of neighbours that need not be checked: a pair that was found `gap` apart stays apart until its two grains
+ *  together have moved and turned by as much. Motion is measured relative to the affine motion of the box, so that a
+ *  shear flow uses up little of the gap. The bounds are rigorous. A displacement changes a distance by at most its
+ *  length; a turn by phi by at most (longest - shortest semi-axis) phi, the largest slope of an ellipsoid's support
+ *  function; the affine part, F r - r, by at most |F - 1| r, bounded for r up to 1.5 times the reach. The pairs of a
+ *  valid neighbour list are never farther apart. */
 class SeparationMemory {
  public:
   /** A new neighbour list: nothing is known. Pairs of it are at most `reach` apart, centre to centre. slope(i): how

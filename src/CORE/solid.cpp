@@ -207,8 +207,8 @@ bool Solid::volume_of_common(const Polyhedron &box, double &volume, std::string 
     } else if ((one.kind_ == Kind::ball || one.kind_ == Kind::round) && !one.outside_ && !curved) {
       curved = &one;
     } else {
-      why =
-          one.kind_ == Kind::united ? "it is a union" : "it is a common part with an outside or with two round bodies";
+      why = one.kind_ == Kind::united ? "it is a union"
+                                      : "it is an intersection with an outside or with two round regions";
       return false;
     }
   }
@@ -241,7 +241,7 @@ bool Solid::section(double height, Solid &cut, std::string &why) const {
   const bool upright = std::fabs(axis_.dot(up)) > 1.0 - rounding;
   const bool nowhere = kind_ == Kind::ball && std::fabs(height - origin_[2]) > radius_lo_;
   if (kind_ == Kind::round && !upright) {
-    why = "in two dimensions a cylinder or cone must stand on the plane";
+    why = "in two dimensions a cylinder or cone must have its axis along z";
     return false;
   }
   if (kind_ == Kind::ball || kind_ == Kind::round) {

@@ -15,8 +15,7 @@ using LineParts = std::vector<std::pair<double, double>>;
 /** Sum of their lengths, of the part from `low` to `high` of the line. */
 double length_of(const LineParts &parts, double low = 0.0, double high = 1.0);
 
-/** What a region of space is made of: bodies that are convex, what is outside of them, and what several have in common
- *  or cover together. */
+/** A region of space: convex bodies, the outside of a body, and intersections and unions of several. */
 class Solid {
  public:
   /** What the half spaces have in common: a block, a prism, one side of a plane. */

@@ -7,9 +7,9 @@
 
 namespace grainscope {
 
-/** The tangential force -k_t s - gamma u of a contact whose spring is below the friction limit. Nothing in the law
- *  keeps its damping part below it: in the first evaluation of a run no spring has moved, so none is cut, and gamma u
- *  may be any multiple of the limit. LIGGGHTS's tangential models ask here for the gamma that acts. */
+/** The tangential force -k_t s - gamma u of a contact whose spring is below the friction limit. The law does not limit
+ *  its damping part: in the first evaluation of a run no spring has moved, so none is cut, and gamma u may be any
+ *  multiple of the limit. The tangential models of LIGGGHTS take the gamma that acts from here. */
 class TangentialBound {
  public:
   /** off: gamma as it is, which costs one branch. watch: the same, and the worst contact is noted. bound: the largest

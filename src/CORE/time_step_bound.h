@@ -10,9 +10,9 @@
 
 namespace grainscope {
 
-/** Springs K and dashpots C between grains, moved by kick, drift, kick with forces that see the velocity half a step
- *  ago, keep their energy bounded where the largest eigenvalue of M^-1 (dt^2 K + 2 dt C) is below 4. Two estimates of
- *  it; see doc/stability.md. */
+/** Springs K and dashpots C between grains that are integrated by velocity Verlet (kick, drift, kick), with forces that
+ *  use the velocity of half a step before, keep their energy bounded if the largest eigenvalue of M^-1 (dt^2 K + 2 dt
+ *  C) is below 4. Two estimates of it; see doc/stability.md. */
 namespace time_step {
 
 constexpr double limit = 4.0;
@@ -43,7 +43,7 @@ class GrainModes {
     damping_ += weight * seen_from(arm, m.damping_coefficient * n + damping_t * t);
   }
 
-  /** Takes out what a grain of two dimensions cannot do: leave the plane x, y, or turn about x or y. */
+  /** Removes the motions that a grain in two dimensions does not have: along z, and rotations about x and y. */
   void confine_to_plane() {
     for (Matrix6 *m : {&stiffness_, &damping_})
       for (int k : {2, 3, 4}) {

@@ -8,8 +8,8 @@
 
 namespace grainscope {
 
-/** Warns once when so many inputs of a fix are clipped that a stress is not under control. Fractions are running means
- *  over about a hundred inputs. */
+/** Warns once when so many inputs of a fix are clipped that its stress is not under control. Fractions are running
+ *  means over about a hundred inputs. */
 class ClippingWatch {
  public:
   /** `who`: the fix, for the message. */

@@ -29,8 +29,8 @@ double FixContactHistoryEllipsoid::mark() const {
   return static_cast<double>(grainscope::checksum(names.data(), names.size()) % (marks - 1) + 1) / marks;
 }
 
-/** The host reads the first number alone. The second ends with the mark of the columns; it has none in files of the
- *  host and of grainscope before. */
+/** LIGGGHTS reads only the first number. The second ends with the mark of the columns; files of LIGGGHTS and of earlier
+ *  versions of grainscope have no mark. */
 void FixContactHistoryEllipsoid::write_restart(FILE *file) {
   if (comm->me != 0) return;
   const double state[] = {static_cast<double>(dnum_ + more()), maxtouch_ + mark()};
@@ -47,8 +47,8 @@ void FixContactHistoryEllipsoid::restart(char *buffer) {
   const double marked = state[1] - std::floor(state[1]);
   if (marked != 0.0 && marked != mark())
     error->all(FLERR, ("the restart file holds " + std::to_string(dnum_ + more()) +
-                       " numbers per contact, as many as this pair_style has, but other ones: give the contact models, "
-                       "'ledger' and 'time_level' that it was written with")
+                       " numbers per contact, as many as this pair_style, but with other meanings: use the contact "
+                       "models, 'ledger' and 'time_level' that it was written with")
                           .c_str());
 }
 

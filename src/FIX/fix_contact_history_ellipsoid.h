@@ -12,9 +12,9 @@ FixStyle(contacthistory,FixContactHistoryEllipsoid)
 
 namespace LAMMPS_NS {
 
-/** The host's contact history, whose restart data have the columns of `surface superquadric` also where `surface
- *  ellipsoid` keeps one of them: 0 stands in those that it leaves out. So either surface reads what the other wrote.
- *  Data of other columns, though as many, are refused. */
+/** The contact history of LIGGGHTS, whose restart data have the columns of `surface superquadric` also when `surface
+ *  ellipsoid` keeps only one of them; the others are 0. So each surface reads what the other wrote. Data with the same
+ *  number of columns but other meanings are refused. */
 class FixContactHistoryEllipsoid : public FixContactHistory {
  public:
   using FixContactHistory::FixContactHistory;

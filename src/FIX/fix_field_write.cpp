@@ -30,7 +30,8 @@ bool ends_with(const std::string &text, const std::string &end) {
 }
 
 std::string tilted(const std::string &file) {
-  return "'" + file + "' has a grid along x, y and z, and this one is tilted: .vts, or compute field ... frame lab";
+  return "'" + file +
+         "' needs a grid along x, y and z, and this one is tilted: use .vts, or compute field ... frame lab";
 }
 
 }
@@ -59,7 +60,7 @@ FixFieldWrite::FixFieldWrite(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg,
   if (blocks_ > 0 && repeats_ % blocks_ != 0)
     arguments.fail("blocks", "a divisor of N_repeat, " + std::to_string(repeats_), std::to_string(blocks_));
   for (const std::string &file : files_)
-    if (std::count(files_.begin(), files_.end(), file) > 1) arguments.fail("'file' has '" + file + "' twice");
+    if (std::count(files_.begin(), files_.end(), file) > 1) arguments.fail("'file' names '" + file + "' twice");
   find_source();
   begin_window();
 }
@@ -72,7 +73,7 @@ bool FixFieldWrite::find_source() {
   const int found = modify->find_compute(compute_id_.c_str());
   compute_ = found < 0 ? nullptr : modify->compute[found];
   source_ = dynamic_cast<grainscope::FieldSource *>(compute_);
-  if (!source_) Arguments(lmp, name).fail("source", "c_ID of a compute field that there is", "c_" + compute_id_);
+  if (!source_) Arguments(lmp, name).fail("source", "c_ID of a compute field that is defined", "c_" + compute_id_);
   source_number_ = source_->number();
   return source_number_ != before;
 }
@@ -82,7 +83,7 @@ void FixFieldWrite::begin_window() {
   next_ = next_sample(update->ntimestep);
 }
 
-/** What was sampled of another compute, or of another step's numbers, does not count. */
+/** Samples of another compute, or of steps that were renumbered, do not count. */
 void FixFieldWrite::init() {
   if (find_source() || next_ < update->ntimestep) begin_window();
   modify->addstep_compute_all(next_);

@@ -18,7 +18,7 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-// The host's buffers for grains that change ranks have room for 1000 numbers beyond what they are sized for.
+// The buffers in which LIGGGHTS sends grains to other ranks have room for 1000 numbers beyond their size.
 const int most_numbers = 800;
 
 const grainscope::ComputeFix record{"grain/record", "_record", "memory", "holds the memory"};
@@ -112,7 +112,7 @@ void FixGrainRecord::require_room() const {
     if (const FixGrainRecord *one = dynamic_cast<const FixGrainRecord *>(modify->fix[k])) numbers += one->width_;
   if (numbers > most_numbers)
     error->all(FLERR, ("all computes together must remember at most " + std::to_string(most_numbers) +
-                       " numbers per grain, got " + std::to_string(numbers) + ": take fewer 'lags'")
+                       " numbers per grain, got " + std::to_string(numbers) + ": use fewer 'lags'")
                           .c_str());
 }
 
@@ -156,7 +156,7 @@ void FixGrainRecord::write_restart(FILE *file) {
   grainscope::write_state(file, saved, shared_.data(), shared_.size() * sizeof(double));
 }
 
-/** What does not mean the same may have other numbers, too. */
+/** A record with another meaning may have another number of numbers, too. */
 void FixGrainRecord::restart(char *buffer) {
   const SavedRecord saved = grainscope::read_state<SavedRecord>(lmp, *this, style, buffer);
   if (saved.meaning != meaning_ || saved.shared_numbers != shared_.size()) {

@@ -16,10 +16,10 @@ FixStyle(grain/record,FixGrainRecord)
 namespace LAMMPS_NS {
 
 /** The memory of a compute: `width` numbers per grain, which follow the grain from rank to rank, and numbers that all
- *  ranks share; both are kept in restart files. New grains have zeros. It also notes the box of each force evaluation,
- *  the one that image flags count in (a fix that deforms the box at the end of the step moves it on before computes are
- *  asked), counts box flips, and knows the time that has passed. Made by computes, not by input scripts: arguments are
- *  width, shared size, and a number that stands for what is remembered. */
+ *  ranks share; both are in restart files. New grains have zeros. It also notes the box of each force evaluation, to
+ *  which image flags refer (a fix that deforms the box at the end of the step does so before computes are evaluated),
+ *  counts box flips, and knows the time that has passed. Made by computes, not by input scripts: its arguments are
+ *  width, shared size, and a number that identifies what is remembered. */
 class FixGrainRecord : public grainscope::InternalFix {
  public:
   FixGrainRecord(class LAMMPS *lmp, int narg, char **arg);

@@ -51,7 +51,7 @@ struct SavedLedger {
   }
 };
 
-/** Makes a fix the first to see grains before they are dealt out to the ranks: others let some in or out there. */
+/** Makes a fix the first to see grains before they are sent to their ranks: other fixes add or remove some then. */
 struct FirstBeforeExchange : Modify {
   static void make(Modify *modify, const Fix *fix) {
     int *const first = modify->*(&FirstBeforeExchange::list_pre_exchange), *const end = first + modify->n_pre_exchange;
@@ -66,7 +66,7 @@ struct FixLedgerRecord::Impl {
   EnergyLedger ledger;
   PairGranInsitu *pair = nullptr;
   std::unique_ptr<grainscope::LedgerMotion> motion;  // of the run that was set up last
-  // The grains as they were before some may leave and come: in a step that builds neighbour lists, after a run.
+  // The grains before some may leave and come: in a step that builds neighbour lists, and after a run.
   std::unique_ptr<LedgerGrains> before_exchange, after_run;
   bool may_pass = false;    // grains, in a step
   bool laws_known = false;  // those of walls
@@ -96,8 +96,8 @@ void FixLedgerRecord::Impl::book_passage_in_step(LAMMPS *lmp, int groupbit) {
   ledger.pass_in_step(before->taken_by(passed.left, true), now->taken_by(passed.came, true));
 }
 
-/** `evaluated`: forces were evaluated since, so that contacts are those of the grains that there are now. With 'pre no'
- *  they are seen to be others at the end of the coming step. */
+/** `evaluated`: forces were evaluated since, so that contacts are those of the grains that exist now. With 'pre no' the
+ *  change is found at the end of the next step. */
 void FixLedgerRecord::Impl::book_passage_between_steps(EnergyLedger &booked, bool evaluated, LAMMPS *lmp,
                                                        int groupbit) {
   LedgerGrains &before = *after_run;
@@ -114,8 +114,8 @@ void FixLedgerRecord::Impl::book_passage_between_steps(EnergyLedger &booked, boo
   booked.pass_in_step(out, in);
 }
 
-/** Writing a restart file deals grains out to the ranks, where those beyond an open face are lost: a run that reads the
- *  file knows nothing of them. */
+/** To write a restart file LIGGGHTS sends grains to their ranks, and those beyond an open face are lost. A run that
+ *  reads the file does not know of them. */
 void FixLedgerRecord::Impl::book_leaving_before_run(MPI_Comm world) {
   if (!after_run) return;
   const std::unique_ptr<LedgerGrains> now = motion->grains_between_steps(ledger);
@@ -163,7 +163,7 @@ void FixLedgerRecord::init() {
   impl_->dt = update->dt;
 }
 
-/** Not in a periodic box where nobody else has a hand in which grains there are. */
+/** False in a periodic box where no other fix adds or removes grains. */
 bool FixLedgerRecord::grains_may_pass() const {
   const std::initializer_list<const char *> quiet = {"contacthistory", "contactproperty", "property",
                                                      "mesh",           "deform",          "press/strain",
@@ -213,7 +213,7 @@ void FixLedgerRecord::pre_initial_integrate() {
   if (!impl_->ledger.pending() && impl_->dt != update->dt)
     fail("the time step changed from " + grainscope::Arguments::text(impl_->dt) + " to " +
          grainscope::Arguments::text(update->dt) +
-         " without a new set-up of the run: the forces of one belong to the half steps of the other");
+         " without a new set-up of the run, in a run or before 'pre no': the two half steps of one force would differ");
   impl_->dt = update->dt;
   impl_->start_step(impl_->ledger, lmp, groupbit);
   impl_->after_run.reset();
@@ -249,7 +249,7 @@ FixLedgerRecord *FixLedgerRecord::find(LAMMPS *lmp, const char *id) {
 
 void FixLedgerRecord::forget(LAMMPS *lmp, const char *id) { record.remove(lmp, id); }
 
-/** The run that goes on stays equal to one that is resumed: it, too, has the sums on the first rank. */
+/** A run that continues stays equal to one that is resumed: its sums are on the first rank too. */
 void FixLedgerRecord::write_restart(FILE *file) {
   SavedLedger saved;
   impl_->book_leaving_before_run(world);

@@ -19,8 +19,8 @@ struct LedgerAccount;
 
 namespace LAMMPS_NS {
 
-/** Keeps the energy ledger of a group up to date in every step, for a compute: sees every contact of every force
- *  evaluation, and the grains before their second kick and before the next step's first. What it has booked is in
+/** Keeps the energy ledger of a group up to date in every step, for a compute. It sees every contact of every force
+ *  evaluation, and the grains before their second kick and before the first kick of the next step. Its totals are in
  *  restart files. Made by computes, not by input scripts. */
 class FixLedgerRecord : public grainscope::InternalFix, public grainscope::ContactSink {
  public:

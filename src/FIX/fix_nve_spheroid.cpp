@@ -30,16 +30,17 @@ void FixNVESpheroid::init() {
   for (int k = 0; k < modify->nfix; k++) {
     if (strcmp(modify->fix[k]->style, "couple/cfd/force/implicit") != 0) continue;
     const std::string coupling = std::string("fix ") + modify->fix[k]->id + " (couple/cfd/force/implicit)";
-    error->all(FLERR, ("fix nve/spheroid: " + coupling +
-                       " leaves its torque to the integrator, and this one knows nothing of it: "
-                       "use fix nve/superquadric")
-                          .c_str());
+    error->all(
+        FLERR,
+        ("fix nve/spheroid: " + coupling +
+         " leaves its torque to the integrator, and fix nve/spheroid does not apply it: use fix nve/superquadric")
+            .c_str());
   }
 }
 
 int FixNVESpheroid::grains() const { return igroup == atom->firstgroup ? atom->nfirst : atom->nlocal; }
 
-/** Asked with every neighbour list, and so whenever grains were inserted. Collective: every rank names the same
+/** Checked with every neighbour list, and so whenever grains were inserted. Collective: every rank names the same
  *  grain. */
 void FixNVESpheroid::require_symmetric_tops() const {
   int first = INT_MAX, at = 0;

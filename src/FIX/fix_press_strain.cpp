@@ -71,8 +71,8 @@ double FixPressStrain::Impl::true_rate(int mode) const {
   return mode < 3 ? driven.rates[mode] / box.length(mode) : driven.rates[mode];
 }
 
-/** As the box is moved: those of edges with targets are held in dL/dt. `ahead`: the time in which the box takes on the
- *  length to which the true rates of edges belong. */
+/** The rates by which the box is moved: for edges with targets dL/dt is held. `ahead`: the time after which the box has
+ *  the length to which the true rates of edges refer. */
 BoxRates FixPressStrain::Impl::rates(double ahead) const {
   BoxRates all{};
   for (int k = 0; k < number_of_box_modes; k++)
@@ -87,7 +87,7 @@ FixPressStrain::FixPressStrain(LAMMPS *lmp, int narg, char **arg)
 
 FixPressStrain::FixPressStrain(LAMMPS *lmp, int narg, char **arg, const PressStrainHostArguments &host)
     : FixDeform(lmp, host.size(), host.words()), impl_(new Impl(lmp, narg, arg)) {
-  // The box and its velocity remapping concern every grain; the group only says whose drift is removed.
+  // The box and its velocity remapping act on every grain; the group only defines whose drift is removed.
   impl_->momentum_groupbit = groupbit;
   impl_->momentum_group = arg[1];
   igroup = 0;
@@ -127,7 +127,7 @@ void FixPressStrain::setup(int) {
   impl_->forecast.check(time_between_inputs());
 }
 
-/** Every step, so that the computes that a variable uses can be announced for the next one. */
+/** Every step, so that the computes that a variable uses can be requested for the next step. */
 void FixPressStrain::evaluate_variables() {
   auto &settings = impl_->settings;
   if (!settings.follows_variables()) return;
@@ -202,12 +202,12 @@ void FixPressStrain::end_of_step() {
   evaluate_variables();
   my.strain += strain_rate() * update->dt;
   const BoxState before(lmp);
-  // The velocities that an input sets are meant for the time until the next as the rates are: a strain that grows more
-  // slowly since then does not prolong it.
+  // The velocities of an input, as its rates, are planned for the time until the next input: a strain that has grown
+  // more slowly since then does not prolong that time.
   const bool due = my.intervals.advance(progress_of_a_step());
   if (due || (my.planned_steps > 0.0 && my.window_steps > my.planned_steps)) take_input();
-  // The box moves by the rates that its images take in the coming step: the springs of contacts across faces follow
-  // velocities, overlaps the box.
+  // The box moves by the rates of its images in the next step: the springs of contacts across faces follow velocities,
+  // overlaps follow the box.
   for (int k = 3; k < number_of_box_modes; k++) my.strains[k] += my.true_rate(k) * update->dt;
   my.box.advance(my.rates(update->dt));
   for (int k = 0; k < 3; k++)
@@ -284,7 +284,7 @@ void FixPressStrain::restart(char *buffer) {
   my.strain = saved.strain;
   my.inputs = saved.inputs;
   my.clipped = saved.clipped;
-  // The next stage of a path holds other stresses: the rest starts from rest.
+  // A stage of a path may hold other stresses than the stage before: their rates begin at 0.
   for (int k = 0; k < loops; k++) {
     my.clipped_of[k] = saved.clipped_of[k];
     if (!my.holds(k)) continue;
@@ -293,7 +293,8 @@ void FixPressStrain::restart(char *buffer) {
     else my.driven.rates[k] = saved.driven.rates[k];
   }
   std::copy(std::begin(saved.strains), std::end(saved.strains), my.strains);
-  // Counted otherwise than before, or of other modes, inputs begin again, with one at the first step.
+  // If inputs are counted in another way than before, or other modes are controlled, inputs begin again, with one at
+  // the first step.
   if (static_cast<double>(my.settings.every) != saved.every || my.settings.interval != saved.interval ||
       my.controlled_bits() != saved.controlled)
     return;

@@ -23,11 +23,11 @@ class PressStrainHostArguments;
 
 namespace LAMMPS_NS {
 
-/** Deforms the box along a path: each edge is fixed, moves at a true rate, or so that the pressure along it (or, with
- *  others, the mean pressure) is held; each tilt is sheared at a true rate, or so that a shear stress is held. Stresses
- *  are controlled at strain, time or step intervals. Scalar: pressure averaged over the last completed interval. It is
- *  a fix deform to the host, which then remaps velocities across the moving faces. Source: Bilotto, Trulsson & Molinari
- *  2025, Sec. II; doi 10.1103/tj41-6qqk. */
+/** Deforms the box along a path. Each edge is fixed, moves at a true rate, or moves so that the pressure along it (or,
+ *  with other edges, the mean pressure) is held. Each tilt is sheared at a true rate, or so that a shear stress is
+ *  held. Stresses are controlled at intervals of strain, time or steps. Scalar: pressure averaged over the last
+ *  completed interval. To LIGGGHTS it is a fix deform, so that velocities are remapped across the moving faces. Source:
+ *  Bilotto, Trulsson & Molinari 2025, Sec. II; doi 10.1103/tj41-6qqk. */
 class FixPressStrain : public FixDeform, public grainscope::DeclaresOutputs, public grainscope::ContactSink {
  public:
   FixPressStrain(class LAMMPS *lmp, int narg, char **arg);
@@ -50,8 +50,8 @@ class FixPressStrain : public FixDeform, public grainscope::DeclaresOutputs, pub
   void add_lanes(const grainscope::ContactLanes &contacts) override;
   void end_contacts() override;
 
-  /** What the change of the box's velocities at the end of the last step gave to grains outside it, by the deck's fix
-   *  press/strain; null without one, or before the first step of a run. */
+  /** The velocity that grains outside the box got from the change of the box's velocities at the end of the last step,
+   *  by the only fix press/strain of the input script; null without one, or before the first step of a run. */
   static const grainscope::BoxJump *last_jump_of(class LAMMPS *lmp);
 
  private:

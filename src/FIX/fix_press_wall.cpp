@@ -137,7 +137,7 @@ void FixPressWall::init() {
   my.observer->add(this);
 }
 
-/** Before the first forces of a run, in which the host's own movers let the mesh stand. */
+/** Before the first forces of a run, in which the mesh movers of LIGGGHTS leave the mesh at rest. */
 void FixPressWall::setup_pre_force(int) {
   impl_->mesh.keep_velocities();
   impl_->mesh.set_velocity(impl_->velocity);
@@ -152,7 +152,7 @@ void FixPressWall::setup(int) {
   evaluate_target();
 }
 
-/** What the size and the density of the grains say of the plate's motion, where nobody did. Collective. */
+/** The default limits of the motion of the plate, from the size and density of the grains. Collective. */
 void FixPressWall::know_grains() {
   Impl &my = *impl_;
   double most[2] = {-std::numeric_limits<double>::infinity(), 0.0};  // minus the smallest diameter, density
@@ -166,7 +166,7 @@ void FixPressWall::know_grains() {
   my.requirements.require_slow_plate(time_between_inputs());
 }
 
-/** Every step, so that the computes that a variable uses can be announced for the next one. */
+/** Every step, so that the computes that a variable uses can be requested for the next step. */
 void FixPressWall::evaluate_target() {
   if (impl_->settings.target_varies) modify->clearstep_compute();
   impl_->target = impl_->settings.target.now();
@@ -187,7 +187,7 @@ void FixPressWall::add_contacts(grainscope::ContactSpan contacts) {
   }
 }
 
-/** In an order that does not depend on that of triangles, which is another after a restart. */
+/** In an order that does not depend on the order of triangles, which changes with a restart. */
 void FixPressWall::end_contacts() {
   std::vector<Impl::Part> &parts = impl_->parts;
   std::sort(parts.begin(), parts.end(), [](const Impl::Part &one, const Impl::Part &other) {
@@ -289,7 +289,7 @@ void FixPressWall::restart(char *buffer) {
   my.clipped = saved.clipped;
   my.window_steps = saved.window_steps;
   if (comm->me == 0) my.window = {saved.window_force, saved.window_stiffness, saved.window_damping};
-  // Counted otherwise than before, inputs begin again, with one at the first step.
+  // If inputs are counted in another way than before, they begin again, with one at the first step.
   if (static_cast<double>(my.settings.every) == saved.every && my.settings.interval == saved.interval)
     my.intervals.restore(saved.passed, saved.next);
 }

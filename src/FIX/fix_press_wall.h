@@ -15,11 +15,11 @@ FixStyle(press/wall,FixPressWall)
 
 namespace LAMMPS_NS {
 
-/** Holds the pressure of grains on a mesh of fix wall/gran by moving the mesh along an axis, by the law of fix
- *  press/strain: at each input V = k_p (Pbar - P_t) away from the grains, Pbar their mean force since the last input
- *  over an area, V held until the next. Scalar: Pbar of the last completed interval. It is a fix move/mesh to the host,
- *  which then keeps the mesh while the fix is there. Source of the law: Bilotto, Trulsson & Molinari 2025, Sec. II; doi
- *  10.1103/tj41-6qqk. */
+/** Holds the pressure of grains on a mesh of fix wall/gran by moving the mesh along an axis, with the law of fix
+ *  press/strain: at each input V = k_p (Pbar - P_t) away from the grains, where Pbar is their mean force per area since
+ *  the last input; V is held until the next input. Scalar: Pbar of the last completed interval. To LIGGGHTS it is a fix
+ *  move/mesh, so that it keeps the mesh as long as the fix exists. Source of the law: Bilotto, Trulsson & Molinari
+ *  2025, Sec. II; doi 10.1103/tj41-6qqk. */
 class FixPressWall : public FixMoveMesh, public grainscope::DeclaresOutputs, public grainscope::ContactSink {
  public:
   FixPressWall(class LAMMPS *lmp, int narg, char **arg);

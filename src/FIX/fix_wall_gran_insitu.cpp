@@ -36,8 +36,8 @@ using LIGGGHTS::Walls::IGranularWall;
 
 namespace {
 
-/** Stands for the wall's contact models while the host's constructor runs: our members are not there yet, which the
- *  models call when they are made. */
+/** Takes the place of the contact models of the wall while the constructor of the base class runs: the models call
+ *  members of ours when they are made, and these do not exist yet. */
 class Deferred : public IGranularWall {
  public:
   explicit Deferred(int64_t hash) : hash(hash) {}
@@ -58,7 +58,7 @@ IGranularWall *create(LAMMPS *lmp, FixWallGran *wall, int64_t hash) {
   return grainscope::create_observed_wall(hash, lmp, wall);
 }
 
-/** The host's list of walls warns of every entry that is given twice: here all of them are replaced. */
+/** LIGGGHTS warns of every entry that is registered twice in its list of walls: here all of them are replaced. */
 LAMMPS *take_over(LAMMPS *lmp) {
   static bool done = false;
   if (done) return lmp;
@@ -191,7 +191,7 @@ void FixWallGranInsitu::init() {
   law.exponent = impl_->exponent;
   if (impl_->pair->keeps_past() && impl_->past_column < 0)
     grainscope::end_run(lmp, who() + "must be defined after 'pair_style gran/insitu ... ledger on', which keeps more "
-                                     "numbers for each of its contacts, got it before");
+                                     "numbers for each contact, got it defined before");
   if (impl_->pair->keeps_past() && impl_->level)
     grainscope::end_run(lmp, who() + "'time_level synchronized' needs pair_style gran/insitu with 'ledger off', got "
                                      "'ledger on'");
@@ -214,7 +214,7 @@ void FixWallGranInsitu::init() {
   impl_->meshes.assign(mesh_list(), mesh_list() + n_meshes());
 }
 
-/** Errors unless the grains of two dimensions meet it in their plane. Collective. */
+/** Errors unless the wall meets the grains of two dimensions in their plane. Collective. */
 void FixWallGranInsitu::require_across_plane() {
   const grainscope::Arguments errors(lmp, "fix wall/gran " + std::string(id));
   if (!is_mesh_wall()) {
@@ -233,14 +233,13 @@ void FixWallGranInsitu::require_across_plane() {
     }
     MPI_Allreduce(MPI_IN_PLACE, &leans, 1, MPI_INT, MPI_MAX, world);
     if (leans)
-      errors.fail(
-          "with 'dimension 2' the triangles of a mesh must stand upright, along z, got some that lean in mesh '" +
-          std::string(mesh_list()[m]->id) + "'");
+      errors.fail("with 'dimension 2' the triangles of a mesh must be parallel to z, got others in mesh '" +
+                  std::string(mesh_list()[m]->id) + "'");
   }
 }
 
-/** The forces of the first evaluation; where it repeats the last of the run before, with its places and velocities,
- *  and without leaving a trace in the contact history. */
+/** The forces of the first evaluation. If it repeats the last evaluation of the run before, it uses the positions and
+ *  velocities of that one and leaves the contact history unchanged. */
 void FixWallGranInsitu::setup(int vflag) {
   const std::shared_ptr<grainscope::EvaluationMemory> memory = impl_->pair ? impl_->pair->evaluation_memory() : nullptr;
   if (memory && memory->repeats()) {
@@ -282,10 +281,10 @@ void FixWallGranInsitu::restart(char *buffer) {
   const SavedWall saved = grainscope::read_state<SavedWall>(lmp, *this, style, buffer);
   const long long n = grainscope::whole_count(saved.numbers, 1e9);
   if (n < 0 || n % grainscope::MeshVelocities::width != 0)
-    error->all(FLERR,
-               ("fix " + std::string(id) + " (wall/gran): the restart file holds no number of mesh velocities, but " +
-                std::to_string(saved.numbers))
-                   .c_str());
+    error->all(FLERR, ("fix " + std::string(id) +
+                       " (wall/gran): the restart file must hold a whole number of mesh velocities, got " +
+                       std::to_string(saved.numbers))
+                          .c_str());
   std::vector<double> numbers(static_cast<std::size_t>(n));
   memcpy(numbers.data(), grainscope::state_block::tail(buffer), numbers.size() * sizeof(double));
   impl_->velocities.set_numbers(numbers.data(), numbers.size());

@@ -34,8 +34,9 @@ std::vector<Wall> walls_of(LAMMPS_NS::LAMMPS *lmp);
 
 namespace LAMMPS_NS {
 
-/** The host's fix wall/gran, with every contact offered to those who see the contacts of pair_style gran/insitu. Same
- *  arguments, same trajectory to the last bit, with any pair style; see doc/fix_wall_gran.md. */
+/** The fix wall/gran of LIGGGHTS, with every contact offered to the computes and fixes that see the contacts of
+ *  pair_style gran/insitu. Same arguments, same trajectory to the last bit, with any pair style; see
+ *  doc/fix_wall_gran.md. */
 class FixWallGranInsitu : public FixWallGran, public grainscope::WallContactsOwner {
  public:
   FixWallGranInsitu(class LAMMPS *lmp, int narg, char **arg);

@@ -14,11 +14,12 @@ class PairGranInsitu;
 
 namespace grainscope {
 
-/** The grains of a ledger at one moment, on this rank, and what each would take with it if it left: its kinetic energy
- *  and what is stored in its contacts. */
+/** The grains of a ledger at one moment, on this rank, and the energy that each would take with it if it left: its
+ *  kinetic energy and the energy stored in its contacts. */
 class LedgerGrains {
  public:
-  /** What makes a set of grains differ from another, up to chance of 1 in 2^64: sums over ranks may be compared. */
+  /** A checksum of a set of grains: two different sets have the same one with probability 2^-64. Sums over ranks may be
+   *  compared. */
   static std::uint64_t mark(int tag) {
     const std::uint64_t number = static_cast<std::uint64_t>(tag) + 0x9e3779b97f4a7c15;
     return number * number;
@@ -28,14 +29,13 @@ class LedgerGrains {
     grains_.push_back({tag, kinetic});
     marks_ += mark(tag);
   }
-  /** What the contact history holds of the contacts of the last evaluation, between grains of the group and with
-   *  walls. */
+  /** The contacts of the last evaluation in the contact history, between grains of the group and with walls. */
   void read_contacts(LAMMPS_NS::LAMMPS *lmp, LAMMPS_NS::PairGranInsitu &pair, int groupbit);
 
   std::uint64_t marks() const { return marks_; }
   /** IDs of those that are not in `other`, on this rank. */
   std::vector<int> not_in(LedgerGrains &other);
-  /** What those of these IDs take with them. `work`: with that of half a step of their contacts. */
+  /** The energy that grains with these IDs take with them. `work`: with the work of half a step of their contacts. */
   EnergyLedger::Passage taken_by(const std::vector<int> &tags, bool work) const;
   void forget(const std::vector<int> &tags);
 

@@ -12,8 +12,8 @@ class LAMMPS;
 
 namespace grainscope {
 
-/** The weight that fixes of style gravity add to the force on each grain. Made when a run is set up. Where a fix relax
- *  is at work, which scales weights, none is known. */
+/** The weight that fixes gravity add to the force on each grain. Made when a run is set up. With a fix relax, which
+ *  scales weights, no weight is known. */
 class LedgerGravity {
  public:
   LedgerGravity() = default;

@@ -79,8 +79,8 @@ inline const double *LedgerMotion::momentum(int i, double place[3]) const {
   return place;
 }
 
-/** Angular momentum now, and angular velocity after the kick of the coming half step. Spheroids: from the angular
- *  momentum, which the integrators keep; the host's `velocity setAngular` leaves omega at odds with it. */
+/** Angular momentum now, and angular velocity after the kick of the next half step. For spheroids from the angular
+ *  momentum, which the integrators keep; `velocity setAngular` of LIGGGHTS does not change omega with it. */
 void LedgerMotion::coming_spin(const EnergyLedger::Grain &grain, double momentum[3], double omega_after[3]) const {
   const int i = grain.index;
   const double half = 0.5 * update->dt, *torque = grain.torque;

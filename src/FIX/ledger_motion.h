@@ -11,7 +11,7 @@
 
 namespace grainscope {
 
-/** Shows a ledger the grains of its group at the beginning and the end of a step, as the host moves them. */
+/** Gives a ledger the grains of its group at the beginning and the end of a step, as LIGGGHTS moves them. */
 class LedgerMotion : private LAMMPS_NS::Pointers {
  public:
   LedgerMotion(LAMMPS_NS::LAMMPS *lmp, int groupbit, const LedgerRequirements::Movers &movers)

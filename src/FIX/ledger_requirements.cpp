@@ -36,11 +36,11 @@ void LedgerRequirements::fail(const std::string &message) const {
 void LedgerRequirements::require_known_contacts(PairGranInsitu &pair) const {
   const ContactLaw &law = pair.law();
   if (!law.keeps_past())
-    fail("needs 'ledger on' in pair_style gran/insitu, which remembers what each contact stored, got '" +
+    fail("needs 'ledger on' in pair_style gran/insitu, which keeps the energy stored in each contact, got '" +
          pair.models() + "'");
   if (!law.why_no_energy().empty()) fail(law.why_no_energy());
   if (pair.renumbered())
-    fail("grains were given other IDs, and what is known of contacts goes by ID: say 'compress no' to delete_atoms");
+    fail("grains got new IDs, and the contact history is kept by ID: use 'delete_atoms ... compress no'");
 }
 
 std::vector<const ContactLaw *> LedgerRequirements::require_known_walls() const {
@@ -62,8 +62,8 @@ bool LedgerRequirements::shares_grains(int other_groupbit) const {
   return any;
 }
 
-/** Kinetic energy is booked as velocity Verlet moves it: every grain of the group by one such fix, or not at all
- *  (frozen). */
+/** Kinetic energy is booked as velocity Verlet changes it: every grain of the group must be moved by one such fix, or
+ *  not at all (frozen). */
 LedgerRequirements::Movers LedgerRequirements::require_moved_by_verlet() const {
   Movers movers;
   for (int k = 0; k < modify->nfix; k++) {
@@ -75,7 +75,7 @@ LedgerRequirements::Movers LedgerRequirements::require_moved_by_verlet() const {
     } else if (fix->time_integrate || fix->rigid_flag || strstr(fix->style, "multisphere") ||
                !strcmp(fix->style, "move")) {
       if (shares_grains(fix->groupbit))
-        fail(std::string("knows grains that are moved by fix nve/sphere, nve/superquadric or nve/spheroid, or frozen, "
+        fail(std::string("needs grains that are moved by fix nve/sphere, nve/superquadric or nve/spheroid, or frozen, "
                          "got fix ") +
              fix->id + " of style " + fix->style);
     }
@@ -96,8 +96,7 @@ void LedgerRequirements::require_flowing_box() const {
     const Fix *fix = modify->fix[k];
     if (!fix->box_change_size && !fix->box_change_shape) continue;
     const std::string which = std::string("fix ") + fix->id + " (" + fix->style + ")";
-    if (!domain->deform_vremap)
-      fail("needs a box that carries velocities along where it deforms, 'remap v', got " + which + " without");
+    if (!domain->deform_vremap) fail("needs 'remap v' where the box deforms, got " + which + " without it");
     if (domain->deform_groupbit != 1)
       fail("needs a box that deforms for the group all, got " + which + " for the group " + group->names[fix->igroup]);
   }

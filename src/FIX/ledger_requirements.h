@@ -14,8 +14,8 @@ namespace grainscope {
 
 struct ContactLaw;
 
-/** What the energy ledger of a group needs of contact models, fixes and box: what is not met ends the run.
- *  Collective. */
+/** What the energy ledger of a group requires of contact models, fixes and box. A requirement that is not met ends the
+ *  run. Collective. */
 class LedgerRequirements : private LAMMPS_NS::Pointers {
  public:
   /** `who`: for messages. */

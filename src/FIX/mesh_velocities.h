@@ -11,8 +11,8 @@ class TriMesh;
 
 namespace grainscope {
 
-/** The velocities of the moving meshes of a wall as they were in the last force evaluation: the host sets them to zero
- *  when a run begins, whatever the meshes do. Every rank keeps those of all triangles. */
+/** The velocities of the moving meshes of a wall in the last force evaluation. LIGGGHTS sets them to zero when a run
+ *  begins, even if the meshes move. Every rank keeps the velocities of all triangles. */
 class MeshVelocities : private LAMMPS_NS::Pointers {
  public:
   explicit MeshVelocities(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}

@@ -48,8 +48,8 @@ bool PressStrainForecast::grains_may_change() const {
                      [](const LAMMPS_NS::Fix *fix) { return !strncmp(fix->style, "insert/", 7); });
 }
 
-/** What flows slowly is dense: free grains without cohesion and rolling friction, sheared in one plane at a steady
- *  inertial number of at most 0.1 in a box that a controller of known gain moves along one edge. */
+/** Whether the flow is slow and therefore dense: free grains without cohesion and rolling friction, sheared in one
+ *  plane at a steady inertial number of at most 0.1, in a box that a controller of known gain moves along one edge. */
 bool PressStrainForecast::flows_slowly(const Grains &grains, int edge) const {
   using How = BoxMotion::How;
   const BoxMotion *plane = nullptr;

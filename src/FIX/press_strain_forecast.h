@@ -9,14 +9,15 @@ namespace grainscope {
 
 struct PressStrainSettings;
 
-/** Says when a run is set up whether the box that fix press/strain makes will be too small for contact history, which
- *  needs a height of h = 2 x the cutoff of neighbour lists. These grains fill the present cross section up to h with a
- *  solid fraction phi_h, and to hold a pressure they must come to touch:
- *    phi_h < 0.45: a slow flow (I <= 0.1) of grains without cohesion and rolling friction is denser than that (Bilotto
- *    et al. 2025, Sec. II, doi 10.1103/tj41-6qqk), and so the box would become lower than h: an error, if the run is
- *    long enough for it.
+/** Reports, when a run is set up, whether the box of fix press/strain will become too small for the contact history,
+ *  which needs a height of h = 2 x the cutoff of neighbour lists. The grains fill the present cross section up to h
+ *  with a solid fraction phi_h, and to hold a pressure they must come into contact:
+ *    phi_h < 0.45: a slow flow (I <= 0.1) of grains without cohesion and rolling friction is denser than that
+ *      (Bilotto et al. 2025, Sec. II, doi 10.1103/tj41-6qqk), so the box would become lower than h: an error, if the
+ *      run is long enough for it.
  *    phi_h < 0.64, of random close packings of spheres, 0.84 of discs: likely; a warning, once.
- *  Several edges under pressure are taken to shrink alike: a warning, once, where one would be lower than h then. */
+ *  Several edges under pressure are assumed to shrink alike: a warning, once, if one of them would become lower than h.
+ */
 class PressStrainForecast : private LAMMPS_NS::Pointers {
  public:
   PressStrainForecast(LAMMPS_NS::LAMMPS *lmp, const PressStrainSettings &settings)

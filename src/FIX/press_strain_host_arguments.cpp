@@ -14,7 +14,7 @@ PressStrainHostArguments::PressStrainHostArguments(LAMMPS_NS::LAMMPS *lmp, int n
   const auto has = [&given](const std::string &word) {
     return std::find(given.begin(), given.end(), word) != given.end();
   };
-  // What the host would refuse is refused in our own words, later.
+  // What LIGGGHTS would refuse is refused later, with our own message.
   const auto shrinks = [domain](int edge) { return domain->boundary[edge][0] >= 2 || domain->boundary[edge][1] >= 2; };
   for (int edge = 0; edge < domain->dimension; edge++)
     if ((has(std::string(1, "xyz"[edge])) || has("mean")) && !shrinks(edge)) move(std::string(1, "xyz"[edge]));

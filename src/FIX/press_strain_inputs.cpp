@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/** The inputs of fix press/strain: what stresses since the last one make of the rates. */
+/** The inputs of fix press/strain: new rates from the stresses averaged since the last input. */
 #include "contact_observer.h"
 #include "fluctuations.h"
 #include "press_strain_impl.h"
@@ -54,7 +54,7 @@ bool FixPressStrain::set_driven_rates(const NetworkResponse &mean) {
     clipped = clipped || input.clipped;
     return input.velocity;
   };
-  // Beside an edge that is driven the others have to go on moving.
+  // If one edge is driven, the others must keep moving.
   const bool edges_go_on = my.settings.drives_an_edge();
   const auto input = [&](int loop, double error, double resistance, double stiffness, double length, bool goes_on) {
     return book(loop, goes_on ? control.input_with_base(error, resistance, stiffness * interval, length, interval,
@@ -76,7 +76,7 @@ bool FixPressStrain::set_driven_rates(const NetworkResponse &mean) {
   return clipped;
 }
 
-/** What a loop's stress answers at most to the rates of all loops together, per unit rate of each. */
+/** Upper bound of the response of the stress of a loop to the rates of all loops together, per unit rate of each. */
 double FixPressStrain::resistance_of(const NetworkResponse &mean, int loop, double interval) const {
   // |answer of mode a| to the rates of all loops
   const auto answer = [&](int a) {
@@ -93,7 +93,7 @@ double FixPressStrain::resistance_of(const NetworkResponse &mean, int loop, doub
   return sum;
 }
 
-/** Of the mean pressure against the common rate. */
+/** Stiffness of the mean pressure against the common rate. */
 double FixPressStrain::mean_stiffness(const NetworkResponse &mean) const {
   double sum = 0.0;
   for (int a = 0; a < impl_->dimension; a++)
@@ -105,9 +105,9 @@ double FixPressStrain::mean_stiffness(const NetworkResponse &mean) const {
   return sum;
 }
 
-/** Of a shear: h sqrt(rho K), h the edge along its gradient, rho the mass per volume of the box: that of a time in
- *  which sound crosses the box. Tangential springs need not be damped, and inputs in step with their vibrations would
- *  feed them. Collective. */
+/** Additional resistance of a shear, h sqrt(rho K): h is the edge along its gradient, rho the mass per volume of the
+ *  box. It is the stiffness times the time in which sound crosses the box. Tangential springs may be undamped, and
+ *  inputs in phase with their vibrations would amplify them. Collective. */
 double FixPressStrain::inertial_resistance(const NetworkResponse &mean, int mode) const {
   double mass = 0.0;
   for (int i = 0; i < atom->nlocal; i++) mass += atom->rmass[i];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/** What fix press/strain tells. */
+/** The outputs of fix press/strain. */
 #include "press_strain_impl.h"
 
 using namespace LAMMPS_NS;
@@ -106,7 +106,7 @@ double FixPressStrain::Impl::main_target() const {
   return settings.has_mean ? settings.mean.value : edge >= 0 ? target_of(edge) : 0.0;
 }
 
-/** Whose length the first elements give: of the edge that is controlled, or else the first that moves. */
+/** The edge whose length the first elements give: the controlled edge, or else the first that moves. */
 int FixPressStrain::Impl::shown_edge() const {
   if (settings.main_edge() >= 0) return settings.main_edge();
   for (int k = 0; k < 3; k++)

@@ -21,7 +21,8 @@ using LAMMPS_NS::PrimitiveWall;
 
 namespace {
 
-/** Asked at a point that lies on no wall's axis or face; the host's own PrimitiveWall::axis() knows cylinders only. */
+/** Evaluated at a point that lies on no axis or face of a wall; PrimitiveWall::axis() of LIGGGHTS is right for
+ *  cylinders only. */
 bool pushes_along(PrimitiveWall *wall, int axis) {
   double point[3] = {0.1234567891, 0.2345678912, 0.3456789123}, push[3];
   wall->resolveContact(point, 0.0, push);
@@ -37,7 +38,7 @@ void PressStrainRequirements::require_controllable_box(const ShearedBox &box) co
       press_strain_error(lmp, std::string("cannot move box edges along '") + "xyz"[k] +
                                   "': the box must be periodic there" +
                                   (settings_.motions[k].how == BoxMotion::How::mean
-                                       ? std::string(" (or keep it, by '") + "xyz"[k] + " fixed')"
+                                       ? std::string(" (or keep it: '") + "xyz"[k] + " fixed')"
                                        : std::string()));
   for (const Tilt &tilt : tilts) {
     if (!settings_.motions[tilt.index].given) continue;
@@ -47,13 +48,13 @@ void PressStrainRequirements::require_controllable_box(const ShearedBox &box) co
     for (const Tilt &other : tilts)
       if (!settings_.motions[other.index].given && !takes_part(other) && box.tilt(other) != 0.0)
         press_strain_error(lmp, "with " + shear + " the tilt " + other.name + " must be 0, got " +
-                                    Arguments::text(box.tilt(other)) + " (or keep it, by 'shear " + other.name +
+                                    Arguments::text(box.tilt(other)) + " (or keep it: 'shear " + other.name +
                                     " fixed')");
   }
   require_alone();
 }
 
-/** A box that is sheared in xy and yz takes on the tilt xz. */
+/** A box that is sheared in xy and yz gets the tilt xz. */
 bool PressStrainRequirements::takes_part(const Tilt &tilt) const {
   return tilt.index == 4 && settings_.motions[5].given && settings_.motions[3].given;
 }
@@ -89,9 +90,8 @@ void PressStrainRequirements::require_known_stiffness() const {
   if (!settings_.control.automatic || settings_.controlled_modes(domain->dimension).empty()) return;
   const auto require = [this](const ContactLaw &law, const std::string &got) {
     if (!law.knows_stiffness())
-      press_strain_error(lmp, std::string("'gain auto' knows the stiffness of the normal models ") +
-                                  ContactLaw::elastic_models() + " only: give a number, or change the models of " +
-                                  got);
+      press_strain_error(lmp, std::string("'gain auto' works with the normal models ") + ContactLaw::elastic_models() +
+                                  " only: give a number, or change the models of " + got);
   };
   const LAMMPS_NS::PairGranInsitu *pair = LAMMPS_NS::PairGranInsitu::required_by(lmp, "fix press/strain");
   require(pair->law(), "pair_style gran/insitu, got '" + pair->law().models + "'");

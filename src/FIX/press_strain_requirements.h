@@ -14,8 +14,8 @@ struct PressStrainSettings;
 class ShearedBox;
 struct Tilt;
 
-/** What fix press/strain needs of the box and of other fixes: what is not met ends the run. In its constructor and
- *  before each run. */
+/** What fix press/strain requires of the box and of other fixes. A requirement that is not met ends the run. Checked in
+ *  the constructor and before each run. */
 class PressStrainRequirements : private LAMMPS_NS::Pointers {
  public:
   /** `fix`: press/strain itself. */

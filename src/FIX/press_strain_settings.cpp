@@ -158,7 +158,8 @@ PressStrainSettings::PressStrainSettings(LAMMPS_NS::LAMMPS *lmp, int narg, char 
 void PressStrainSettings::take_axis(const Arguments &errors, const Words &words, const std::set<std::string> &given) {
   const bool nothing = std::none_of(std::begin(motions), std::end(motions), [](const BoxMotion &m) { return m.given; });
   if (!given.count("axis") && !given.count("target")) {
-    if (nothing && !has_mean) errors.fail("nothing is to move: give 'axis' and 'target', x, y, z, 'mean' or 'shear'");
+    if (nothing && !has_mean)
+      errors.fail("no motion of the box is given: use 'axis' and 'target', 'x', 'y', 'z', 'mean' or 'shear'");
     return;
   }
   if (!given.count("axis")) errors.fail("'axis x', 'axis y' or 'axis z' is required");
@@ -271,7 +272,7 @@ void PressStrainSettings::evaluate_rates(LAMMPS_NS::LAMMPS *lmp) {
   }
   if (every == Every::strain && strain_rate(rates) == 0.0)
     press_strain_error(lmp, "'every' counts strain, and all rates are 0");
-  // Beside a driven edge another must be free to move as fast as both others at constant volume, and to dilate.
+  // If an edge is driven, another must be free to move as fast as both others at constant volume, and to dilate.
   const double fastest = std::max(of_shears, 3.0 * of_edges);
   if (!max_rate_given) control.max_rate = fastest > 0.0 ? fastest : HUGE_VAL;
 }

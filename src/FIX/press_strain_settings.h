@@ -56,12 +56,12 @@ struct PressStrainSettings {
   bool sheared() const;
   bool drives_an_edge() const;
   bool follows_variables() const;
-  /** Rate at which the strain grows that `every` counts, of the rates of the six modes: that of the planes with a rate
-   *  (of several the root of the sum of squares), or else the largest |rate| of a driven edge. Where nothing is driven
-   *  that of the shear that a stress makes, for the output. */
+  /** The rate of the strain that `every` counts, from the rates of the six modes: that of the planes with a rate (of
+   *  several the root of the sum of squares), or else the largest |rate| of a driven edge. If nothing is driven, the
+   *  rate of the shear that a stress causes, for the output. */
   double strain_rate(const double rates[number_of_box_modes]) const;
 
-  /** Values of variables now; errors where they are of no use. */
+  /** Evaluates variables; errors if their values are not valid. */
   void evaluate_rates(LAMMPS_NS::LAMMPS *lmp);
   void evaluate_targets(LAMMPS_NS::LAMMPS *lmp);
 

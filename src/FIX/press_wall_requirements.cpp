@@ -31,11 +31,11 @@ void PressWallRequirements::require_area() const {
   for (int k = 0; k < 3; k++) {
     if (k == axis || (k == 2 && domain->dimension == 2)) continue;
     const bool follows = std::max(domain->boundary[k][0], domain->boundary[k][1]) > last_that_stands;
-    const std::string why = follows                     ? "follows the grains along"
+    const std::string why = follows                     ? "is shrink-wrapped along"
                             : box.edges(axis, k) != 0.0 ? "is not at right angles to the axis along"
                                                         : "";
     if (!why.empty())
-      Arguments(lmp, who).fail("'area box' is not known, as the box " + why + " " + "xyz"[k] +
+      Arguments(lmp, who).fail("'area box' cannot be used, because the box " + why + " " + "xyz"[k] +
                                ": give the area of the plate");
   }
 }
@@ -45,9 +45,9 @@ void PressWallRequirements::require_known_stiffness() const {
   const std::vector<Wall> walls = walls_of(lmp);
   for (std::size_t k = 0; k < walls.size(); k++)
     if (mesh_.has(k) && walls[k].law && !walls[k].law->knows_stiffness())
-      Arguments(lmp, who).fail(std::string("'gain auto' knows the stiffness of the normal models ") +
-                               ContactLaw::elastic_models() + " only: give a number, or change the models of wall '" +
-                               walls[k].name + "', got '" + walls[k].law->models + "'");
+      Arguments(lmp, who).fail(std::string("'gain auto' works with the normal models ") + ContactLaw::elastic_models() +
+                               " only: give a number, or change the models of wall '" + walls[k].name + "', got '" +
+                               walls[k].law->models + "'");
 }
 
 double PressWallRequirements::side_of_grains(double toward, int groupbit) const {
@@ -80,11 +80,12 @@ void PressWallRequirements::require_slow_plate(double interval) const {
   const PressureControl &control = settings_.control;
   const Arguments errors(lmp, who);
   if (!std::isfinite(control.limit))
-    errors.fail("'limit' and a distance are required where there are no grains yet, whose size is its default");
+    errors.fail("'limit' and a distance are required: the default is the size of the grains, and there are none yet");
   const double step = update->dt * std::min(control.limit / interval, control.max_rate);
   if (step > 0.5 * neighbor->skin)
-    errors.fail("'limit' and 'maxrate' must let the plate move no further in a step than half of the neighbour skin, " +
-                Arguments::text(0.5 * neighbor->skin) + ", got " + Arguments::text(step));
+    errors.fail(
+        "'limit' and 'maxrate' must keep the motion of the plate in a step at or below half of the neighbour skin, " +
+        Arguments::text(0.5 * neighbor->skin) + ", got " + Arguments::text(step));
 }
 
 }

@@ -39,27 +39,28 @@ void PressedMesh::find(const FixMoveMesh *mover) {
     std::string list;
     for (const std::string &name : names) list += (list.empty() ? "" : ", ") + name;
     errors.fail("'mesh' must name a mesh of a fix wall/gran, got '" + name_ +
-                "': " + (list.empty() ? "there are none, define it after fix wall/gran" : "there are " + list) +
+                "': " + (list.empty() ? "there are none yet, define it after fix wall/gran" : "there are " + list) +
                 nearest_name(name_, names));
   }
   require_alone(mover);
   if (domain->periodicity[axis_])
     errors.fail(std::string("the box must not be periodic along 'axis ") + "xyz"[axis_] +
-                "', as grains would be on both sides of the plate");
+                "', because grains would be on both sides of the plate");
 }
 
 void PressedMesh::require_alone(const FixMoveMesh *mover) const {
   const Arguments errors(lmp, "fix press/wall");
   const std::string mesh = "mesh '" + name_ + "' ";
-  if (mesh_->triMesh()->isDeforming()) errors.fail(mesh + "changes its shape: a plate is moved as a whole");
-  if (mesh_->surfaceVel()) errors.fail(mesh + "has the velocity of a conveyor belt: a plate has that of its motion");
+  if (mesh_->triMesh()->isDeforming()) errors.fail(mesh + "deforms, but a plate must be rigid");
+  if (mesh_->surfaceVel())
+    errors.fail(mesh + "has the surface velocity of a conveyor belt, but a plate must have the velocity of its motion");
   for (int k = 0; k < modify->nfix; k++) {
     const FixMoveMesh *const other = dynamic_cast<FixMoveMesh *>(modify->fix[k]);
     if (other && other != mover && other->fixMeshCompare(mesh_))
-      errors.fail(mesh + "is moved by fix " + other->id + " too: one of them must go");
+      errors.fail(mesh + "is moved by fix " + other->id + " too: remove one of them");
   }
   if (mesh_->mesh()->nMove() != (mover ? 1 : 0))
-    errors.fail(mesh + "moves by itself (" + mesh_->style + "): take a fix mesh/surface or mesh/surface/stress");
+    errors.fail(mesh + "moves by itself (" + mesh_->style + "): use a fix mesh/surface or mesh/surface/stress");
 }
 
 void PressedMesh::keep_velocities() const {
@@ -101,7 +102,7 @@ void PressedMesh::move(double distance, FixMoveMesh *mover) {
         .fail("mesh '" + name_ + "' would leave the box, at " + "xyz"[axis_] + " = " +
               Arguments::text(below ? low_ + distance : high_ + distance) + " beyond " +
               Arguments::text(below ? domain->boxlo[axis_] : domain->boxhi[axis_]) +
-              ": make the box longer, or let its faces follow, 'boundary m'");
+              ": make the box longer, or use 'boundary m'");
   double step[3] = {0.0, 0.0, 0.0};
   step[axis_] = distance;
   mesh_->move(step, mover);

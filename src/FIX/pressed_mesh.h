@@ -14,7 +14,7 @@ class TriMesh;
 
 namespace grainscope {
 
-/** The mesh that fix press/wall moves along an axis, as a whole: what must be true of it, where it is, how fast. */
+/** The mesh that fix press/wall moves along an axis as a whole: its requirements, position and velocity. */
 class PressedMesh : private LAMMPS_NS::Pointers {
  public:
   PressedMesh(LAMMPS_NS::LAMMPS *lmp, std::string name, int axis)
@@ -27,7 +27,7 @@ class PressedMesh : private LAMMPS_NS::Pointers {
   /** Whether a contact with this wall, by PartnerWall::wall, is one with the mesh. */
   bool has(int wall) const { return is_mesh_[wall]; }
 
-  /** Makes the velocities of its nodes known to those who look at contacts. */
+  /** Gives its nodes the velocities that contacts use. */
   void keep_velocities() const;
   void set_velocity(double velocity) const;
 

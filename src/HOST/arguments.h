@@ -12,7 +12,8 @@ class LAMMPS;
 
 namespace grainscope {
 
-/** Ends the run on all ranks with `message`. Apart from what reads words, which the fuzzer takes without the host. */
+/** Ends the run on all ranks with `message`. In a file of its own, because the fuzzer builds the reader of words
+ *  without LIGGGHTS. */
 [[noreturn]] void end_run(LAMMPS_NS::LAMMPS *lmp, const std::string &message);
 
 /** The words of one command, read in order. Every error names the style, the keyword, the requirement and the value
@@ -39,7 +40,8 @@ class Arguments {
   /** The value that follows `keyword`, as one of `choices`. */
   std::string choice(const std::string &keyword, const std::vector<std::string> &choices);
   bool yes_or_no(const std::string &keyword) { return choice(keyword, {"yes", "no"}) == "yes"; }
-  /** A finite number, all of the word; `requirement` is said when it is none or `accept` is false for it. */
+  /** A finite number, the whole word. The error gives `requirement` if it is not one, or if `accept` is false for it.
+   */
   double number(const std::string &keyword, const std::string &requirement, bool (*accept)(double));
   /** A whole number from `low` to `high`. */
   int whole_number(const std::string &keyword, int low, int high);

@@ -19,7 +19,7 @@ using LAMMPS_NS::FixMultisphere;
 
 namespace {
 
-/** What ranks tell each other of a body. */
+/** The data of a body that ranks exchange. */
 enum {
   TAG,
   SPHERES,
@@ -52,14 +52,14 @@ Bodies::Bodies(LAMMPS_NS::LAMMPS *lmp, const std::string &style) : Pointers(lmp)
     LAMMPS_NS::Fix *const fix = modify->fix[k];
     if (is_rigid(fix))
       Arguments(lmp, style)
-          .fail("knows clumps of fix multisphere, not the bodies of fix " + std::string(fix->id) + " (" + fix->style +
-                "): they would count sphere by sphere");
+          .fail("works with clumps of fix multisphere, not with the bodies of fix " + std::string(fix->id) + " (" +
+                fix->style + "): each of their spheres would count as a grain");
     if (!multisphere(fix)) continue;
-    if (fix_) Arguments(lmp, style).fail("knows the clumps of one fix multisphere, got a second one");
+    if (fix_) Arguments(lmp, style).fail("works with one fix multisphere, got a second one");
     fix_ = dynamic_cast<FixMultisphere *>(fix);
   }
   if (fix_ && domain->dimension == 2)
-    Arguments(lmp, style).fail("knows the clumps of fix multisphere in three dimensions only");
+    Arguments(lmp, style).fail("works with clumps of fix multisphere in three dimensions only");
 }
 
 /** Of this rank's bodies. */
@@ -126,7 +126,7 @@ void Bodies::update(const BoxState &box, int groupbit) {
   require_whole(groupbit);
 }
 
-/** So that the nearest image of a clump's centre is the right one for each of its spheres. */
+/** Then the nearest image of the centre of a clump is the right one for each of its spheres. */
 void Bodies::require_small() const {
   const double diameter = 2.0 * fix_->max_r_bound();
   for (int k = 0; k < 3; k++)
@@ -140,7 +140,7 @@ void Bodies::require_small() const {
 void Bodies::require_lasting() const {
   if (dynamic_cast<LAMMPS_NS::FixMultisphereBreak *>(fix_))
     Arguments(lmp, style_)
-        .fail("follows clumps that last, not those of fix " + std::string(fix_->id) + " (" + fix_->style +
+        .fail("works with clumps that do not break, got those of fix " + std::string(fix_->id) + " (" + fix_->style +
               "), which may break");
 }
 
@@ -153,8 +153,8 @@ void Bodies::require_whole(int groupbit) const {
   for (std::size_t b = 0; b < all_.size(); b++)
     if (chosen[b] > 0.0 && chosen[b] < all_[b].spheres)
       Arguments(lmp, style_)
-          .fail("its group has " + Arguments::text(chosen[b]) + " of the " + Arguments::text(all_[b].spheres) +
-                " spheres of a clump (" + std::to_string(all_[b].tag) + "): a clump is in a group with all of them");
+          .fail("its group must hold all spheres of a clump or none, got " + Arguments::text(chosen[b]) + " of " +
+                Arguments::text(all_[b].spheres) + " spheres of clump " + std::to_string(all_[b].tag));
 }
 
 void Bodies::find_first_ids() {

@@ -32,19 +32,19 @@ struct Body {
   }
 };
 
-/** The clumps of the host's fix multisphere: of every sphere, the body that it is part of. Each clump counts as one
- *  grain, which stands where its sphere of the lowest ID does: that one's rank, group and memory are the clump's. Where
- *  there are no clumps nothing is done. */
+/** The clumps of LIGGGHTS's fix multisphere: for every sphere the body that it is part of. Each clump counts as one
+ *  grain, represented by its sphere with the lowest ID: the rank, group and memory of the clump are those of this
+ *  sphere. Without clumps nothing is done. */
 class Bodies : private LAMMPS_NS::Pointers {
  public:
   /** Finds the fix; errors in the name of `style` for two of them and for fix rigid, whose bodies are not known. */
   Bodies(LAMMPS_NS::LAMMPS *lmp, const std::string &style);
 
   bool any() const { return fix_; }
-  /** All bodies as they are now, on all ranks. Errors where the group has some spheres of a clump and not all, and
-   *  where a clump is larger than half the box along a periodic edge. Collective. */
+  /** All bodies in their present state, on all ranks. Errors if the group has some spheres of a clump but not all, and
+   *  if a clump is larger than half the box along a periodic edge. Collective. */
   void update(const BoxState &box, int groupbit);
-  /** Errors where clumps break, for what follows each of them by the sphere that stands for it. */
+  /** Errors if clumps may break, for measures that follow a clump by the sphere that represents it. */
   void require_lasting() const;
 
   /** Of local grain or ghost i: null where it is on its own. */
@@ -71,7 +71,7 @@ class Bodies : private LAMMPS_NS::Pointers {
 void require_known_bodies(LAMMPS_NS::LAMMPS *lmp, const std::string &style);
 /** Fix multisphere or rigid. */
 bool has_bodies(LAMMPS_NS::LAMMPS *lmp);
-/** Errors where there are clumps: what cannot be told of them. In init(). */
+/** An error if there are clumps; `why` says what they would do to the measure. In init(). */
 void require_no_bodies(LAMMPS_NS::LAMMPS *lmp, const Arguments &errors, const std::string &why);
 
 }

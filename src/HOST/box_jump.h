@@ -9,10 +9,10 @@
 
 namespace grainscope {
 
-/** The change of the velocities of the box's edges between two steps. A grain beyond a face that was wrapped before it
- *  has the velocity of its place in the box; one that is still to be wrapped takes on the new velocity of the face, and
- *  its contacts would never see the change. Given the change by place, n edges times the change of their velocities,
- *  where n is how many edges it lies outside, both are the same grain. */
+/** The change of the velocities of the box's edges between two steps. A grain beyond a face that was wrapped before the
+ *  change has the velocity of its place in the box. A grain that is still to be wrapped takes on the new velocity of
+ *  the face, and its contacts would never see the change. If the change is added by place (n edges times the change of
+ *  their velocities, where n is how many edges it lies outside), both are the same grain. */
 class BoxJump {
  public:
   /** `before`: the box of the step that ends, and the velocities of its edges in it. */

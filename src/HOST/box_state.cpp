@@ -29,8 +29,8 @@ BoxState::BoxState(LAMMPS_NS::LAMMPS *lmp) {
   cell_centre = corner + 0.5 * edges.rowwise().sum();
   centre = corner + 0.5 * edges.diagonal();
   if (dimension == 2) edges(2, 2) = 1.0;
-  // With `remap x` the host moves grains along with the box behind their velocities' back: these are then peculiar
-  // already.
+  // With `remap x` LIGGGHTS moves grains along with the box without a change of their velocities, which are therefore
+  // peculiar.
   if (domain->deform_vremap) edge_velocities = upper_triangular(domain->h_rate);
   velocity_gradient = edge_velocities * edges.inverse();
   volume = edges(0, 0) * edges(1, 1) * edges(2, 2);

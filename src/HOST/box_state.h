@@ -15,10 +15,10 @@ namespace grainscope {
 Eigen::Matrix3d upper_triangular(const double *h);
 
 /** The simulation box at one moment, and the affine flow of its grains about the middle of its edges, which neither
- *  tilts nor turning them back move. H holds the edge vectors in
- *  its columns, dH/dt their velocities; the velocity gradient is dH/dt H^-1 and includes the motion of a box edge that
- *  is being moved. Zero for a box that does not deform, or deforms without `remap v`. With `dimension 2` the third edge
- *  is one unit of length across the plane of the grains, however deep the host's box is, and does not repeat. */
+ *  tilts nor box flips move. H holds the edge vectors in its columns, dH/dt their velocities. The velocity gradient is
+ *  dH/dt H^-1 and includes the motion of an edge that is being moved. Zero for a box that does not deform, or deforms
+ *  without `remap v`. With `dimension 2` the third edge is one unit of length across the plane of the grains, whatever
+ *  the depth of the box, and is not periodic. */
 struct BoxState : AffineFlow {
   Eigen::Matrix3d edges = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d edge_velocities = Eigen::Matrix3d::Zero();

@@ -4,8 +4,9 @@
 
 namespace grainscope {
 
-/** A compute that follows grains in the moving box, and must know when `change_box` changes the box between runs: that
- *  is no motion of the grains, and no flow. Both are called on all ranks; in between grains may change ranks. */
+/** A compute that follows grains in the moving box and must know when `change_box` changes the box between runs: this
+ *  is neither a motion of the grains nor a flow. Both members are called on all ranks; between the calls grains may
+ *  change ranks. */
 class BoxWatcher {
  public:
   virtual ~BoxWatcher() = default;

@@ -12,12 +12,12 @@ void MixtureWarning::warn(LAMMPS_NS::LAMMPS *lmp, const std::string &style, cons
   if (warned_ || flat == 0.0 || flat == all) return;
   warned_ = true;
   if (lmp->comm->me != 0) return;
-  lmp->error->warning(FLERR,
-                      (style + ": group '" + group + "' mixes flat and long grains (" + Arguments::text(flat) +
-                       " and " + Arguments::text(all - flat) +
-                       "), whose axes stand for different things: 'axis long' or 'axis short' measures one kind, "
-                       "'axis symmetry' both together as now")
-                          .c_str());
+  lmp->error->warning(
+      FLERR, (style + ": group '" + group + "' mixes flat and long grains (" + Arguments::text(flat) + " and " +
+              Arguments::text(all - flat) +
+              "): the symmetry axis of a flat grain is its shortest, that of a long grain its longest. Use 'axis "
+              "short' or 'axis long' to measure one kind, or 'axis symmetry' to keep both together")
+                 .c_str());
 }
 
 }

@@ -9,8 +9,8 @@
 
 namespace grainscope {
 
-/** The axis that stands for a grain's orientation, and whether it is its longest, as of a prolate grain, or its
- *  shortest, as of an oblate one; without an index where it has none of that kind. */
+/** The axis that represents the orientation of a grain, and whether it is the longest axis, as for a prolate grain, or
+ *  the shortest, as for an oblate one; without an index if the grain has no such axis. */
 inline SymmetryAxis chosen_axis(const double *semi_axes, AxisChoice choice) {
   const SymmetryAxis own = symmetry_axis(semi_axes), none = {Shape::sphere, -1};
   if (choice == AxisChoice::symmetry) return own;
@@ -22,7 +22,7 @@ inline SymmetryAxis chosen_axis(const double *semi_axes, AxisChoice choice) {
   return {Shape::oblate, shortest};
 }
 
-/** Warns once of a group with flat and long grains, whose axes stand for different things. */
+/** Warns once of a group with flat and long grains, whose axes mean different things. */
 class MixtureWarning {
  public:
   /** `flat` of `all` grains that have an axis. All ranks may call; rank 0 prints. */

@@ -8,10 +8,10 @@ class LAMMPS;
 
 namespace grainscope {
 
-/** Whether grains bear the IDs that the host noted their contacts' springs under. `delete_atoms` renumbers the rest
- *  unless it has `compress no`, and the springs go to whom the old IDs now name. Detected by grains of which one knows
- *  the contact and the other does not. After grains were deleted, before the next run: later what the host noted may be
- *  old. Collective. */
+/** Whether grains have the IDs under which LIGGGHTS stored the springs of their contacts. `delete_atoms` renumbers
+ *  grains unless it has `compress no`, and the springs then belong to other grains. Detected by pairs of which one
+ *  grain knows the contact and the other does not. Call it after grains were deleted, before the next run: later the
+ *  stored IDs may be out of date. Collective. */
 bool contacts_know_their_grains(LAMMPS_NS::LAMMPS *lmp);
 
 }

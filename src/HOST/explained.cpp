@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "host_messages.h"
 #include "nearest_name.h"
+#include "outputs.h"
 #include "style_names.h"
 #include "compute.h"
 #include "error.h"
@@ -8,10 +9,12 @@
 #include "input.h"
 #include "lammps.h"
 #include "modify.h"
+#include "variable.h"
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <vector>
 
 using LAMMPS_NS::Input;
@@ -23,15 +26,15 @@ namespace {
 
 const char *formula = nullptr;
 
-/** The name of the current command is the host's own matter: a derived class may look. */
+/** Access to the name of the current command, which is protected in LIGGGHTS. */
 struct CurrentCommand : Input {
   static const char *of(Input *input) { return input->*(&CurrentCommand::command); }
 };
 
-/** One c_ID[i][j] or f_ID[i][j]. */
+/** One c_ID[i][j], f_ID[i][j] or v_ID. */
 struct Reference {
   std::string text, id;
-  bool compute;
+  char kind;  // c, f or v
   std::vector<int> indices;
 
   bool operator==(const Reference &other) const { return text == other.text; }
@@ -43,10 +46,11 @@ std::vector<Reference> references_in(const std::string &text) {
     return k < text.size() && (std::isalnum(static_cast<unsigned char>(text[k])) || text[k] == '_');
   };
   for (std::size_t at = 0; at + 2 < text.size(); at++) {
-    if ((text[at] != 'c' && text[at] != 'f') || text[at + 1] != '_' || (at > 0 && in_name(at - 1))) continue;
+    const bool is_kind = text[at] == 'c' || text[at] == 'f' || text[at] == 'v';
+    if (!is_kind || text[at + 1] != '_' || (at > 0 && in_name(at - 1))) continue;
     std::size_t end = at + 2;
     while (in_name(end)) end++;
-    Reference one{"", text.substr(at + 2, end - at - 2), text[at] == 'c', {}};
+    Reference one{"", text.substr(at + 2, end - at - 2), text[at], {}};
     while (end < text.size() && text[end] == '[') {
       one.indices.push_back(std::atoi(text.c_str() + end + 1));
       end = std::min(text.find(']', end), text.size() - 1) + 1;
@@ -97,26 +101,59 @@ struct Description {
 
 template <class Owner>
 Description describe(const Reference &r, Owner **owners, int n) {
-  const char *kind = r.compute ? "compute" : "fix";
+  const char *kind = r.kind == 'c' ? "compute" : "fix";
   std::vector<std::string> ids;
   for (int k = 0; k < n; k++) {
     const Owner &owner = *owners[k];
     ids.push_back(owner.id);
-    if (r.id == owner.id)
-      return {r.text + ": " + kind + " " + r.id + " (" + owner.style + ") gives " + what_there_is(owner),
-              may_fit(r, owner)};
+    if (r.id != owner.id) continue;
+    const auto *const declared = dynamic_cast<const DeclaresOutputs *>(owners[k]);
+    const std::string style = declared ? declared->declared_style() : owner.style;
+    const std::string named = declared ? ", listed by 'outputs " + r.id + "' and in " + declared->page() : "";
+    return {r.text + ": " + kind + " " + r.id + " (" + style + ") gives " + what_there_is(owner) + named,
+            may_fit(r, owner)};
   }
   return {r.text + ": there is no " + kind + " '" + r.id + "'" + nearest_name(r.id, ids), false};
 }
 
-/** What the references of the formula or command may give: of those that cannot be right, where there are any. */
+/** The computes and fixes whose outputs have names, by ID. */
+template <class Owner>
+void add_declared(Owner **owners, int n, std::map<std::string, const DeclaresOutputs *> &all) {
+  for (int k = 0; k < n; k++)
+    if (const auto *const declared = dynamic_cast<const DeclaresOutputs *>(owners[k])) all[owners[k]->id] = declared;
+}
+
+/** A variable that does not exist: the command `outputs` may define it, or one of nearly the same name. */
+std::string describe_missing_variable(const std::string &name, const LAMMPS_NS::Modify &modify) {
+  std::map<std::string, const DeclaresOutputs *> all;
+  add_declared(modify.compute, modify.ncompute, all);
+  add_declared(modify.fix, modify.nfix, all);
+  std::vector<std::string> names;
+  std::string defined_by;
+  for (const auto &one : all) {
+    if (name.rfind(one.first + "_", 0) == 0)
+      defined_by = "'outputs " + one.first + "' defines variables for all its outputs (" + one.second->page() + ")";
+    for (const OutputList *list : {&one.second->outputs().scalar, &one.second->outputs().vector})
+      for (const NamedOutput &output : *list) names.push_back(one.first + "_" + output.name);
+  }
+  const bool exact = std::find(names.begin(), names.end(), name) != names.end();
+  const std::string nearest = exact ? "" : nearest_name(name, names);
+  return "v_" + name + ": there is no variable '" + name + "'" + nearest +
+         (defined_by.empty() ? "" : (nearest.empty() ? ": " : " ") + defined_by);
+}
+
+/** What the references of the formula or command may give; if some of them cannot be right, only these. */
 std::string about_outputs(LAMMPS *lmp) {
   std::string text = formula ? formula : "";
   for (int k = 0; !formula && k < lmp->input->narg; k++) text += std::string(" ") + lmp->input->arg[k];
   const LAMMPS_NS::Modify &modify = *lmp->modify;
   std::vector<Description> all;
-  for (const Reference &r : references_in(text))
-    all.push_back(r.compute ? describe(r, modify.compute, modify.ncompute) : describe(r, modify.fix, modify.nfix));
+  for (const Reference &r : references_in(text)) {
+    const bool exists = r.kind == 'v' && lmp->input->variable->find(const_cast<char *>(r.id.c_str())) >= 0;
+    if (r.kind == 'c') all.push_back(describe(r, modify.compute, modify.ncompute));
+    else if (r.kind == 'f') all.push_back(describe(r, modify.fix, modify.nfix));
+    else if (!exists) all.push_back({describe_missing_variable(r.id, modify), false});
+  }
   const bool all_fit = std::all_of(all.begin(), all.end(), [](const Description &one) { return one.fits; });
   std::string listed;
   int number = 0;
@@ -167,7 +204,8 @@ std::string explained(LAMMPS *lmp, const char *message) {
                                             "Fix ID for",
                                             "Invalid compute ID",
                                             "Invalid fix ID",
-                                            "must be an index",
+                                            "ariable name",
+                                            "index in brackets must",
                                             "between brackets in variable",
                                             "variable brackets must be positive"};
   const auto contains = [&text](const char *words) { return text.find(words) != std::string::npos; };
@@ -183,9 +221,8 @@ int index_in_brackets(LAMMPS *lmp, const char *brackets) {
   const char *digits = brackets + 1, *end = digits + std::strspn(digits, "0123456789");
   const int index = end - digits < 10 ? std::atoi(digits) : 0;
   if (index < 1 || std::strcmp(end, "]") != 0)
-    lmp->error->all(
-        FLERR, ("what is in brackets must be an index, a whole number from 1 up, got '" + std::string(brackets) + "'")
-                   .c_str());
+    lmp->error->all(FLERR,
+                    ("the index in brackets must be a whole number >= 1, got '" + std::string(brackets) + "'").c_str());
   return index;
 }
 

@@ -247,7 +247,7 @@ FieldQuantities::FieldQuantities(const Arguments &errors, const std::vector<std:
   std::string known = "all";
   for (const Quantity &one : all()) known += ", " + std::string(one.name);
   for (const std::string &name : names) {
-    if (std::count(names.begin(), names.end(), name) > 1) errors.fail("'quantities' has '" + name + "' twice");
+    if (std::count(names.begin(), names.end(), name) > 1) errors.fail("'quantities' names '" + name + "' twice");
     const auto same = [&name](const Quantity &one) { return name == one.name; };
     const auto found = std::find_if(all().begin(), all().end(), same);
     if (found == all().end()) errors.fail("quantities", known, name);

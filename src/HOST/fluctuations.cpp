@@ -32,7 +32,7 @@ void sum_over_ranks(const LAMMPS_NS::LAMMPS *lmp, double *values, int n) {
 
 void require_layers(LAMMPS_NS::LAMMPS *lmp, const std::string &who, double grains) {
   require_finite(lmp, who, grains, "the positions",
-                 "grains are not finite, so that no layer holds them: look at what moves or pushes them");
+                 "grains are not finite, so they belong to no layer: check what moves or pushes them");
 }
 
 void MeanFlow::read(Arguments &arguments) {
@@ -165,7 +165,7 @@ void Fluctuations::find_layers(const BoxState &box, const MeanFlow &flow) {
   require_layers(lmp_, flow.kind == MeanFlow::Kind::cells ? "flow cells" : "flow layers", outside);
 }
 
-/** Of all grains, without their spins: what the pressure is measured with in every step. */
+/** For all grains, without their spins: the pressure uses it in every step. */
 void Fluctuations::find_mean_velocity() {
   double mass = 0.0;
   Vector3d momentum = Vector3d::Zero();
@@ -225,8 +225,8 @@ MomentumFlux MomentumFlux::of(LAMMPS_NS::LAMMPS *lmp, const ChosenGrains &chosen
   return {symmetric_tensor(flux.data()), sums[4]};
 }
 
-/** Takes the gradient out that fits best: v = u + L (x - <x>), least squares by mass. Where grains do not spread along
- *  an axis, as in two dimensions, nothing is known along it: the smallest gradient that fits. */
+/** Subtracts the gradient that fits best: v = u + L (x - <x>), least squares by mass. If grains do not extend along an
+ *  axis, as in two dimensions, nothing is known along it: the smallest gradient that fits. */
 void Fluctuations::subtract_gradient() {
   double first[7] = {};  // m x, m v, m
   for (const Grain &g : local_) {
@@ -254,7 +254,7 @@ void Fluctuations::subtract_gradient() {
   for (Grain &g : local_) g.u -= gradient_ * (place(g) - middle);
 }
 
-/** Takes the slope of the fitted line out; its height goes with the mean. */
+/** Subtracts the slope of the fitted line; its height is subtracted with the mean. */
 void Fluctuations::subtract_line(int gradient) {
   double first[5] = {};  // m y, m v, m
   for (const Grain &g : local_) {

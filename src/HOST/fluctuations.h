@@ -28,9 +28,9 @@ struct ChosenGrains {
       : who(who), groupbit(groupbit), region(region) {}
 };
 
-/** What is taken for the mean flow: the affine flow of the box; nothing; a given rate; the straight line fitted to the
- *  velocities; the velocity gradient fitted to them; the mean of each of `layers` layers across the gradient; or of
- *  each cell of the box. The grains' mean (by mass) is taken out in each case. */
+/** The mean flow: the affine flow of the box; none; a given rate; the straight line fitted to the velocities; the
+ *  velocity gradient fitted to them; the mean of each of `layers` layers across the gradient; or the mean of each cell
+ *  of the box. In each case the mean velocity of the grains (by mass) is subtracted. */
 struct MeanFlow {
   enum class Kind { box, none, rate, fit, gradient, layers, cells } kind = Kind::box;
   double rate = 0.0;
@@ -62,9 +62,9 @@ class Fluctuations {
   /** Against the affine flow of the box; spins are not asked for. */
   Fluctuations(LAMMPS_NS::LAMMPS *lmp, const ChosenGrains &chosen, const BoxState &box);
   Fluctuations(LAMMPS_NS::LAMMPS *lmp, const ChosenGrains &chosen, const BoxState &box, const MeanFlow &flow);
-  /** Of what grains have come by, in place of velocities: `moved` holds it as u, less the flow of the box where the
-   *  mean flow is of box, layers or cells; `places`, by local index, where. `flow rate` is a strain here. Spins are not
-   *  asked for. */
+  /** For displacements in place of velocities. `moved` holds u: the displacement, less the flow of the box where the
+   *  mean flow is box, layers or cells; `places`: positions by local index. `flow rate` is a strain here. Spins are not
+   *  available. */
   Fluctuations(LAMMPS_NS::LAMMPS *lmp, const std::string &who, std::vector<Grain> moved,
                std::vector<Eigen::Vector3d> places, const BoxState &box, const MeanFlow &flow);
 
@@ -116,8 +116,8 @@ class Fluctuations {
   void find_means();
 };
 
-/** Sum of m dv dv of grains against the affine flow of the box, less their mean: what Fluctuations say, and faster
- *  where all grains are counted. */
+/** Sum of m dv dv of grains relative to the affine flow of the box, less their mean: the same as Fluctuations, and
+ *  faster when all grains are counted. */
 struct MomentumFlux {
   Eigen::Matrix3d sum;
   double grains;  // how many; both over all ranks

@@ -73,7 +73,7 @@ InternalFix *ComputeFix::find(LAMMPS *lmp, const char *compute) const {
   InternalFix *fix = InternalFix::find(lmp, id(compute), style);
   if (!fix)
     lmp->error->all(FLERR, ("fix " + id(compute) + ", which " + holds + " of compute " + compute +
-                            ", is gone: uncompute it and compute again")
+                            ", no longer exists: uncompute it and define it again")
                                .c_str());
   return fix;
 }

@@ -9,8 +9,8 @@
 
 namespace grainscope {
 
-/** A fix that another style makes for itself: the memory of a compute, the guard of a run. A line of an input script
- *  makes none, as it would replace what is remembered. All members that make or delete one are collective. */
+/** A fix that another style makes for itself: the memory of a compute, the guard of a run. An input script cannot make
+ *  one, because it would replace what is remembered. All members that make or delete one are collective. */
 class InternalFix : public LAMMPS_NS::Fix {
  public:
   /** Words of the command: ID, group, style, further ones. */

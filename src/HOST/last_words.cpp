@@ -19,7 +19,7 @@ namespace {
 std::string log_path, screen_path;  // absolute: the input script may change the folder
 LAMMPS *running = nullptr;
 
-/** Whether two open files, given by descriptor or path, are one place that output can be read at. */
+/** Whether two open files, given by descriptor or path, are the same place. */
 bool same_place(const std::string &a, const std::string &b) {
   struct stat first, second, nowhere;
   if (stat(a.c_str(), &first) || stat(b.c_str(), &second)) return false;
@@ -39,7 +39,7 @@ bool is_launcher(const std::string &process) {
   return false;
 }
 
-/** Whether who sees stdout sees stderr too. */
+/** Whether stderr is seen where stdout is seen. */
 bool one_stream() {
   const std::string self = "/proc/self", parent = "/proc/" + std::to_string(getppid());
   for (const std::string &process : {self, parent})
@@ -61,7 +61,8 @@ std::string absolute(const std::string &path) {
   return path[0] != '/' && getcwd(folder, sizeof folder) ? std::string(folder) + "/" + path : path;
 }
 
-/** In place of the host's own: a rank that aborts alone leaves the others waiting, and what they had to say unsaid. */
+/** In place of the handler of LIGGGHTS: a rank that aborts alone leaves the others waiting, and their output unwritten.
+ */
 [[noreturn]] void report_exception() {
   std::string what = "unknown";
   try {

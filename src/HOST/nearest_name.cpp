@@ -7,7 +7,7 @@ namespace grainscope {
 
 namespace {
 
-/** Letters put in, left out, exchanged or swapped with their neighbour. */
+/** Number of letters that are inserted, left out, replaced or swapped with their neighbour. */
 int distance(const std::string &a, const std::string &b) {
   std::vector<int> before, last(b.size() + 1), row(b.size() + 1);
   std::iota(last.begin(), last.end(), 0);

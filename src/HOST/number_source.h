@@ -9,8 +9,8 @@ namespace grainscope {
 
 class Arguments;
 
-/** A positive number that an input script gives: as it stands, or as an equal-style variable that is evaluated when it
- *  is asked for. */
+/** A positive number of an input script: a number, or an equal-style variable that is evaluated when the number is
+ *  needed. */
 class NumberSource : private LAMMPS_NS::Pointers {
  public:
   /** For messages: the style, the keyword, and all that may follow it. */

@@ -17,6 +17,11 @@ std::string replaced(std::string text, const std::string &word) {
   return text;
 }
 
+std::string page_of(const std::string &kind, std::string style) {
+  std::replace(style.begin(), style.end(), '/', '_');
+  return "doc/" + kind + "_" + style + ".md";
+}
+
 int flagged_extensive(const NamedOutput &output) { return output.extent == Extent::extensive; }
 
 }
@@ -60,6 +65,7 @@ void DeclaresOutputs::set_flags(Style *style) {
 void DeclaresOutputs::declare(LAMMPS_NS::Compute *compute, const Outputs &outputs) {
   outputs_ = outputs;
   style_ = compute->style;
+  page_ = page_of("compute", style_);
   set_flags(compute);
   if (!outputs.vector.empty()) {
     vector_.assign(outputs.vector.size(), 0.0);
@@ -87,6 +93,7 @@ void DeclaresOutputs::declare(LAMMPS_NS::Compute *compute, const Outputs &output
 void DeclaresOutputs::declare(LAMMPS_NS::Fix *fix, const std::string &style, const Outputs &outputs) {
   outputs_ = outputs;
   style_ = style;
+  page_ = page_of("fix", style_);
   set_flags(fix);
 }
 

@@ -56,6 +56,8 @@ class DeclaresOutputs {
   virtual ~DeclaresOutputs() {}
   const Outputs &outputs() const { return outputs_; }
   const std::string &declared_style() const { return style_; }
+  /** The page that explains them: "doc/compute_stress_contact.md". */
+  const std::string &page() const { return page_; }
 
  protected:
   /** In the constructor. A fix may have another style to LIGGGHTS. */
@@ -85,7 +87,7 @@ class DeclaresOutputs {
 
  private:
   Outputs outputs_;
-  std::string style_;
+  std::string style_, page_;
   std::vector<double> vector_;
   std::vector<int> extensive_;  // of each element, where they differ
   Rows rows_;

@@ -4,7 +4,7 @@
 
 // clang-format off
 /** GRAINSCOPE_PRIVATE_MEMBER(RegSphere, double, radius) makes a function radius_of(RegSphere *) that gives the private
- *  member `radius` of a class of the host that has no other way to tell it. The names in an explicit instantiation may
+ *  member `radius` of a class of LIGGGHTS that has no accessor for it. The names in an explicit instantiation may
  *  be private (ISO C++17, [temp.spec]/6). In an unnamed namespace of one source file. */
 #define GRAINSCOPE_PRIVATE_MEMBER(Class, Type, member)                                                 \
   struct Class##_##member {                                                                            \

@@ -132,7 +132,7 @@ bool shape_at_rest(const Domain &domain, Region *region, Solid &solid, std::stri
   } else {
     const bool all = dynamic_cast<RegUnion *>(region), shared = dynamic_cast<RegIntersect *>(region);
     if (!all && !shared) {
-      why = "lines are cut by block, prism, plane, sphere, cylinder, cone, and unions and common parts of these, got "
+      why = "it must be a block, prism, plane, sphere, cylinder or cone, or a union or intersection of these, got "
             "style " +
             std::string(region->style);
       return false;

@@ -16,7 +16,7 @@ namespace grainscope {
 /** Of a union or a common part of regions of the host; no others have any. */
 std::vector<LAMMPS_NS::Region *> members_of(const LAMMPS_NS::Domain &domain, LAMMPS_NS::Region *region);
 
-/** A prism that is INF on one side alone: along edges of length 1e20 the host cannot tell where it ends. */
+/** A prism that is INF on one side only: with edges of length 1e20 LIGGGHTS loses its other bound. */
 bool ends_are_unseen(LAMMPS_NS::Region *region);
 
 /** The shape of a region at its place in the step, after its variables were asked; false and the reason where it is of

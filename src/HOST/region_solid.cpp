@@ -35,17 +35,16 @@ void RegionSolid::init() {
   first_step_ = lmp->update->firststep;
 }
 
-/** Errors where the host itself is wrong about what is inside. */
+/** Errors where LIGGGHTS itself is wrong about what is inside. */
 void RegionSolid::require_sound(Region *region) const {
   for (Region *member : members_of(*domain, region)) require_sound(member);
   if (ends_are_unseen(region))
     Arguments(lmp, style_)
         .fail("region '" + std::string(region->id) +
-              "': LIGGGHTS does not see where a prism ends that is INF on one side alone: give it two bounds, or two "
-              "INF");
+              "': LIGGGHTS ignores the bound of a prism that is INF on the other side: give two bounds or two INF");
 }
 
-/** The host asks a region's variables where it comes to need them, perhaps not on all ranks: here they are asked. */
+/** LIGGGHTS evaluates the variables of a region where it needs them, perhaps not on all ranks: here all ranks do. */
 void RegionSolid::evaluate(Region *region) const {
   for (Region *member : members_of(*domain, region)) evaluate(member);
   if (new_run_) region->prematch();  // variables may be others since the last run, which ended in the same step
@@ -120,7 +119,7 @@ void RegionSolid::require_known(bool known, const std::string &why) const {
   if (!known) Arguments(lmp, style_).fail("region '" + id_ + "': " + why);
 }
 
-/** Across a face that follows the grains the region goes on, by `beyond` lengths of the box. */
+/** Beyond a shrink-wrapped face the region continues, by `beyond` lengths of the box. */
 bool RegionSolid::volume_within(double beyond, double &value, std::string &why) const {
   Vector3d corner = box_.centre - 0.5 * box_.edges.rowwise().sum();
   Matrix3d edges = box_.edges;
@@ -145,10 +144,10 @@ bool RegionSolid::volume(double &value, std::string &why) const {
   if (!volume_within(100.0, value, why)) return false;
   double further = value;
   if (domain->nonperiodic == 2 && (!volume_within(200.0, further, why) || std::fabs(further - value) > 1e-9 * value)) {
-    why = "it does not end where the box follows the grains, boundary s or m: bounds instead of INF and EDGE";
+    why = "it has no end where the box is shrink-wrapped, boundary s or m: give bounds instead of INF and EDGE";
     return false;
   }
-  if (!(value > 0.0)) Arguments(lmp, style_).fail("region '" + id_ + "': nothing of it lies in the box");
+  if (!(value > 0.0)) Arguments(lmp, style_).fail("region '" + id_ + "': no part of it lies in the box");
   return true;
 }
 

@@ -15,8 +15,8 @@ class Region;
 
 namespace grainscope {
 
-/** A region of the host: what is in it, by the host's own rule, and its shape as far as it is known, at its place in
- *  the step. A region that sticks out of a periodic box ends at its faces. */
+/** A region of LIGGGHTS: what is inside, by the rule of LIGGGHTS, and its shape as far as it is known, at its place in
+ *  the step. A region that extends beyond a periodic box ends at its faces. */
 class RegionSolid : private LAMMPS_NS::Pointers {
  public:
   /** `style` for messages. An error when there is no region of that ID. */
@@ -32,10 +32,10 @@ class RegionSolid : private LAMMPS_NS::Pointers {
   bool has(const Eigen::Vector3d &x) const;
   /** The share of a line that lies inside, from 0 to 1; of a line across periodic faces each part where it belongs. */
   double part(const Eigen::Vector3d &from, const Eigen::Vector3d &to) const;
-  /** Errors where the shape is not known by which lines are cut, from now on whenever it is found again. */
+  /** From now on an error, whenever the region is found again, if the shape by which lines are cut is not known. */
   void require_parts();
-  /** Of what lies in the box, in two dimensions the area in the plane of the grains; false where it is not known, and
-   *  why; an error where there is none. */
+  /** The volume of the part inside the box, in two dimensions the area in the plane of the grains. False, with the
+   *  reason, if it is not known; an error if there is none. */
   bool volume(double &value, std::string &why) const;
 
  private:

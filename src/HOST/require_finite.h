@@ -8,8 +8,8 @@
 
 namespace grainscope {
 
-/** Ends the run unless `count`, a number over all ranks, is 0. The message names the step, and says `what` of how many:
- *  `what` "the positions", `of` "grains are not finite: look at what moves them". */
+/** Ends the run unless `count`, a number over all ranks, is 0. The message gives the step, `what`, the count and `of`:
+ *  `what` "the positions", `of` "grains are not finite: check what moves them". */
 inline void require_finite(LAMMPS_NS::LAMMPS *lmp, const std::string &who, double count, const std::string &what,
                            const std::string &of) {
   if (count == 0.0) return;

@@ -18,9 +18,9 @@ inline void require_grains(LAMMPS_NS::LAMMPS *lmp, const Arguments &errors) {
   require_grains_of_dimension(lmp, errors);
 }
 
-/** Errors unless there is a box: the host makes no fix before, and a memory of grains is one. */
+/** Errors unless there is a box: LIGGGHTS makes no fix before, and the memory of grains is a fix. */
 inline void require_box(LAMMPS_NS::LAMMPS *lmp, const Arguments &errors) {
-  if (!lmp->domain->box_exist) errors.fail("remembers what grains did: define it after the simulation box");
+  if (!lmp->domain->box_exist) errors.fail("keeps data of each grain: define it after the simulation box");
 }
 
 }

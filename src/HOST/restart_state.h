@@ -12,9 +12,9 @@
 
 namespace grainscope {
 
-/** How fixes keep their state in restart files. `State` is a struct of numbers with `static constexpr std::uint32_t
- *  version`, raised whenever its members, or their meaning, change: a file of another version is refused, with both.
- *  `tail`: what has no fixed length; the state says how long it is. */
+/** The state of fixes in restart files. `State` is a struct of numbers with `static constexpr std::uint32_t version`,
+ *  which is raised whenever its members, or their meaning, change: a file of another version is refused, with both
+ *  versions. `tail`: data without a fixed length; the state holds the length. */
 template <class State>
 void write_state(std::FILE *file, const State &state, const void *tail = nullptr, std::size_t tail_size = 0) {
   static_assert(std::is_trivially_copyable<State>::value, "a restart file holds bytes");

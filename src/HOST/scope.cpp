@@ -92,14 +92,14 @@ void Scope::init() {
   for (int type : {types_.a, types_.b})
     if (type > atom->ntypes)
       Arguments(lmp, style_)
-          .fail("types", "at most " + std::to_string(atom->ntypes) + ", the atom types that there are",
+          .fail("types", "at most " + std::to_string(atom->ntypes) + ", the number of atom types",
                 std::to_string(type));
   volume_.init();
   if (region_) init_region();
   else if ((keywords_ & volume) && !volume_given_) warn_of_whole_box();
 }
 
-/** What will be asked of the region must be known. */
+/** What is needed of the region must be known. */
 void Scope::init_region() {
   region_->init();
   if (!(keywords_ & volume)) return;
@@ -113,7 +113,7 @@ double Scope::volume_of_region() const {
   double value = 0.0;
   std::string why;
   if (!region_->volume(value, why))
-    Arguments(lmp, style_).fail("the volume of the region is not known (" + why + "): give it, 'volume V'");
+    Arguments(lmp, style_).fail("the volume of the region is not known (" + why + "): give 'volume V'");
   return value;
 }
 
@@ -134,9 +134,10 @@ void Scope::warn_of_whole_box() {
   if (warned_ || (may_be_filled && !has_gravity_or_walls(*modify))) return;
   warned_ = true;
   if (comm->me == 0)
-    error->warning(FLERR, (style_ + ": stresses are per volume of the whole box, and grains need not fill one that "
-                                    "is not periodic, or has walls or gravity: say 'region ID' or 'volume V' of what "
-                                    "they fill, or 'volume auto' where the box is meant")
+    error->warning(FLERR, (style_ +
+                           ": stresses are divided by the volume of the whole box, and grains may not fill a box that "
+                           "is not periodic or has walls or gravity: give 'region ID' or 'volume V' of the part that "
+                           "they fill, or 'volume auto' if the box is meant")
                               .c_str());
 }
 

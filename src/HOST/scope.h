@@ -31,14 +31,14 @@ struct TypePair {
 /** Which of a body's axes stands for its orientation. */
 enum class AxisChoice { symmetry, longest, shortest };
 
-/** What a measure is of, beside its group: keywords that have one meaning in all measures and are read in one place.
+/** What a measure covers besides its group: keywords with one meaning in all measures, read in one place.
  *
- *    region ID        what lies in a region of the host, which may move
+ *    region ID        the part in a region of LIGGGHTS, which may move
  *    types a b        contacts of atom types a and b, each a number or *
- *    rows types       beside the totals, an array with a row for each pair of types
+ *    rows types       besides the totals, an array with a row for each pair of types
  *    walls no|yes|only
- *    volume auto|V|v_name   what stresses and densities are per: the region's or the box's, an area in
- *                           two dimensions
+ *    volume auto|V|v_name   by which stresses and densities are divided: of the region or the box,
+ *                           an area in two dimensions
  *    plane xy|xz|yz   flow and gradient
  *    pressure x|y|z|mean    -sigma_aa or -tr sigma/dimension; default: a is the gradient of the plane
  *    axis auto|symmetry|long|short */
@@ -63,8 +63,8 @@ class Scope : private LAMMPS_NS::Pointers {
   std::vector<std::string> with(std::vector<std::string> own) const;
   /** Reads what follows `keyword` when it is a shared one. */
   bool read(Arguments &arguments, const std::string &keyword);
-  /** Before each run: errors when a type or a variable is not there; a warning, once, where stresses are per volume of
-   *  a box that grains need not fill and nobody said so. */
+  /** Before each run: errors if a type or a variable does not exist; a warning, once, if stresses are divided by the
+   *  volume of a box that grains may not fill, by default. */
   void init();
 
   /** Before use in a step: a region may move. Collective. */
@@ -81,9 +81,9 @@ class Scope : private LAMMPS_NS::Pointers {
   void choose_walls(Walls which) { walls_ = which; }
   const Plane &shear_plane() const { return plane_; }
   AxisChoice axis_choice() const { return axis_; }
-  /** Nobody said which axis, so that long and flat grains in one group are worth a warning. */
+  /** No axis was given: a group with both long and flat grains gets a warning. */
   bool axis_is_automatic() const { return axis_is_automatic_; }
-  /** What stresses and densities are per, after update(). Collective. */
+  /** The volume by which stresses and densities are divided, after update(). Collective. */
   double volume_now(const BoxState &box) const;
   /** -sigma_aa, or -tr sigma/dimension, tension positive. */
   template <class Tensor>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/** A program that is started without mpirun. Open MPI 4 would start a daemon beside it, and both use a directory in
- *  /tmp that all processes of a user share: one that ends removes it under another that starts, which then ends with
- *  exit code 1. A program alone needs neither. Set before main and MPI_Init; other MPIs and Open MPI 5 do not read
- *  these variables, and a user's own values stay. */
+/** A program that is started without mpirun. Open MPI 4 would start a daemon with it, and both use a directory in /tmp
+ *  that all processes of a user share. A process that ends removes the directory while another starts, which then ends
+ *  with exit code 1. A single process needs neither. Set before main and MPI_Init; other MPIs and Open MPI 5 do not
+ *  read these variables, and values set by the user are kept. */
 #include <algorithm>
 #include <cstdlib>
 #include <iterator>

@@ -81,12 +81,12 @@ void forward_to_host(LAMMPS_NS::LAMMPS *lmp, int all) {
   if (!(all & (quit | restart))) return;
   wants_restart = 0;
   if ((all & quit) && !SignalHandler::request_quit)
-    say(lmp, "SIGINT or SIGTERM: the run ends after the coming step, or after this one when it is its last");
+    say(lmp, "SIGINT or SIGTERM: the run ends after the next step, or after this one if it is the last");
   if (!(all & quit) && !SignalHandler::enable_restart_writing)
     return say(lmp, "SIGUSR1: no restart file, because of write_restart_on_signal no");
   SignalHandler::request_write_restart = SignalHandler::enable_restart_writing;
   SignalHandler::request_quit = all & quit;
-  // The host prints a row of thermo output on the step: what it shows must be ready. In the last one it is.
+  // LIGGGHTS prints a row of thermo output on the step: its values must be available. In the last step they are.
   if (lmp->update->ntimestep < lmp->update->laststep) lmp->modify->addstep_compute_all(lmp->update->ntimestep + 1);
   else lmp->output->restart_requested(lmp->update->ntimestep);
 }

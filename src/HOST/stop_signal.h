@@ -10,9 +10,9 @@ class LAMMPS;
 
 namespace grainscope {
 
-/** SIGTERM and SIGINT end a run with complete files and a restart, SIGUSR1 asks for a restart: the host's own
- *  custom. But the host lets every rank act when the signal reaches it, and ranks that act in different steps wait
- *  for each other for ever. Here a signal is only noted, and the ranks agree on the step. */
+/** SIGTERM and SIGINT end a run with complete files and a restart file, SIGUSR1 requests a restart file: so does
+ *  LIGGGHTS. But in LIGGGHTS every rank acts when the signal reaches it, and ranks that act in different steps wait for
+ *  each other for ever. Here a signal is only noted, and the ranks agree on the step. */
 namespace stop_signal {
 
 /** Takes the signals over from the host, with what it has noted. */

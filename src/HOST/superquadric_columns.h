@@ -4,8 +4,8 @@
 
 namespace grainscope {
 
-/** The first columns of the contact history of `surface superquadric`. Of `surface ellipsoid` memory holds the last
- *  alone; restart files and compute pair/gran/local have them all. */
+/** The first columns of the contact history of `surface superquadric`. With `surface ellipsoid` only the last one is in
+ *  memory; restart files and compute pair/gran/local have them all. */
 struct SuperquadricColumns {
   static constexpr int count = 7;
   static constexpr int left_out = count - 1;  // of memory

@@ -90,8 +90,8 @@ void ContactObserver::end() {
 
 void ContactObserver::require_complete(const std::string &who) const {
   if (to_come_ <= 0) return;
-  error->all(FLERR, (who + ": asked at the start of a run before all fixes wall/gran have evaluated their contacts. "
-                           "Define the fix that asks, such as fix ave/time, after them")
+  error->all(FLERR, (who + ": evaluated at the start of a run before all fixes wall/gran have computed their contacts. "
+                           "Define the fix that uses it, such as fix ave/time, after them")
                         .c_str());
 }
 
@@ -99,9 +99,8 @@ int ContactObserver::walls_there() const { return static_cast<int>(walls_.use_co
 
 void ContactObserver::require_walls() const {
   if (walls_there() < set_up_)
-    error->all(FLERR,
-               "pair_style gran/insitu: a fix wall/gran was removed since the run was set up, and contacts are to "
-               "be measured: do not say 'pre no'");
+    error->all(FLERR, "pair_style gran/insitu: a fix wall/gran was removed after the last set-up of a run, and "
+                      "contacts are measured: do not use 'pre no'");
 }
 
 void ContactObserver::end_run() const {

@@ -13,9 +13,9 @@
 
 namespace grainscope {
 
-/** Between those that read contacts from the host's models (ContactReader) and the sinks: asks the sinks before each
- *  force evaluation, and hands them its contacts, a batch at a time. Inactive (no sink wants the step, or the host
- *  re-evaluates for its own output) it costs one branch per contact. */
+/** Passes contacts from the readers (ContactReader), which get them from the models of LIGGGHTS, to the sinks: asks the
+ *  sinks before each force evaluation, and gives them its contacts, a batch at a time. If it is inactive (no sink wants
+ *  the step, or LIGGGHTS evaluates forces for its own output) it costs one branch per contact. */
 class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers {
  public:
   explicit ContactObserver(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
@@ -25,20 +25,20 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   void remove(ContactSink *sink) override;
   void remove_all();
 
-  /** A fix for walls takes part, from now until remove_all(), or while it holds what it gets. */
+  /** Registers a fix for walls, until remove_all(), or while the fix holds the returned object. */
   std::shared_ptr<void> add_wall() {
     set_up_++;
     return walls_;
   }
-  /** Errors when one of them is gone: a run without set-up would look at what it had. Collective. */
+  /** An error if a fix for walls was removed: a run without set-up would use its contacts. Collective. */
   void require_walls() const;
 
-  /** Contacts are to be read in every evaluation, because they remember it (`ledger on`). */
+  /** Contacts must be read in every evaluation, because they keep their past (`ledger on`). */
   void set_keeps_past(bool keeps) { keeps_past_ = keeps; }
   bool keeps_past() const { return keeps_past_; }
-  /** A run begins: what contacts remember is of the previous evaluation only when it was of this run. */
+  /** A run begins: the past that contacts keep is that of the previous evaluation only if that was in this run. */
   void begin_run() { runs_++; }
-  /** A run has ended: the sinks compute what they are asked for afterwards. */
+  /** A run has ended: the sinks compute the results that may be requested afterwards. */
   void end_run() const;
 
   /** Asks the sinks, before a force evaluation. `springs_move`: false in the first of a run. `repeats`: it repeats the
@@ -46,11 +46,11 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   bool begin(bool springs_move, bool repeats);
   /** A fix for walls begins: all of them come after the grains of the same evaluation. */
   void begin_wall();
-  /** The grains, or those of one fix for walls, are through. */
+  /** The contacts between grains, or those of one fix for walls, are complete. */
   void end();
   bool active() const { return active_; }
-  /** Errors, in the name of `who`, while walls of the last evaluation are still to come: at the start of a run fixes
-   *  may ask before a wall that is defined after them. */
+  /** An error, in the name of `who`, if walls have not yet evaluated their contacts: at the start of a run fixes may
+   *  use a compute before a wall that is defined after them. */
   void require_complete(const std::string &who) const;
   bool repeats() const { return repeats_; }
   /** Identifies the evaluation: contacts remember it. Negative where no spring moved. */
@@ -70,7 +70,7 @@ class ContactObserver : public ContactSink::Source, private LAMMPS_NS::Pointers 
   const double *const *positions() const { return x_; }
   int local_grains() const { return n_local_; }
 
-  /** A contact to be filled in, where another of this evaluation may have been; sinks see it at the latest when the
+  /** A contact to be filled in, which may hold another contact of this evaluation; sinks get it at the latest when the
    *  evaluation ends. `in_lanes`: those that take lanes get it by take(). */
   Contact &next(bool in_lanes = false) {
     if (next_ == batch_.data() + batch_.size() || in_lanes != in_lanes_) hand_over();

@@ -9,11 +9,11 @@ namespace grainscope {
 using Eigen::Map;
 using Eigen::Vector3d;
 
-/** The spring as it was before the friction limit. The host's model must be repeated for that: it shortens a spring in
- *  place and keeps neither its length nor a mark that it was cut, and the length cut is what friction dissipates. In
- *  the host's own operations and order, so that a spring that was not cut compares equal to the last bit. In the first
- *  evaluation of a run the host moves no spring: a cut then means that the force was limited, and slip is what would
- *  have been cut; where it repeats an evaluation, springs have been cut. */
+/** The spring before it was cut at the friction limit. The model of LIGGGHTS must be repeated for this: it shortens a
+ *  spring in place and keeps neither its length nor a mark that it was cut, and friction dissipates by the length that
+ *  is cut. The operations and their order are those of LIGGGHTS, so that a spring that was not cut compares equal to
+ *  the last bit. In the first evaluation of a run LIGGGHTS moves no spring: a cut then means that the force was
+ *  limited, and slip is what would have been cut. If the evaluation repeats another one, springs have been cut. */
 inline void ContactReader::repeat_spring(const Surfaces &s, Friction &friction) const {
   double x = spring_[0], y = spring_[1], z = spring_[2];
   if (observer_.springs_move()) {
@@ -34,7 +34,7 @@ inline void ContactReader::repeat_spring(const Surfaces &s, Friction &friction) 
   if (friction.cut && !observer_.repeats()) friction.slip = length - friction.limit / s.kt;
 }
 
-/** Where no spring has moved, whether the limit is reached is known from the force alone. */
+/** If no spring has moved, whether the limit is reached follows from the force alone. */
 inline void ContactReader::compare_damping(const Surfaces &s, Friction &friction) const {
   const double spring[3] = {-(s.kt * spring_[0]), -(s.kt * spring_[1]), -(s.kt * spring_[2])};
   const double u[3] = {s.vtr1, s.vtr2, s.vtr3};
@@ -59,7 +59,7 @@ inline ContactReader::Friction ContactReader::friction_of(const Surfaces &s) con
   return friction;
 }
 
-/** The law's tangential force by itself, where the force on i has another beside it. */
+/** The tangential force of the law alone, if the force on i includes another one. */
 Vector3d ContactReader::friction_force(const Surfaces &s, const Friction &friction, const Contact &c) const {
   const Vector3d u(s.vtr1, s.vtr2, s.vtr3), spring = Map<const Vector3d>(friction.spring);
   Vector3d force = Vector3d::Zero();

@@ -16,8 +16,8 @@ class ObservedModel {
   ~ObservedModel() = default;
 };
 
-/** Turns the working data of one contact model of the host, of the pair style or of a wall, into Contacts, and gives
- *  them to the observer. Called before and after the model. */
+/** Makes Contacts of the working data of one contact model of LIGGGHTS, of the pair style or of a wall, and gives them
+ *  to the observer. Called before and after the model. */
 class ContactReader {
  public:
   using Surfaces = LIGGGHTS::ContactModels::SurfacesIntersectData;
@@ -40,7 +40,7 @@ class ContactReader {
     if (law_.tangential != TangentialLaw::spring) return;
     double *spring = s.contact_history + law_.spring_column;
     for (int k = 0; k < 3; k++) {
-      // Springs that were cut to the limit are at it, but for rounding: in a repetition a touch more keeps them
+      // Springs that were cut to the limit are at it within rounding: in a repetition a small excess keeps them
       // sliding. It is not kept.
       if (observer_.repeats()) spring[k] *= 1.0 + 1e-12;
       spring_[k] = spring[k];

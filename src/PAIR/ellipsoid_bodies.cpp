@@ -53,7 +53,7 @@ void EllipsoidBodies::read_shapes(int n) {
   }
 }
 
-/** The host takes a blockiness within 0.01 of 2 for an ellipsoid's; so do we. */
+/** LIGGGHTS treats a blockiness within 0.01 of 2 as that of an ellipsoid; so do we. */
 void EllipsoidBodies::refuse_other_blockiness() {
   const int none = std::numeric_limits<int>::max();
   struct {
@@ -74,7 +74,7 @@ void EllipsoidBodies::refuse_other_blockiness() {
   MPI_Bcast(blockiness, 2, MPI_DOUBLE, first.rank, world);
   char message[200];
   snprintf(message, sizeof message,
-           "surface ellipsoid needs blockiness 2 2 of every grain, got %g %g of grain %d: use surface superquadric",
+           "surface ellipsoid: every grain must have blockiness 2 2, got %g %g of grain %d: use surface superquadric",
            blockiness[0], blockiness[1], first.tag);
   error->all(FLERR, message);
 }
@@ -87,12 +87,9 @@ void EllipsoidBodies::refuse_other_than_spheres() {
     if (!is_sphere(i)) first = std::min(first, atom->tag[i]);
   MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, world);
   if (first == none) return;
-  const std::string message = "surface ellipsoid: '" + sphere_model_ +
-                              "' knows the distance of spheres only, and "
-                              "grain " +
-                              std::to_string(first) +
-                              " is none: use cohesion sjkr or sjkr2, whose area surface ellipsoid "
-                              "provides, or spheres";
+  const std::string message =
+      "surface ellipsoid: '" + sphere_model_ + "' works with spheres only, and grain " + std::to_string(first) +
+      " is not a sphere: use spheres, or cohesion sjkr or sjkr2, for which surface ellipsoid gives the contact area";
   error->all(FLERR, message.c_str());
 }
 
@@ -122,7 +119,8 @@ void EllipsoidBodies::count(const Query &query, EllipsoidContact &contact) {
   counts.fallbacks++;
   const double r = equivalent_radius(query.i), *d = query.d;
   if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < 1e-20 * r * r && atom->tag[query.i] > atom->tag[query.j]) {
-    // Concentric: its two owners must choose the same normal, so the one that sees it the other way round turns round.
+    // Concentric: both owners must choose the same normal, so the one that sees the pair the other way round reverses
+    // it.
     const EllipsoidContact turned = solve_alone({query.j, query.i, {-d[0], -d[1], -d[2]}, 0.0});
     for (int k = 0; k < 3; k++) {
       contact.normal[k] = -turned.normal[k];
@@ -138,8 +136,8 @@ void EllipsoidBodies::count(const Query &query, EllipsoidContact &contact) {
   warned_ = true;
   char message[200];
   snprintf(message, sizeof message,
-           "surface ellipsoid: no regular contact of grains %d and %d (concentric?), their normal is arbitrary "
-           "(told once per rank; compute contact/solver counts)",
+           "surface ellipsoid: grains %d and %d have no regular contact (concentric?), so their normal is arbitrary "
+           "(reported once per rank; counted by compute contact/solver)",
            atom->tag[query.i], atom->tag[query.j]);
   error->warning(FLERR, message);
 }

@@ -22,7 +22,8 @@ struct SolverCounts {
   double fallbacks = 0.0;   // contacts whose answer is not the regular one
 };
 
-/** Tells whether neighbour lists, or grains between two runs, have changed since it was asked last. All ranks alike. */
+/** Reports whether neighbour lists, or grains between two runs, have changed since the last call. The same on all
+ *  ranks. */
 class NeighbourListWatch {
  public:
   bool renewed(const LAMMPS_NS::Neighbor &neighbor, const LAMMPS_NS::Update &update) {
@@ -42,7 +43,7 @@ class EllipsoidBodies : private LAMMPS_NS::Pointers {
  public:
   explicit EllipsoidBodies(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
 
-  /** Before a force evaluation; all ranks together. Refuses grains that are no ellipsoids, or no spheres where a model
+  /** Before a force evaluation; all ranks together. Refuses grains that are not ellipsoids, or not spheres if a model
    *  needs spheres. */
   void prepare();
   /** A loop that asks for few pairs says no. */

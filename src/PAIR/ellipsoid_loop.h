@@ -14,7 +14,7 @@
 
 namespace grainscope {
 
-/** The pair loop of `surface ellipsoid`: neighbours that are surely apart are not looked at. Contacts that no lane can
+/** The pair loop of `surface ellipsoid`. Pairs that are certainly apart are skipped. Contacts that the lanes cannot
  *  solve are solved one by one. */
 template <class Model>
 class EllipsoidLoop : public LaneLoop<Model> {
@@ -137,8 +137,8 @@ inline void EllipsoidLoop<Model>::fill(Candidates candidate, int n) {
   }
 }
 
-/** Pairs that did not touch when they were looked at last do not now, as a rule, and exert no force, so that their
- *  order does not matter: those that are surely apart are dropped here, at a fraction of the solver's cost. */
+/** Pairs that did not touch at the last check usually still do not, and exert no force, so that their order does not
+ *  matter. Those that are certainly apart are dropped here, at a fraction of the cost of the solver. */
 template <class Model>
 void EllipsoidLoop<Model>::part_strangers(std::size_t many) {
   for (std::size_t first = 0; first < many; first += LANES) {

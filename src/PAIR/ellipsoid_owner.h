@@ -7,8 +7,8 @@ namespace grainscope {
 class EllipsoidBodies;
 struct EllipsoidSurface;
 
-/** A pair style that owns the bodies and the surface, so that its loop sees them; under any other the surface model has
- *  its own. */
+/** A pair style that owns the bodies and the surface, so that its loop can use them; under any other pair style the
+ *  surface model has its own. */
 struct EllipsoidOwner {
   virtual ~EllipsoidOwner() {}
   virtual EllipsoidBodies &ellipsoid_bodies() = 0;

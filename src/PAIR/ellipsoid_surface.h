@@ -11,11 +11,11 @@
 
 namespace grainscope {
 
-/** Between the solver and the host's contact data and history: what `surface ellipsoid` means, whichever loop asks. */
+/** What `surface ellipsoid` does between the solver and the contact data and history of LIGGGHTS, for all loops. */
 struct EllipsoidSurface {
-  // Column of the contact history, before those of all other models: less 1/2, so that it changes its sign when the
-  // host swaps i and j; 0: none. Restart files have it as the last column of `surface superquadric`: what one surface
-  // left is a start for the other or no start, never a wrong one.
+  // Column of the contact history, before those of all other models: lambda less 1/2, so that it changes sign when
+  // LIGGGHTS swaps i and j; 0: none. In restart files it is the last column of `surface superquadric`: the value of the
+  // other surface is a valid start or no start, never a wrong one.
   static constexpr int lambda = 0;
   double curvature_limit = 0.0;
   bool mean = false, gaussian = false;
@@ -69,8 +69,8 @@ struct EllipsoidSurface {
     return true;
   }
 
-  /** What compute pair/gran/local shows, the columns of `surface superquadric`: 0 (which axis of the bounding boxes
-   *  separated them), 2 (they touch), contact point, depth of i, depth of j. */
+  /** The columns of `surface superquadric` for compute pair/gran/local: 0 (the axis that separates the bounding boxes),
+   *  2 (the grains touch), contact point, depth of i, depth of j. */
   static void show(const EllipsoidContact &c, const SurfaceData &s, double *columns) {
     const double *p = s.contact_point;
     const double values[SuperquadricColumns::count] = {0.0, 2.0, p[0], p[1], p[2], c.depth[0], c.depth[1]};

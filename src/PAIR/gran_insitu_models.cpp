@@ -26,8 +26,8 @@ struct Models {
       : normal(hash & 63), tangential(hash >> 6 & 63), cohesion(hash >> 12 & 63), rolling(hash >> 18 & 63),
         surface(hash >> 24 & 63) {}
 
-  /** Grains that part push each other no longer: none but those that touch need be looked at. Cohesion, and some normal
-   *  models, act at a distance. */
+  /** Grains that separate exert no force: only pairs that touch need be visited. Cohesion, and some normal models, act
+   *  at a distance. */
   bool end_with_touch() const {
     using namespace LIGGGHTS::ContactModels;
     return cohesion == COHESION_OFF && one_of(normal, {HERTZ, HOOKE, HERTZ_STIFFNESS, HOOKE_STIFFNESS}) &&

@@ -6,16 +6,16 @@
 
 namespace grainscope {
 
-/** A loop of ours that resets the spring of a contact when it opens; the host's may keep it until the next neighbour
+/** A loop that resets the spring of a contact when it opens; the loop of LIGGGHTS may keep it until the next neighbour
  *  list. */
 struct ResetsOpenedSprings {
   virtual ~ResetsOpenedSprings() {}
-  /** Of the grains that there are: others are left to the host's loop. */
+  /** Whether it does so for the grains of this run: other grains are left to the loop of LIGGGHTS. */
   virtual bool resets_springs() const = 0;
 };
 
-/** The observed pair loop for the contact-model combination `hash`: compiled for every combination of the whitelist,
- *  the host's dynamic path for all others. */
+/** The observed pair loop for the contact-model combination `hash`: compiled for every combination of the whitelist;
+ *  all others use the dynamic model of LIGGGHTS. */
 LIGGGHTS::PairStyles::IGranularPairStyle *create_observed_loop(int64_t hash, LAMMPS_NS::LAMMPS *lmp,
                                                                LAMMPS_NS::PairGran *pair);
 

@@ -8,8 +8,7 @@
 
 namespace grainscope {
 
-/** Puts the contact history back as it was, so that an evaluation for its output alone leaves the trajectory as it
- *  is. */
+/** Restores the contact history, so that an evaluation for output only does not change the trajectory. */
 class KeptHistory {
  public:
   /** `history` may be null: then there is none to keep. */

@@ -24,7 +24,7 @@ const std::map<std::string, PairLaw::Tangential> TANGENTIALS = {{"off", PairLaw:
 
 }
 
-/** False where a word is not known here, or asks for more than a PairLaw has. */
+/** False if a word is not known here, or requires more than a PairLaw has. */
 bool LaneLaw::read(const std::string &models) {
   law_ = PairLaw();
   synchronized_ = false;

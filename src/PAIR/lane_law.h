@@ -8,8 +8,8 @@
 
 namespace grainscope {
 
-/** The pair style's contact models as a PairLaw, where they are such that many contacts can be worked out side by
- *  side: whatever else the command says goes the host's way. */
+/** The contact models of the pair style as a PairLaw, if many contacts can be computed side by side with them; all
+ *  other models are evaluated by LIGGGHTS. */
 class LaneLaw : private LAMMPS_NS::Pointers {
  public:
   explicit LaneLaw(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}

@@ -20,9 +20,10 @@ namespace grainscope {
 using LIGGGHTS::ContactModels::CONTACT_NORMAL_MODEL;
 using LIGGGHTS::ContactModels::CONTACT_TANGENTIAL_MODEL;
 
-/** The pair loops of gran/insitu: the host's, for what packings need of it, in the host's order and to the host's last
- *  bit, but several contacts side by side. Whatever else is asked of the loop (rigid bodies, multicontact, stored
- *  contact forces, compute pair/gran/local) goes the host's way; contacts whose law is no PairLaw go it one by one. */
+/** The pair loops of gran/insitu: the loop of LIGGGHTS, as far as packings need it, in its order and to its last bit,
+ *  with several contacts side by side. Everything else (rigid bodies, multicontact, stored contact forces, compute
+ *  pair/gran/local) is left to the loop of LIGGGHTS; contacts whose law is not a PairLaw go through its models one by
+ *  one. */
 template <class Model>
 class LaneLoop : public LIGGGHTS::PairStyles::Granular<Model>, public ResetsOpenedSprings {
   using Host = LIGGGHTS::PairStyles::Granular<Model>;

@@ -9,9 +9,8 @@
 
 namespace grainscope {
 
-/** Of the pairs of a neighbour list, in its order, those that touch or may soon: the others are surely apart for some
- *  steps, and are not even visited. They are chosen again when the grains have moved as far as the choice allows
- * for. */
+/** The pairs of a neighbour list, in its order, that touch or may soon do so. The others are certainly apart for some
+ *  steps, and are not visited. The choice is made again when the grains have moved as far as it allows. */
 class NearPairs {
  public:
   static constexpr std::size_t AHEAD = 16;  // how far one may look beyond the last

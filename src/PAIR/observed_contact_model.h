@@ -9,9 +9,10 @@
 
 namespace grainscope {
 
-/** A LIGGGHTS contact model with a reader around it. It shadows members of the model that the host's pair loop
- *  calls, so the loop stays the host's own. It also restores sidata.delta = x_i - x_j, which the surface model of
- *  non-spherical grains overwrites with the overlap vector and the host's virial then takes for the branch vector. */
+/** A contact model of LIGGGHTS with a reader around it. It shadows the members of the model that the pair loop of
+ *  LIGGGHTS calls, so that the loop itself is unchanged. It also restores sidata.delta = x_i - x_j, which the surface
+ *  model of non-spherical grains overwrites with the overlap vector; the virial of LIGGGHTS uses it as the branch
+ *  vector. */
 template <class ContactModel>
 class Observed : public ContactModel, public ObservedModel {
  public:

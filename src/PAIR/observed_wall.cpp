@@ -13,8 +13,8 @@ using LIGGGHTS::Walls::IGranularWall;
 
 namespace {
 
-/** As Observed, for a wall: the model shadows what the host's wall calls. What the host keeps in sidata.delta is left,
- *  as meshes add up their torque with it. */
+/** The same as Observed, for a wall: the model shadows what the wall of LIGGGHTS calls. sidata.delta is left unchanged,
+ *  because meshes sum their torque with it. */
 template <class Model>
 class ObservedWall : public Model {
  public:
@@ -49,7 +49,7 @@ class ObservedWall : public Model {
  private:
   WallContacts &wall_;
 
-  /** Of a fix that is none of ours, nobody sees the contacts. */
+  /** For a fix that is not ours, the contacts are not seen. */
   static WallContacts &contacts_of(LIGGGHTS::IContactHistorySetup *setup) {
     static WallContacts unseen;
     WallContactsOwner *owner = dynamic_cast<WallContactsOwner *>(setup);

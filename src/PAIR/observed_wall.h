@@ -12,7 +12,7 @@
 
 namespace grainscope {
 
-/** Between a fix wall/gran and the contact model that it runs. */
+/** Connects a fix wall/gran and the contact model that it runs. */
 struct WallContacts {
   ContactReader *reader = nullptr;                        // while contacts are to be read; else null
   TimeLevel *level = nullptr;                             // with `time_level synchronized`; else null
@@ -30,8 +30,8 @@ struct WallContacts {
   }
 };
 
-/** The host's wall for the contact-model combination `hash`, with an observer around its model: compiled for every
- *  combination of the whitelist, the host's dynamic path for all others. It shows contacts where `wall` is a
+/** The wall of LIGGGHTS for the contact-model combination `hash`, with an observer around its model: compiled for every
+ *  combination of the whitelist; all others use the dynamic model of LIGGGHTS. It offers contacts if `wall` is a
  *  WallContactsOwner. */
 LIGGGHTS::Walls::IGranularWall *create_observed_wall(int64_t hash, LAMMPS_NS::LAMMPS *lmp,
                                                      LAMMPS_NS::FixWallGran *wall);

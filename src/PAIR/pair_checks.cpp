@@ -25,7 +25,7 @@ namespace {
 
 const double rounding = 1e-9;  // of positions that are equal, over the radius
 
-/** What a restart file holds for fixes that are not defined yet is the host's own matter: a derived class may look. */
+/** Access to what a restart file holds for fixes that are not defined yet, which is protected in LIGGGHTS. */
 struct RestartData : Modify {
   static const char *of(Modify *modify, const char *id) {
     for (int k = 0; k < modify->*(&RestartData::nfix_restart_global); k++)
@@ -49,9 +49,9 @@ void PairChecks::require_same_columns_in_restart(int wanted, std::initializer_li
                       without = std::string("'") + setting.keyword + " " + setting.without + "'";
     error->all(FLERR, ("pair_style gran/insitu: the restart file holds " + std::to_string(found) +
                        " numbers per contact, and this pair_style has " + std::to_string(wanted) +
-                       ": with the same contact models it was written with" +
-                       (setting.on ? "out " + with + ". Say " + without + ", or write the restart file with " + with
-                                   : " " + with + ". Say " + with))
+                       ": if the contact models are the same, it was written with" +
+                       (setting.on ? "out " + with + ". Use " + without + ", or write the restart file with " + with
+                                   : " " + with + ". Use " + with))
                           .c_str());
   }
 }
@@ -84,7 +84,7 @@ void PairChecks::warn_of_unseen_walls() {
   warned_of_walls_ = walls;
   if (!news || comm->me != 0) return;
   error->warning(FLERR, ("pair_style gran/insitu: contacts with the walls of " + walls +
-                         " are not seen by any measure, only those of fix wall/gran")
+                         " are not measured, only those of fix wall/gran are")
                             .c_str());
 }
 
@@ -94,12 +94,10 @@ void PairChecks::warn_of_sphere_model(const std::string &model) {
   for (int i = 0; i < atom->nlocal && !any; i++) any = symmetry_axis(atom->shape[i]).shape != Shape::sphere;
   MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, world);
   if (!any) return;
-  const std::string message =
-      "pair_style gran/insitu: '" + model +
-      "' takes its geometry from the "
-      "distance of centres and the radii of spheres: with surface superquadric its forces on grains that are no "
-      "spheres are wrong. Say 'surface ellipsoid', which gives sjkr and sjkr2 the contact's own overlap and effective "
-      "radius";
+  const std::string message = "pair_style gran/insitu: '" + model +
+                              "' takes its geometry from the distance of centres and the radii of spheres: with "
+                              "surface superquadric its forces on grains that are not spheres are wrong. Use 'surface "
+                              "ellipsoid', which gives sjkr and sjkr2 the overlap and effective radius of the contact";
   if (comm->me == 0) error->warning(FLERR, message.c_str());
   warned_of_sphere_model_ = true;
 }
@@ -127,7 +125,7 @@ void PairChecks::require_grains_in_plane() const {
                 Arguments::text(extremes[0]));
   if (loose)
     errors.fail("with 'dimension 2' grains must have no velocity along z and no spin about x and y, got " +
-                std::to_string(loose) + " that have and are not held by a fix enforce2d");
+                std::to_string(loose) + " that move so and are not held by a fix enforce2d");
 }
 
 void PairChecks::require_box_large_enough() const {

@@ -8,8 +8,8 @@
 
 namespace grainscope {
 
-/** What pair_style gran/insitu checks before a run or at a new neighbour list, and what the host would not say. All
- *  are collective. */
+/** The checks of pair_style gran/insitu before a run or at a new neighbour list, for conditions that LIGGGHTS does not
+ *  check. All are collective. */
 class PairChecks : private LAMMPS_NS::Pointers {
  public:
   explicit PairChecks(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}
@@ -23,15 +23,17 @@ class PairChecks : private LAMMPS_NS::Pointers {
   /** The restart file that is to be continued must hold `wanted` numbers per contact, those of `settings` among
    * them. */
   void require_same_columns_in_restart(int wanted, std::initializer_list<ColumnSetting> settings) const;
-  /** Contact history is keyed by grain ID: with two images of one grain within reach of another it is ambiguous. */
+  /** The contact history is kept by grain ID: if two images of one grain are within reach of another grain it is
+   *  ambiguous. */
   void require_box_large_enough() const;
-  /** With `dimension 2`: spheres in one plane across z, which nothing makes leave it. */
+  /** With `dimension 2`: spheres in one plane across z, with no motion out of it. */
   void require_grains_in_plane() const;
-  /** Once, where spheres keep the tangential springs of contacts that have opened. */
+  /** A warning, once, if spheres keep the tangential springs of contacts that have opened. */
   void warn_of_stale_springs();
-  /** Of walls whose contacts no measure sees: once, and again when there are others. */
+  /** A warning of walls whose contacts are not measured: once, and again when there are others. */
   void warn_of_unseen_walls();
-  /** Once, where `model`, which takes its geometry from spheres, is given other grains; "" for no such model. */
+  /** A warning, once, if `model`, which takes its geometry from spheres, is used with other grains; "": no such model.
+   */
   void warn_of_sphere_model(const std::string &model);
 
  private:

@@ -180,9 +180,8 @@ void PairGranInsitu::add_past_columns() {
   for (FILE *out : {screen, logfile})
     if (out)
       fprintf(out,
-              "pair_style gran/insitu: 'ledger on' keeps %d numbers more for every pair of neighbours (%d instead of "
-              "%d); restart files "
-              "with and without them are not interchangeable\n",
+              "pair_style gran/insitu: 'ledger on' keeps %d more numbers for every pair of neighbours (%d instead of "
+              "%d); restart files with and without them are not interchangeable\n",
               ContactReader::past_columns, dnum_pairgran, dnum_pairgran - ContactReader::past_columns);
 }
 
@@ -198,9 +197,8 @@ void PairGranInsitu::init_style() {
           contact_match("surface", "default") ? 0 : grainscope::TimeLevel::kept_columns, impl_->level.kept() >= 0}});
   impl_->renumbered = atom->natoms < impl_->grains && !grainscope::contacts_know_their_grains(lmp);
   if (impl_->renumbered && comm->me == 0)
-    error->warning(FLERR, "grains were given other IDs, and the host keeps tangential springs by ID: some are now "
-                          "those of other contacts. Say "
-                          "'compress no' to delete_atoms");
+    error->warning(FLERR, "grains got new IDs, and LIGGGHTS keeps tangential springs by ID: some springs now belong to "
+                          "other contacts. Use 'delete_atoms ... compress no'");
   const std::string words = impl_->models + (impl_->ledger ? " ledger on" : "") +
                             (impl_->level.synchronized() ? " time_level synchronized" : "");
   grainscope::require_surface_models(lmp, this, words + (impl_->neutral ? " setup neutral" : ""));
@@ -290,8 +288,8 @@ void PairGranInsitu::set_tangential_bound() {
   TangentialBound::get().set(!first ? Mode::off : impl_->neutral ? Mode::bound : Mode::watch);
 }
 
-/** The host re-evaluates all contacts for compute pair/gran/local, and its surface model writes to the contact history
- *  while at it. */
+/** LIGGGHTS re-evaluates all contacts for compute pair/gran/local, and its surface model writes to the contact history
+ *  then. */
 void PairGranInsitu::compute_pgl(int eflag, int vflag) {
   const grainscope::KeptHistory kept(listgranhistory, list, dnum());
   PairGran::compute_pgl(eflag, vflag);
@@ -314,7 +312,7 @@ bool PairGranInsitu::contact_match(const std::string kind, const std::string mod
   return impl_->loop->contact_match(kind, model);
 }
 
-/** Which periodic image each ghost is, in whole box edges. The swaps know it exactly; positions do not, because grains
+/** The periodic image of each ghost, in whole box edges. The swaps know it exactly; positions do not, because grains
  *  drift out of the box between two neighbour lists. Once per neighbour list that is observed. */
 void PairGranInsitu::update_image_shifts() {
   if (impl_->images_of_build == neighbor->lastcall) return;

@@ -11,8 +11,8 @@ class LAMMPS;
 
 namespace grainscope {
 
-/** The fixes of src/RUN that the pair style makes for itself, known here by the names of their styles: that folder
- *  lies above this one. Collective. */
+/** The fixes of src/RUN that the pair style makes for itself. They are known here by the names of their styles, because
+ *  that folder is on a higher floor. Collective. */
 namespace run_fixes {
 
 /** fix run/guard, behind all other fixes; `settings`: the words of the pair style. */

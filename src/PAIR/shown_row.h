@@ -7,8 +7,8 @@
 
 namespace grainscope {
 
-/** In an evaluation for output alone: a contact's row of the contact history, copied for the models to work on, and
- *  behind it the columns of `surface superquadric`. The history itself stays as it is. */
+/** In an evaluation for output only: a copy of the row of a contact in the contact history, for the models to work on,
+ *  followed by the columns of `surface superquadric`. The history itself is not changed. */
 class ShownRow {
  public:
   /** `row`, of `width` columns, or the copy if it is that. */

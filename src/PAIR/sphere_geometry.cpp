@@ -56,8 +56,8 @@ std::string SphereGeometry::of(LAMMPS_NS::PairGran &pair) {
 
 void SphereGeometry::enter(SurfaceData &s) {
   const bool sphere = is_sphere(atom_->shape[s.i]);
-  // Two spheres are what the host takes them for. Not so one at a wall: a plane puts it as far away as if it had the
-  // bounding radius, which is longer, and a mesh leaves the distance of another contact behind.
+  // For two spheres the data of LIGGGHTS are right. For a sphere at a wall they are not: a plane gives the distance for
+  // the bounding radius, which is larger, and a mesh leaves the distance of another contact.
   if (!s.is_wall && sphere && is_sphere(atom_->shape[s.j])) return;
   lent_ = true;
   kept_[0] = s.radi;

@@ -13,11 +13,12 @@ class PairGran;
 
 namespace grainscope {
 
-/** Models of LIGGGHTS that know spheres only: cohesion sjkr and sjkr2 and the adhesion of the normal models edinburgh
- *  take their contact area from the distance of the centres and the radii. For grains that are no spheres this lends
- *  them two spheres that meet as the grains do: of the contact's overlap and effective radius R*, their radii in the
- *  ratio of those of equal volume. The area of sjkr is then 2 pi R* delta, less what two spheres lack of it at a
- *  finite overlap. A wall meets one sphere of radius R*. Capillary bridges act at a distance, and are refused. */
+/** Models of LIGGGHTS that know spheres only: cohesion sjkr and sjkr2 and the adhesion of the normal model edinburgh
+ *  take their contact area from the distance of the centres and the radii. For grains that are not spheres they get two
+ *  spheres that touch as the grains do: with the overlap and the effective radius R* of the contact, and radii in the
+ *  ratio of those of equal volume. The area of sjkr is then 2 pi R* delta, less the difference that two spheres have
+ *  from it at a finite overlap. At a wall they get one sphere of radius R*. Capillary bridges act at a distance, and
+ *  are refused. */
 class SphereGeometry {
  public:
   using SurfaceData = LIGGGHTS::ContactModels::SurfacesIntersectData;
@@ -25,11 +26,11 @@ class SphereGeometry {
   /** Once the models of the pair style or wall are known. */
   void connect(LAMMPS_NS::LAMMPS *lmp, LIGGGHTS::IContactHistorySetup *setup);
   bool needed() const { return needed_; }
-  /** The words of a model that cannot be helped so, or "". */
+  /** The words of a model for which this is not possible, or "". */
   const std::string &refused() const { return refused_; }
 
   void enter(SurfaceData &s);
-  /** What comes after, and the next contact of the same grain, find what was there. */
+  /** Restores the data for what follows, and for the next contact of the same grain. */
   void leave(SurfaceData &s) {
     if (!lent_) return;
     lent_ = false;
@@ -39,7 +40,7 @@ class SphereGeometry {
     s.r = kept_[3];
   }
 
-  /** The words of a model of this pair style that takes grains for spheres, whatever their shape, or "". */
+  /** The words of a model of this pair style that treats grains as spheres, whatever their shape, or "". */
   static std::string of(LAMMPS_NS::PairGran &pair);
 
  private:

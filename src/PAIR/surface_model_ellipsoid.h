@@ -17,17 +17,18 @@ SURFACE_MODEL(SURFACE_ELLIPSOID,ellipsoid,11)
 
 namespace LIGGGHTS { namespace ContactModels {
 
-/** Grains of atom_style superquadric with blockiness 2 2, by the exact contact of ellipsoids: `surface superquadric` in
- *  keywords and physics, walls included; but models that know spheres only are given spheres (sphere_geometry.h). See
- *  doc/surface_ellipsoid.md. */
+/** Grains of atom_style superquadric with blockiness 2 2, by the exact contact of ellipsoids. Keywords and physics are
+ *  those of `surface superquadric`, walls included; but models that know spheres only are given spheres
+ *  (sphere_geometry.h). See doc/surface_ellipsoid.md. */
 template <>
 class SurfaceModel<SURFACE_ELLIPSOID> : public SurfaceModelBase {
  public:
   SurfaceModel(LAMMPS *lmp, IContactHistorySetup *setup, ContactModelBase *model)
       : SurfaceModelBase(lmp, setup, model), setup_(setup) {
     if (!atom->superquadric_flag)
-      error->all(FLERR,
-                 "surface ellipsoid needs atom_style superquadric (spheres are ellipsoids with three equal semi-axes)");
+      error->all(FLERR, (std::string("surface ellipsoid needs atom_style superquadric, got '") + atom->atom_style +
+                         "' (a sphere is a superquadric with three equal semi-axes)")
+                            .c_str());
     if (model->is_wall())
       for (const char *name : {"inequality_obb", "touching", "cpx", "cpy", "cpz", "a1"})
         setup->add_history_value(name, "0");

@@ -12,7 +12,7 @@ using namespace LAMMPS_NS;
 namespace grainscope {
 namespace {
 
-/** The words of a model with `surface` where the host wants it: behind the other models, before their settings. */
+/** The words of a model with `surface` where LIGGGHTS requires it: after the other models, before their settings. */
 std::string with_surface(const std::string &models, const std::string &surface) {
   std::istringstream words(models);
   std::string keyword, value, line;
@@ -39,7 +39,7 @@ std::string surface_for(LAMMPS *lmp) {
   return any ? "superquadric" : "ellipsoid";
 }
 
-/** The host's models that know spheres only. */
+/** The surface models of LIGGGHTS for spheres only. */
 template <class Style>
 const char *sphere_surface(Style *style) {
   for (const char *surface : {"default", "multicontact"})
@@ -62,7 +62,7 @@ void require_surface_models(LAMMPS *lmp, PairGran *pair, const std::string &mode
     if (!wall || std::string(wall->style).compare(0, 9, "wall/gran") != 0) continue;
     if (const char *got = sphere_surface(wall))
       end_run(lmp, "fix " + std::string(wall->id) + " (" + wall->style + "): " + why + got + "'. Add 'surface " +
-                       surface_for(lmp) + "' behind its other models");
+                       surface_for(lmp) + "' after its other models");
   }
 }
 

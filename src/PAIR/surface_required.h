@@ -11,8 +11,8 @@ class PairGran;
 
 namespace grainscope {
 
-/** With atom style superquadric: errors unless the pair style, given the words `models`, and every fix wall/gran have a
- *  surface model of superquadrics. Without one the host takes each grain for its bounding sphere. */
+/** With atom style superquadric: errors unless the pair style, with the words `models`, and every fix wall/gran have a
+ *  surface model of superquadrics. Without one LIGGGHTS uses the bounding sphere of each grain. */
 void require_surface_models(LAMMPS_NS::LAMMPS *lmp, LAMMPS_NS::PairGran *pair, const std::string &models);
 
 }

@@ -10,12 +10,12 @@ using half_step::Moment;
 using half_step::Motion;
 
 std::string TimeLevel::why_not(const ContactLaw &law) {
-  if (!law.elastic) return std::string("knows the normal models ") + ContactLaw::elastic_models() + " only";
+  if (!law.elastic) return std::string("works with the normal models ") + ContactLaw::elastic_models() + " only";
   if (law.tangential != TangentialLaw::viscous && law.tangential != TangentialLaw::spring)
-    return "knows 'tangential' history and no_history only";
-  if (law.cohesive) return "knows 'cohesion' off only";
-  if (law.rolls) return "knows 'rolling_friction' off only";
-  if (!law.known_surface) return "knows 'surface' default, superquadric and ellipsoid only";
+    return "works with 'tangential' history and no_history only";
+  if (law.cohesive) return "works with 'cohesion' off only";
+  if (law.rolls) return "works with 'rolling_friction' off only";
+  if (!law.known_surface) return "works with 'surface' default, superquadric and ellipsoid only";
   return "";
 }
 
@@ -44,7 +44,8 @@ void TimeLevel::enter(Surfaces &s) {
   s.v_j = s.omega_i = s.omega_j = zero_;
 }
 
-/** In the evaluation that is repeated; what was not (a wall that is new) goes the host's way, as in a first one. */
+/** In a repeated evaluation; a contact that was not evaluated before (a new wall) is handled by LIGGGHTS, as in a first
+ *  one. */
 bool TimeLevel::was_seen(const Surfaces &s) const {
   if (columns_.kept < 0) return true;
   const double *const normal = s.contact_history + columns_.kept + half_step::kept_normal;

@@ -12,9 +12,9 @@ namespace grainscope {
 
 struct ContactLaw;
 
-/** `time_level synchronized` around the host's contact models, one contact after the other: they are shown a grain
- *  whose velocity is that of the surfaces against each other (half_step.h) and that does not spin, and a spring that is
- *  turned already. First evaluations of a run are the host's: their velocities are those of x_n. */
+/** `time_level synchronized` around the contact models of LIGGGHTS, one contact after the other: the models get a grain
+ *  without spin whose velocity is the relative velocity of the surfaces (half_step.h), and a spring that is already
+ *  rotated. First evaluations of a run are those of LIGGGHTS: their velocities are those of x_n. */
 class TimeLevel : private LAMMPS_NS::Pointers {
  public:
   using Surfaces = LIGGGHTS::ContactModels::SurfacesIntersectData;
@@ -36,8 +36,8 @@ class TimeLevel : private LAMMPS_NS::Pointers {
   /** Why contacts of these models cannot be synchronized, or "". */
   static std::string why_not(const ContactLaw &law);
 
-  /** The evaluation repeats the last of the run before, which was one of a step: a first one went the host's way, and
-   *  does so again. */
+  /** The evaluation repeats the last evaluation of the run before, if that was one of a step; a first evaluation was
+   *  that of LIGGGHTS, and is repeated as such. */
   void set_repeats(bool repeats) { repeats_ = repeats; }
 
   void enter(Surfaces &s);

@@ -88,9 +88,9 @@ void TimeStepWatch::evaluate_grains() {
   snprintf(message, sizeof message,
            "pair_style gran/insitu: the time step %g is too long for the stiffest contacts: b = dt^2 K + 2 dt C over "
            "the mass is %.3g, limit %g: "
-           "energy may be made%s. Take a time step below %.3g, or stiffer grains%s (doc/stability.md)",
+           "energy may be created%s. Use a time step below %.3g%s (doc/stability.md)",
            update->dt, largest.value, time_step::limit,
-           damped_ ? ", and with tangential damping the motion does not show it" : "", step,
+           damped_ ? ", and tangential damping hides it in the motion" : "", step,
            damped_ ? ", or 'tangential_damping off'" : "");
   error->warning(FLERR, message);
 }

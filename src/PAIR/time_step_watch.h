@@ -10,9 +10,9 @@
 
 namespace grainscope {
 
-/** Checks every 1000 steps, counted across runs, that the time step is short enough for the contacts that there are. A
- *  warning gives the value and a safe time step; the next comes only when it is twice as bad. Single contacts are
- *  checked first; where those come near the limit, whole grains in the next step. */
+/** Checks every 1000 steps, counted across runs, whether the time step is short enough for the present contacts. A
+ *  warning gives the value, the limit and a safe time step; the next warning comes only when the value has doubled.
+ *  Single contacts are checked first; if one comes near the limit, whole grains are checked in the next step. */
 class TimeStepWatch : public ContactSink, private LAMMPS_NS::Pointers {
  public:
   explicit TimeStepWatch(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}

@@ -44,8 +44,8 @@ struct Quantity {
 
 bool finite(const double *values, int n) { return grainscope::all_finite(values, n); }
 
-/** Of a file whose lines go out as they end, so that nothing is left to be flushed. Sets errno, by a line break
- *  more. */
+/** For a file that is written line by line, so that nothing is left to be flushed. Sets errno, by one more line break.
+ */
 bool lost_a_line(FILE *file) {
   if (!file || file == stdout || !ferror(file)) return false;
   errno = EIO;
@@ -88,13 +88,13 @@ void FixRunGuard::warn_of_damping() {
   *warned_of_damping_ = true;
   if (comm->me != 0) return;
   std::ostringstream message;
-  message << "step " << update->ntimestep << ": in the first evaluation of a run LIGGGHTS does not limit tangential "
-          << "damping: a contact pushes with ";
-  if (std::isinf(excess)) message << "a tangential force though it has no friction";
-  else message << excess << " times its friction limit";
+  message << "step " << update->ntimestep << ": LIGGGHTS does not limit tangential damping in the first evaluation of "
+          << "a run, and a contact has ";
+  if (std::isinf(excess)) message << "a tangential force although its friction is 0";
+  else message << "a tangential force of " << excess << " times its friction limit";
   const bool clumps = grainscope::has_bodies(lmp);  // which 'setup neutral' refuses
-  message << ". " << (clumps ? "" : "Say 'setup neutral' in pair_style gran/insitu to keep the limit, or ")
-          << "'tangential_damping off'" << (clumps ? " has no such force" : "");
+  message << ". " << (clumps ? "" : "Use 'setup neutral' in pair_style gran/insitu, which limits it, or ")
+          << "'tangential_damping off'" << (clumps ? ", which has no such force" : "");
   error->warning(FLERR, message.str().c_str());
 }
 
@@ -127,7 +127,7 @@ void FixRunGuard::fail_on_all_ranks(const std::string &trouble) const {
   error->all(FLERR, message.c_str());
 }
 
-/** A force that is not finite is met in its own step, before it moves a grain out of the world. */
+/** A force that is not finite is found in its own step, before it moves a grain out of the box. */
 std::string FixRunGuard::not_finite(bool forces) const {
   const int n = atom->nlocal;
   const Quantity state[] = {{"position", atom->x, 3},
@@ -157,14 +157,13 @@ std::string FixRunGuard::not_finite(bool forces) const {
   if (all > 5) message << " and " << all - 5 << " more";
   message << " is not finite";
   if (forces)
-    message << ". Look at the time step (doc/stability.md), at overlaps of grains that were just inserted, and at the "
-               "material's constants";
-  else message << ": look at the commands that set it";
+    message << ". Check the time step (doc/stability.md), overlaps of grains that were just inserted, and material "
+               "properties";
+  else message << ": check the commands that set it";
   return message.str();
 }
 
-/** Grains that are beyond a face that is fixed may go: thermo_modify lost. One that follows the grains will be moved
- *  beyond them. */
+/** Grains beyond a fixed face may leave: thermo_modify lost. A shrink-wrapped face will be moved beyond them. */
 void FixRunGuard::pre_exchange() {
   grains_ = atom->nlocal;
   const auto open = [this](int k, int side) { return domain->boundary[k][side] == fixed_face; };
@@ -176,7 +175,7 @@ void FixRunGuard::pre_exchange() {
       }
 }
 
-/** The host deals grains out to the ranks again and forgets those that no rank wants. */
+/** LIGGGHTS sends grains to their ranks again and drops those that belong to no rank. */
 void FixRunGuard::pre_neighbor() {
   bigint lost = grains_ - atom->nlocal;
   MPI_Allreduce(MPI_IN_PLACE, &lost, 1, MPI_LMP_BIGINT, MPI_SUM, world);
@@ -184,13 +183,13 @@ void FixRunGuard::pre_neighbor() {
   std::ostringstream message;
   message << "step " << update->ntimestep << ": " << lost
           << " grains were lost though the box is periodic: they moved farther than its length "
-          << "between two neighbour lists. Look at the time step (doc/stability.md) and at overlaps of grains that "
-             "were just inserted";
+          << "between two neighbour lists. Check the time step (doc/stability.md) and overlaps of grains that were "
+             "just inserted";
   error->all(FLERR, message.str().c_str());
 }
 
-/** All streams that the host has open: it does not look whether its output arrives. A screen that is gone is no
- *  reason to end a run. */
+/** All open streams: LIGGGHTS does not check whether its output is written. A screen that no longer exists is no reason
+ *  to end a run. */
 std::string FixRunGuard::not_written() const {
   const bool screen_is_gone = fflush(stdout) != 0;
   const bool written = fflush(nullptr) == 0 && !lost_a_line(logfile) && !lost_a_line(screen);
@@ -200,9 +199,9 @@ std::string FixRunGuard::not_written() const {
          ": output of this run (dumps, tables, log) cannot be written: " + reason;
 }
 
-/** The words of the pair style: what contact history is made of. In a run the host would write springs as they were
- *  before the step: it puts them where restart files are written from when lists are built, which is before forces
- *  are formed. */
+/** The words of the pair style, which define the contact history. During a run LIGGGHTS would write springs as they
+ *  were before the step: it copies them for restart files when lists are built, which is before forces are evaluated.
+ */
 void FixRunGuard::write_restart(FILE *file) {
   Fix *springs = running_ ? modify->find_fix_style_strict("contacthistory", 0) : nullptr;
   if (springs) springs->pre_exchange();
@@ -216,7 +215,7 @@ void FixRunGuard::restart(char *buffer) {
   const std::string written(grainscope::state_block::tail(buffer), grainscope::whole_count(saved.length, 1e6));
   if (written.empty() || written == settings_ || comm->me != 0) return;
   error->warning(FLERR, ("pair_style gran/insitu: the restart file was written with '" + written +
-                         "', and now it is '" + settings_ + "'")
+                         "', this run uses '" + settings_ + "'")
                             .c_str());
 }
 

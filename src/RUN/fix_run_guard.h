@@ -14,10 +14,10 @@ FixStyle(run/guard,FixRunGuard)
 
 namespace LAMMPS_NS {
 
-/** Watches over every run with pair_style gran/insitu: stops it at numbers that are not finite, at grains lost from
- *  a periodic box and at output that cannot be written; warns of a first evaluation that exceeds the friction limit;
- *  ends it in order at a signal; seals restart files, with the words of the pair style in them. Made by the pair
- *  style, with its words as the argument, not by input scripts. */
+/** Guards every run with pair_style gran/insitu. It ends the run at numbers that are not finite, at grains lost from a
+ *  periodic box and at output that cannot be written; warns of a first evaluation that exceeds the friction limit; ends
+ *  the run in order at a signal; seals restart files, with the words of the pair style in them. Made by the pair style,
+ *  with its words as the argument, not by input scripts. */
 class FixRunGuard : public grainscope::InternalFix {
  public:
   FixRunGuard(class LAMMPS *lmp, int narg, char **arg);

@@ -72,14 +72,14 @@ int FixSetupMemory::setmask() { return FixConst::PRE_EXCHANGE | FixConst::PRE_FO
 
 void FixSetupMemory::init() {
   grainscope::require_no_bodies(lmp, grainscope::Arguments(lmp, "pair_style gran/insitu setup neutral"),
-                                "a run that begins counts the forces on them again: 'setup host'");
+                                "their forces would be summed twice when a run begins: use 'setup host'");
   impl_->running = false;
   impl_->memory->evaluation.give_up_repetition();
   next_reneighbor = -1;
   impl_->order.allow_sorting();
 }
 
-/** A run that goes on would not sort grains now. */
+/** A run that continues would not sort grains now. */
 void FixSetupMemory::setup_pre_exchange() {
   if (!impl_->memory->run.there_was_none()) impl_->order.prevent_sorting();
 }
@@ -95,8 +95,8 @@ void FixSetupMemory::setup_pre_force(int) {
 
 void FixSetupMemory::setup(int) { impl_->memory->evaluation.end_repetition(); }
 
-/** In the step after a restart file: what the host does next too, but in an order that does not depend on the ranks'
- *  past. */
+/** In the step after a restart file: LIGGGHTS does the same next, but in an order that depends on the history of the
+ *  ranks. */
 void FixSetupMemory::pre_exchange() {
   if (update->ntimestep != next_reneighbor) return;
   if (domain->triclinic) domain->x2lamda(atom->nlocal);
@@ -145,13 +145,13 @@ int FixSetupMemory::pack_restart(int i, double *buffer) {
 void FixSetupMemory::unpack_restart(int i, int nth) {
   const double *numbers = grainscope::restart_numbers(atom, i, nth, GrainMemory::width);
   if (!numbers)
-    error->one(FLERR, "pair_style gran/insitu: the restart file holds another kind of memory of the set-up: say "
-                      "'setup host'");
+    error->one(FLERR, "pair_style gran/insitu: the restart file holds the memory of 'setup neutral' in another form: "
+                      "use 'setup host'");
   impl_->memory->evaluation.grains.read(i, numbers);
 }
 
-/** Comes before the grains are written. The run that begins from the file wraps grains and builds lists where this
- *  one does. */
+/** Called before the grains are written. The run that begins from the file wraps grains and builds lists at the same
+ *  point as this one. */
 void FixSetupMemory::write_restart(FILE *file) {
   Memory &memory = *impl_->memory;
   if (impl_->running) {

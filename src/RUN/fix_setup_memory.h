@@ -14,10 +14,10 @@ FixStyle(setup/memory,FixSetupMemory)
 
 namespace LAMMPS_NS {
 
-/** What `setup neutral` of pair_style gran/insitu remembers: the last force evaluation and what the run ended with.
- *  LIGGGHTS recomputes all forces when a run begins, with other velocities than a run that goes on would have; with
- *  this, contacts are evaluated with the velocities of their step, and grains get back the forces and positions that
- *  they had. In restart files. Made by the pair style, not by input scripts. */
+/** The memory of `setup neutral` of pair_style gran/insitu: the last force evaluation and the state at the end of the
+ *  run. At the start of each run LIGGGHTS recomputes all forces with full-step velocities, unlike an uninterrupted run.
+ *  With this fix contacts are evaluated with the velocities of their step, and grains get back their forces and
+ *  positions. Kept in restart files. Made by the pair style, not by input scripts. */
 class FixSetupMemory : public grainscope::InternalFix, public grainscope::KeepsEvaluation {
  public:
   FixSetupMemory(class LAMMPS *lmp, int narg, char **arg);

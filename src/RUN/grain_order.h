@@ -6,8 +6,8 @@
 
 namespace grainscope {
 
-/** The order of a rank's grains, which forces are summed in. LIGGGHTS sorts grains by position every so many steps,
- *  and when a run begins. */
+/** The order of the grains of a rank, in which forces are summed. LIGGGHTS sorts grains by position at intervals of
+ *  steps, and when a run begins. */
 class GrainOrder : private LAMMPS_NS::Pointers {
  public:
   explicit GrainOrder(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp) {}

@@ -8,7 +8,7 @@ class Domain;
 
 namespace grainscope {
 
-/** The host's box and its rates: of its numbers those that tell where ghosts are and how they move. Part of restart
+/** The box of LIGGGHTS and its rates: the numbers that define where ghosts are and how they move. Part of restart
  *  files. */
 struct HostBox {
   double low[3] = {}, high[3] = {}, tilts[3] = {};  // tilts yz, xz, xy

@@ -8,8 +8,8 @@
 
 namespace grainscope {
 
-/** The last force evaluation, and its repetition when a run begins: with its box, positions and velocities, after
- *  which grains get back the positions and forces that they ended the last run with. */
+/** The last force evaluation, and its repetition when a run begins, with its box, positions and velocities. Afterwards
+ *  grains get back the positions and forces that they had at the end of the last run. */
 class LastEvaluation : public EvaluationMemory, private LAMMPS_NS::Pointers {
  public:
   explicit LastEvaluation(LAMMPS_NS::LAMMPS *lmp) : Pointers(lmp), grains(lmp) {}

@@ -18,8 +18,8 @@ using LAMMPS_NS::LAMMPS;
 
 namespace {
 
-/** Old forces do not hold when a fix that adds to them comes or goes. In any order: that of an input script after
- *  read_restart may be another. */
+/** Old forces are not valid if a fix that adds to them comes or goes. The order does not matter: that of an input
+ *  script after read_restart may differ. */
 double checksum_of_moving_fixes(const LAMMPS *lmp) {
   double sum = 0.0;
   for (int k = 0; k < lmp->modify->nfix; k++) {
@@ -42,8 +42,8 @@ LastRun LastRun::ending_now(LAMMPS *lmp) {
   return run;
 }
 
-/** Whether images are where they were. A face that is not periodic pushes no grain, wherever it is: one that follows
- *  the grains is set again when the run begins. */
+/** Whether images are where they were. A face that is not periodic exerts no force, wherever it is: a shrink-wrapped
+ *  face is set again when the run begins. */
 bool LastRun::same_box(const LAMMPS *lmp) const {
   const LAMMPS_NS::Domain *domain = lmp->domain;
   const HostBox now = HostBox::of(domain);
@@ -62,7 +62,7 @@ bool LastRun::goes_on(LAMMPS *lmp, const GrainMemory &memory) const {
     for (FILE *out : {lmp->screen, lmp->logfile})
       if (out)
         fprintf(out, "pair_style gran/insitu: grains, box, time step or fixes were changed since the last run: "
-                     "forces are recomputed with the velocities of whole steps, within the friction limit\n");
+                     "forces are recomputed with full-step velocities, within the friction limit\n");
   return !changed;
 }
 

@@ -12,8 +12,8 @@ namespace grainscope {
 
 class GrainMemory;
 
-/** What the last run ended with, beside its grains: the next one may go on only as long as nothing of it has
- *  changed. Doubles throughout, as it stands in restart files. */
+/** The state of the last run at its end, besides its grains: the next run may continue it only if none of it has
+ *  changed. Doubles only, as in restart files. */
 struct LastRun {
   HostBox box;
   double grains = -1.0;  // -1 before the first run
@@ -23,7 +23,7 @@ struct LastRun {
 
   static LastRun ending_now(LAMMPS_NS::LAMMPS *lmp);
   bool there_was_none() const { return grains < 0.0; }
-  /** Whether all of it is as it was then, and every grain too; says so when it is not. Collective. */
+  /** Whether all of it, and every grain, is unchanged; prints a note if not. Collective. */
   bool goes_on(LAMMPS_NS::LAMMPS *lmp, const GrainMemory &memory) const;
 
  private:

@@ -54,8 +54,8 @@ Choice choose(const std::vector<std::string> &names) {
   if (choice.file.empty())
     choice.message = "read_restart: " + (refused.empty() ? "no file matches '" + names[0] + "'" : refused);
   else if (names.size() > 1 || !refused.empty())
-    choice.message = "read_restart: taking '" + choice.file + "', of step " + std::to_string(newest) +
-                     (refused.empty() ? "" : "; passed over: " + refused);
+    choice.message = "read_restart: reading '" + choice.file + "', of step " + std::to_string(newest) +
+                     (refused.empty() ? "" : "; skipped: " + refused);
   return choice;
 }
 
@@ -65,8 +65,9 @@ void ReadRestartSealed::command(int narg, char **arg) {
   if (narg < 1)
     error->all(
         FLERR,
-        "read_restart: expected the name of a file, or several to take the newest of, got the end of the command");
-  if (domain->box_exist) error->all(FLERR, "read_restart: must come before the box is defined, and one is");
+        "read_restart: expected the name of a file, or of several to read the newest of, got the end of the command");
+  if (domain->box_exist)
+    error->all(FLERR, "read_restart: must come before the simulation box is defined, and one is defined");
   const std::vector<std::string> names(arg, arg + narg);
   std::string file = names[0];
   // One file per rank ('%') is neither sealed nor checked.

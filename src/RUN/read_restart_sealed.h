@@ -12,8 +12,8 @@ CommandStyle(read_restart,ReadRestartSealed)
 
 namespace LAMMPS_NS {
 
-/** The host's command read_restart, which believes every byte that it reads, behind a check that the file is whole;
- *  of several files it takes the newest that is. See doc/read_restart.md. */
+/** The command read_restart of LIGGGHTS, which does not check what it reads, behind a check that the file is whole; of
+ *  several files it reads the newest that is whole. See doc/read_restart.md. */
 class ReadRestartSealed : protected Pointers {
  public:
   explicit ReadRestartSealed(class LAMMPS *lmp) : Pointers(lmp) {}

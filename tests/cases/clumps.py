@@ -349,7 +349,7 @@ def refused_of_a_part(ranks):
         if measure.startswith("layering"):
             text = text.replace("c_it[1]", "c_it")
         require_refused(
-            text, ranks, f"compute {measure.split()[0]}", "its group has", "spheres of a clump", folder=folder()
+            text, ranks, f"compute {measure.split()[0]}", "its group must hold all spheres of a clump", folder=folder()
         )
 
 
@@ -360,7 +360,7 @@ def refused_bodies(ranks):
         asked = ["variable strain equal step*1e-3", f"compute it all {measure}", "run 0"]
         deck.body = ["unfix integrate", "fix body all rigid single", *asked]
         name = f"compute {measure.split()[0]}"
-        require_refused(deck, ranks, name, "not the bodies of fix body (rigid)")
+        require_refused(deck, ranks, name, "not with the bodies of fix body (rigid)")
         if measure not in FOLLOWED:
             continue
         breaking = "fix integrate all multisphere/break trigger_name v_never trigger_threshold 1e30"
@@ -373,8 +373,9 @@ def refused_bodies(ranks):
     require_refused("\n".join(lines) + "\n", ranks, "half as large as the box", "4.5 along x", folder=folder())
 
 
+GROUP = "its group must hold all spheres of a clump"
 REFUSED = {
-    "group part id 1 2\ncompute s part stress/contact volume auto\nthermo_style custom step c_s": "its group has",
+    "group part id 1 2\ncompute s part stress/contact volume auto\nthermo_style custom step c_s": GROUP,
     "pair_style gran/insitu model hertz tangential history setup neutral": "setup neutral: does not work with clumps",
     "compute n all nematic": "compute nematic: does not work with clumps (fix integrate, multisphere)",
     "compute l all energy/ledger": "multisphere",

@@ -68,7 +68,7 @@ def newest_whole_one(ranks):
     result = run(deck.restarted(f"{last} {middle} {folder}/nowhere", ['print "at step $(step)"', "run 1"]), ranks)
     text = " ".join(result.output.split())
     require("at step 30" in text, "another file was taken")
-    for word in (f"taking '{middle}', of step 30", f"'{last}' was cut short or damaged", "nowhere' cannot be opened"):
+    for word in (f"reading '{middle}', of step 30", f"'{last}' is truncated or damaged", "nowhere' cannot be opened"):
         require(word in text, f"{word!r} was not reported:\n{tail(result.output)}")
     refused(attempt(deck.restarted(f"{folder}/none*", ["run 1"]), ranks), "read_restart: no file matches")
 
@@ -159,7 +159,7 @@ CASES = {
     "plain-gran-and-back": plain_gran_and_back,
     "other-settings": other_settings,
     "velocity-nan": not_finite(
-        ["set atom 3 vx 1e999"], "the velocity of grains 3 is not finite: look at the commands that set it"
+        ["set atom 3 vx 1e999"], "the velocity of grains 3 is not finite: check the commands that set it"
     ),
     "force-inf": not_finite(
         ["group one id 17", "fix push one addforce 1e999 0 0"], "step 5: the force of grains 17 is not finite"

@@ -160,7 +160,7 @@ def concentric(shapes, overlap):
         table = result.thermo()[-1]
         require([float(table[name][0]) for name in counts] == [1.0] * 3, f"counts {table}")
         again = run(replace(deck, body=["run 3"]), ranks)
-        found = again.output.count("no regular contact of grains")
+        found = again.output.count("have no regular contact")
         require(found == 1, f"{found} warnings in 4 evaluations")
 
     return case

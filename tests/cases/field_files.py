@@ -106,15 +106,16 @@ def untouched(ranks):
 
 REFUSED = {
     "fix w all field/write 3 6 20 c_f": "needs 'file name ...'",
-    "fix w all field/write 3 6 20 c_none file a.csv": "'source' must be c_ID of a compute field that there is, got",
-    "fix w all field/write 3 6 20 c_g file a.csv": "'source' must be c_ID of a compute field that there is, got 'c_g'",
-    "fix w all field/write 3 6 20 c_f file a.csv a.csv": "'file' has 'a.csv' twice",
+    "fix w all field/write 3 6 20 c_none file a.csv": "'source' must be c_ID of a compute field that is defined, got",
+    "fix w all field/write 3 6 20 c_g file a.csv": "'source' must be c_ID of a compute field that is defined, "
+    "got 'c_g'",
+    "fix w all field/write 3 6 20 c_f file a.csv a.csv": "'file' names 'a.csv' twice",
     "fix w all field/write 3 6 20 f_f file a.csv": "'source' must be c_ID, a compute field, got 'f_f'",
     "fix w all field/write 3 6 16 c_f file a.csv": "'N_freq' must be a multiple of N_every, and more than",
     "fix w all field/write 3 6 20 c_f file a.csv blocks 4": "'blocks' must be a divisor of N_repeat, 6, got '4'",
     "fix w all field/write 3 6 20 c_f file a.txt": "'file' must be a name that ends with .csv, .vti or .vts, got",
     "fix w all field/write 1 1 100 c_f file none/a.csv": "cannot write 'none/a.csv': No such file or directory",
-    "fix w all field/write 1 1 100 c_h file a.vti": "this one is tilted: .vts",
+    "fix w all field/write 1 1 100 c_h file a.vti": "this one is tilted: use .vts",
 }
 
 
@@ -139,7 +140,7 @@ def between_runs(ranks):
     files = sorted(p.name for p in result.folder.glob("f.*.csv"))
     require(files == ["f.20.csv", "f.40.csv"], f"other numbers: {files}")
     gone = [*start, "uncompute f", "run 10 pre no"]
-    message = "'source' must be c_ID of a compute field that there is, got 'c_f'"
+    message = "'source' must be c_ID of a compute field that is defined, got 'c_f'"
     require_refused(replace(loose(), body=gone), ranks, "fix field/write", message)
 
 

@@ -387,8 +387,8 @@ def empty_start(ranks):
     ]
     output = run(Deck(packing, body=lines), ranks).output
     for words in (
-        "compute displacement/shear d: there is no grain in group 'none' when it starts",
-        "compute displacement/shear e: there is no grain in group 'all' and region 'far' when it starts",
+        "compute displacement/shear d: there is no grain in group 'none' at its start",
+        "compute displacement/shear e: there is no grain in group 'all' and region 'far' at its start",
         "compute velocity/memory m: there is no grain in the first sample",
     ):
         require_equal(output.count(words), 1, words)

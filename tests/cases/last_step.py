@@ -178,7 +178,7 @@ def grains_change_between_runs(ranks):
     after = run(deck(grain, most, *asked, dumped), ranks).dump("grains.dump")[-1]
     for found, expected in zip(*(np.array(list(s[1].values()))[:, np.argsort(s[1]["id"])] for s in (after, within))):
         require_equal(found, expected, "asked within the run, and once more after it")
-    require_refused(deck(grain, "run 5", dumped), ranks, "compute contact/grain grain: not tallied on this step")
+    require_refused(deck(grain, "run 5", dumped), ranks, "compute contact/grain grain: not evaluated on this step")
     for change in (
         ["group gone id 2", "delete_atoms group gone compress no"],
         ["create_atoms 1 single 0.1 0.1 0.1 units box"],
@@ -186,7 +186,7 @@ def grains_change_between_runs(ranks):
         require_refused(
             deck(grain, most, *asked, *change, dumped),
             ranks,
-            "compute contact/grain grain: grains were sorted, added or removed since the last step",
+            "compute contact/grain grain: grains were sorted, added or removed after the last step",
         )
 
 

@@ -188,7 +188,7 @@ def faces_that_follow(ranks):
     ]
     volumes(deck, lines, {"bed": lx * ly * 6.0, "ball": 4.0 / 3.0 * math.pi * 8.0}, ranks, flow=FLOW)
     open_one = replace(deck, body=[*lines, "compute s all stress/contact region open", "run 0"])
-    require_refused(open_one, ranks, "it does not end where the box follows the grains")
+    require_refused(open_one, ranks, "it has no end where the box is shrink-wrapped")
 
 
 FLAT = """dimension 2
@@ -280,7 +280,9 @@ def half_infinite_prism(ranks):
     for name in ("p", "u"):
         for style in ("fabric", "stress/contact volume 1.0", "contact/grain"):
             deck = Deck(dense_packing(minimum=30), body=[*lines, f"compute c all {style} region {name}", "run 0"])
-            require_refused(deck, ranks, "region 'p': LIGGGHTS does not see where a prism ends that is INF on one side")
+            require_refused(
+                deck, ranks, "region 'p': LIGGGHTS ignores the bound of a prism that is INF on the other side"
+            )
 
 
 CASES = {

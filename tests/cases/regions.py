@@ -333,9 +333,9 @@ def nothing_there(ranks):
 REFUSED = {
     "s": ("compute s all stress/contact region ball", "the volume of the region is not known (a face cuts the sphere)"),
     "u": ("compute s all stress/contact region both", "the volume of the region is not known (it is a union)"),
-    "w": ("compute s all stress/contact region wedge", "region 'wedge': lines are cut by block, prism, plane"),
-    "o": ("compute s all stress/contact region away", "nothing of it lies in the box"),
-    "l": ("compute s all dissipation mode ledger region ball", "'mode ledger' knows no losses by types or of a region"),
+    "w": ("compute s all stress/contact region wedge", "region 'wedge': it must be a block, prism, plane"),
+    "o": ("compute s all stress/contact region away", "no part of it lies in the box"),
+    "l": ("compute s all dissipation mode ledger region ball", "'mode ledger' has no losses by types or of a region"),
 }
 
 

@@ -211,7 +211,7 @@ def no_restart_whole(ranks):
     for path in out.glob("*.restart"):
         path.write_bytes(path.read_bytes()[:1000])
     status, output = run_to_end("damaged", ranks)
-    require(status == 1 and "was cut short" in output, f"ended with {status}: {output}")
+    require(status == 1 and "is truncated or damaged" in output, f"ended with {status}: {output}")
     require((out / "series.txt").read_bytes() == series, "series.txt was touched")
 
 

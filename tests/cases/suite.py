@@ -76,7 +76,7 @@ def asked(*words):
 def unknown_word_refused(ranks):
     for word in ("fabrik", "ledge r", "stress/contacts", "("):
         code, said = asked(word)
-        require(code == 1 and f"'{word}' is no style" in said, f"exit code {code}: {said}")
+        require(code == 1 and f"'{word}' is neither a style" in said, f"exit code {code}: {said}")
         for style in styles():
             require(style in said.split(), f"{style} is not among what there is: {said}")
 

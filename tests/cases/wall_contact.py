@@ -356,9 +356,7 @@ def areas(ranks):
     require("the area of wall 'far' is not known (it reaches beyond the box)" in result.output, "nothing is said")
     deck.boundary = "s f f"
     output = run_with_meshes(deck, ranks, floor=FLOOR).output
-    require(
-        "the area of wall 'y0' is not known (the box follows the grains along it" in output, "nothing is said of y0"
-    )
+    require("the area of wall 'y0' is not known (the box is shrink-wrapped along it" in output, "nothing is said of y0")
     require("the area of wall 'x0'" not in output, "x0 has an area")
 
 

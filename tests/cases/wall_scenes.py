@@ -212,7 +212,7 @@ def press_between_sides(ranks):
     require_same_snapshots(first.dump("grains.dump"), last.dump("grains.dump"), "walls after or before")
 
 
-ASKED = "asked at the start of a run before all fixes wall/gran have evaluated their contacts"
+ASKED = "evaluated at the start of a run before all fixes wall/gran have computed their contacts"
 AVERAGE = "fix mean all ave/time 1 1 1 c_stress file mean.txt"
 
 
@@ -249,8 +249,8 @@ def walls_that_change(ranks):
     require_refused(
         deck,
         ranks,
-        "pair_style gran/insitu: a fix wall/gran was removed since the run was set up, and contacts are to be "
-        "measured: do not say 'pre no'",
+        "pair_style gran/insitu: a fix wall/gran was removed after the last set-up of a run, and contacts are "
+        "measured: do not use 'pre no'",
     )
     deck.body = [wall, *measured, "run 1", removed, "run 1"]
     require_equal(run(deck, ranks).thermo()[-1][C_STRESS["N_w"]][-1], 0.0, "contacts with the wall that is gone")
@@ -303,7 +303,7 @@ def unseen_walls(ranks):
     deck.body = [*floor(deck, "plane"), "run 1", *region, "run 1", "run 1"]
     output = run(deck, ranks).output
     require(output.count(UNSEEN) == 1, f"said {output.count(UNSEEN)} times")
-    require(f"{UNSEEN} fix hall (wall/region) are not seen by any measure" in output, "other words")
+    require(f"{UNSEEN} fix hall (wall/region) are not measured" in output, "other words")
 
 
 CASES = {

@@ -42,7 +42,7 @@ CASES = {
     "a-column-too-few": refused([*GOOD[:2], "3 1 1000 1 1 1.5 2 2 3 4.5"], 3, COUNT, "got 10"),
     "three-numbers-of-a-quaternion-and-images": refused([f"{line} 0 0 0 0 0 0" for line in GOOD], 1, COUNT, "got 17"),
     "lines-of-several-lengths": refused(
-        [GOOD[0], IMAGED[1], GOOD[2]], 2, "all lines must have as many columns, got 14 after 11"
+        [GOOD[0], IMAGED[1], GOOD[2]], 2, "all lines must have the same number of columns, got 14 after 11"
     ),
     "an-empty-line": refused([GOOD[0], "", *GOOD[1:]], "(an empty line)", COUNT, "got 0"),
     "id-zero": refused(changed(GOOD, "2 1 1000", "0 1 1000"), 0, must("id", POSITIVE, "0")),

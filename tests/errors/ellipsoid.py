@@ -49,7 +49,7 @@ INSERT = [
     "run 200",
 ]
 BOTH = "surface ellipsoid: meanCurvature and gaussianCurvature cannot both be yes"
-NEEDS = "surface ellipsoid needs blockiness 2 2 of every grain, got"
+NEEDS = "surface ellipsoid: every grain must have blockiness 2 2, got"
 
 
 LIQUID = [
@@ -73,8 +73,8 @@ SPHERES = Packing(
 
 def bridge(model, number, **choices):
     return refused(
-        f"surface ellipsoid: 'cohesion {model}' knows the distance of spheres only, and grain {number} is none",
-        "use cohesion sjkr or sjkr2",
+        f"surface ellipsoid: 'cohesion {model}' works with spheres only, and grain {number} is not a sphere",
+        "cohesion sjkr or sjkr2",
         body=(*LIQUID, "run 1"),
         cohesion=model,
         **choices,
@@ -161,10 +161,10 @@ CASES = {
         body=("group few id 1:3", SOLVER.replace("all", "few"), "run 1"),
     ),
     "solver-needs-surface-ellipsoid": refusal(
-        solver_of(surface="superquadric"), "compute contact/solver requires a pair_style with surface ellipsoid"
+        solver_of(surface="superquadric"), "compute contact/solver: needs a pair_style with 'surface ellipsoid', got '"
     ),
     "solver-of-spheres": refusal(
-        solver_of(atom_style="sphere"), "compute contact/solver requires a pair_style with surface ellipsoid"
+        solver_of(atom_style="sphere"), "compute contact/solver: needs a pair_style with 'surface ellipsoid', got '"
     ),
     "solver-needs-gran-insitu": refusal(
         solver_of("gran"), "compute contact/solver requires pair_style gran/insitu, got 'gran'"

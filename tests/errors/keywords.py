@@ -168,7 +168,10 @@ PRESS = Style(
             "'gain' must be auto with 'target' of a shear, got 1e-06",
         ),
         (press() + " y fixed", "'axis y' and 'y' exclude each other"),
-        (BARE + " every/step 5", "nothing is to move: give 'axis' and 'target', x, y, z, 'mean' or 'shear'"),
+        (
+            BARE + " every/step 5",
+            "no motion of the box is given: use 'axis' and 'target', 'x', 'y', 'z', 'mean' or 'shear'",
+        ),
         (BARE + " ratio 1 1 1 x fixed every/step 5", "'ratio' needs 'mean target' and a pressure"),
         (BARE + " mean pressure 5", "'mean' must be target, got 'pressure'"),
         (BARE + " mean target -5", "'mean target' must be a pressure >= 0 or a variable v_name, got '-5'"),
@@ -211,7 +214,7 @@ PRESS = Style(
         ),
     ],
 )
-NO_WALLS = "there are none, define it after fix wall/gran"
+NO_WALLS = "there are none yet, define it after fix wall/gran"
 NEEDED_BY_A_PLATE = {"mesh": "plate", "axis": "z", "target": "1e5", "area": "4", "every/step": "5"}
 
 

@@ -50,12 +50,11 @@ CASES = {
         "compute c (energy/ledger) requires pair_style gran/insitu, got 'gran'", extra="", pair="gran"
     ),
     "cohesion": refused(
-        NAME + "does not know the energy of cohesion: only 'cohesion off', got 'model hertz tangential history "
-        "cohesion sjkr'",
+        NAME + "works with 'cohesion off' only, got 'model hertz tangential history " "cohesion sjkr'",
         cohesion="sjkr",
     ),
     "rolling": refused(
-        NAME + "knows the work of 'rolling_friction' off, cdt, epsd and epsd2 only",
+        NAME + "works with 'rolling_friction' off, cdt, epsd and epsd2 only",
         "rolling_friction luding",
         rolling="luding",
         before=[f"fix c{k} all property/global {name} peratomtypepair 1 1e5" for k, name in enumerate(ROLLING)],
@@ -67,12 +66,12 @@ CASES = {
         before=["unfix integrate", "group few id 1:50", "fix integrate few nve/sphere"],
     ),
     "other-integrator": refused(
-        NAME + "knows grains that are moved by fix nve/sphere",
+        NAME + "needs grains that are moved by fix nve/sphere",
         "got fix integrate of style nve/limit",
         before=["unfix integrate", "fix integrate all nve/limit radius_ratio 0.1"],
     ),
     "box-without-flow": refused(
-        NAME + "needs a box that carries velocities along where it deforms, 'remap v', got fix shear (deform) without",
+        NAME + "needs 'remap v' of a box that deforms, got fix shear (deform) without",
         before=["fix shear all deform 1 xy erate 0.01 remap x"],
     ),
     "box-of-some-grains": refused(
@@ -94,7 +93,7 @@ CASES = {
         "fix ledger/record: is made by the computes that need it", compute="fix r all ledger/record x"
     ),
     "wall-cohesion": refused(
-        NAME + "wall 'floor': does not know the energy of cohesion: only 'cohesion off', got 'model hertz tangential "
+        NAME + "wall 'floor': works with 'cohesion off' only, got 'model hertz tangential "
         "history cohesion sjkr primitive",
         before=["fix floor all wall/gran model hertz tangential history cohesion sjkr primitive type 1 zplane 0.0"],
         packing=replace(SPHERES, triclinic=False),

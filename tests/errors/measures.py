@@ -37,7 +37,7 @@ def all_shaped(shape):
 
 KNOWN = "strain v_strain "
 VARIABLE = ["variable strain equal step"]
-NO_STRAIN = "needs to know the strain: use fix press/strain, or the keyword 'strain' with f_ID[n], v_name or time"
+NO_STRAIN = "needs a strain: use fix press/strain, or the keyword 'strain' with f_ID[n], v_name or time"
 PRESS = "fix {} all press/strain axis y target 1e5 shear xy rate 0.05 every 1e-3"
 
 CASES = {
@@ -70,7 +70,7 @@ CASES = {
     ),
     "correlation-mesh-too-fine": line(
         "velocity/correlation method mesh mesh 100 bins 1000",
-        "must ask for less than 1e9 cells, got",
+        "must give fewer than 1e9 cells, got",
         after=thermo(1, "c_c"),
     ),
     "memory-without-strain": line("velocity/memory", f"compute velocity/memory: {NO_STRAIN}"),

@@ -215,10 +215,19 @@ def exception(ranks):
     require_once(ended, BEFORE + "\n", screen=True, log=True)
 
 
-STRESS = "compute stress (stress/contact) gives a scalar and a vector of 36"
-MEMORY = "compute memory (velocity/memory) gives a scalar, a vector of 6 and an array of 5 rows and 4 columns"
-GRAIN = "compute grain (contact/grain) gives 7 columns per grain"
-ROWS = "compute rows (contact/local) gives 3 columns per local row"
+def listed(text, ID, page):
+    return f"{text}, listed by 'outputs {ID}' and in doc/{page}.md"
+
+
+STRESS = listed("compute stress (stress/contact) gives a scalar and a vector of 36", "stress", "compute_stress_contact")
+MEMORY = listed(
+    "compute memory (velocity/memory) gives a scalar, a vector of 6 and an array of 5 rows and 4 columns",
+    "memory",
+    "compute_velocity_memory",
+)
+GRAIN = listed("compute grain (contact/grain) gives 7 columns per grain", "grain", "compute_contact_grain")
+ROWS = listed("compute rows (contact/local) gives 3 columns per local row", "rows", "compute_contact_local")
+PRESS = listed("fix press (press/strain) gives a scalar and a vector of 44", "press", "fix_press_strain")
 COMPUTES = [
     "compute stress all stress/contact",
     "variable s equal step",
@@ -278,9 +287,7 @@ def of_a_fix(ranks):
     define = "fix press all press/strain axis y target 1e5 every/step 5"
     for place in (PLACES["thermo"], PLACES["print"], PLACES["ave-time"]):
         deck = lines_with((define, *place), "f_press[99]")
-        require_refused(
-            deck, ranks, "out-of-range", "f_press[99]: fix press (deform) gives a scalar and a vector of 44"
-        )
+        require_refused(deck, ranks, "out-of-range", f"f_press[99]: {PRESS}")
 
 
 def only_the_wrong_one(ranks):
@@ -294,7 +301,7 @@ NO_INDEX = ["[*]", "[0]", "[-1]", "[1][2]", "[2x]", "[]", "[1.5]", "[99999999999
 
 
 def index_that_is_none(ranks):
-    words = "what is in brackets must be an index, a whole number from 1 up, got"
+    words = "the index in brackets must be a whole number >= 1, got"
     for bad in NO_INDEX:
         require_refused(lines_with(PLACES["ave-time"], f"c_stress{bad}"), ranks, f"{words} '{bad}'", STRESS)
     for name in ("thermo", "print"):
@@ -320,6 +327,23 @@ def name_that_is_none(ranks):
     deck = lines_with(PLACES["print"], "c_quite_another")
     result = require_refused(deck, ranks, "there is no compute 'quite_another'")
     require("did you mean" not in result.output, "a guess from nowhere")
+
+
+PAGE = "'outputs stress' defines variables for all its outputs (doc/compute_stress_contact.md)"
+
+
+def variable_that_is_none(ranks):
+    """Of an output: the command outputs would define it, or its name is misspelt."""
+    for place in PLACES.values():
+        require_refused(
+            lines_with(place, "v_stress_P"), ranks, f"v_stress_P: there is no variable 'stress_P': {PAGE} ("
+        )
+    misspelt = "v_stress_mu_ef: there is no variable 'stress_mu_ef': did you mean 'stress_mu_eff'?"
+    for name in ("thermo", "print", "ave-time"):
+        place = ("outputs stress", *PLACES[name])
+        require_refused(lines_with(place, "v_stress_mu_ef"), ranks, f"{misspelt} {PAGE} (")
+    deck = lines_with(PLACES["print"], "v_quite_another")
+    require_refused(deck, ranks, "v_quite_another: there is no variable 'quite_another' (")
 
 
 STYLES = [
@@ -374,6 +398,7 @@ CASES = {
     "only-the-wrong-one": only_the_wrong_one,
     "index-that-is-none": index_that_is_none,
     "name-that-is-none": name_that_is_none,
+    "variable-that-is-none": variable_that_is_none,
     "misspelt-style": misspelt_style,
     "dumps-that-need-vtk": dumps_that_need_vtk,
 }

@@ -7,7 +7,7 @@ from refusal import refusal
 
 PACKING = dense_packing(1.5)
 STRESS = "compute stress all stress/contact"
-WANTED = "outputs: 'ID' must be that of a compute or fix with named outputs, got "
+WANTED = "outputs: 'ID' must be the ID of a compute or fix with named outputs, got "
 
 
 def body(*lines, **choices):
@@ -28,9 +28,8 @@ def clash(define, what):
         define,
         "outputs stress",
         words=[
-            f"ERROR: outputs: 'c_stress[31]' would be variable 'stress_Z', which exists and is {what}: "
-            "delete that variable first, or give "
-            "another 'prefix' ("
+            f"ERROR: outputs: the variable 'stress_Z' for 'c_stress[31]' exists already and is {what}: "
+            "delete it first, or give another 'prefix' ("
         ],
     )
 
@@ -46,30 +45,35 @@ main(
         "prefix-with-a-slash": words_of("outputs stress prefix a/b", f"'prefix' must be {NAME}, got 'a/b'"),
         "prefix-with-a-dash": words_of("outputs stress prefix a-b", f"'prefix' must be {NAME}, got 'a-b'"),
         "empty-prefix": words_of('outputs stress prefix ""', f"'prefix' must be {NAME}, got ''"),
-        "misspelt": lines(STRESS, "outputs strss", words=[WANTED + "'strss': did you mean 'stress'? ("]),
-        "nothing-like-it": lines(STRESS, "outputs temperature", words=[WANTED + "'temperature' ("]),
+        "misspelt": lines(
+            STRESS, "outputs strss", words=[WANTED + "'strss': did you mean 'stress'? (doc/outputs.md) ("]
+        ),
+        "nothing-like-it": lines(STRESS, "outputs temperature", words=[WANTED + "'temperature' (doc/outputs.md) ("]),
         "host-compute": lines(
             "compute energy all ke",
             "outputs energy",
-            words=[WANTED + "'energy', compute energy (ke), whose outputs have no names ("],
+            words=[WANTED + "'energy': the outputs of compute energy (ke) have no names (doc/outputs.md) ("],
         ),
         "host-fix": lines(
             "outputs integrate",
-            words=[WANTED + "'integrate', fix integrate (nve/superquadric), whose outputs have no names ("],
+            words=[
+                WANTED + "'integrate': the outputs of fix integrate (nve/superquadric) have no names (doc/outputs.md) ("
+            ],
         ),
         "compute-and-fix": lines(
             "compute press all nematic",
             "fix press all press/strain axis y target 1e5 every/step 10",
             "outputs press",
             words=[
-                WANTED + "'press', which is both compute press (nematic) and fix press (press/strain): rename one ("
+                WANTED
+                + "'press', which is the ID of both compute press (nematic) and fix press (press/strain): rename one ("
             ],
         ),
-        "before-the-box": refusal(lambda: "outputs stress\n", WANTED + "'stress' ("),
+        "before-the-box": refusal(lambda: "outputs stress\n", WANTED + "'stress' (doc/outputs.md) ("),
         "clash-equal": clash("variable stress_Z equal 3*step", "equal to 3*step"),
-        "clash-string": clash("variable stress_Z string four", "of another style than equal"),
-        "clash-index": clash("variable stress_Z index 1 2", "of another style than equal"),
-        "clash-atom": clash("variable stress_Z atom x", "of another style than equal"),
+        "clash-string": clash("variable stress_Z string four", "not of style equal"),
+        "clash-index": clash("variable stress_Z index 1 2", "not of style equal"),
+        "clash-atom": clash("variable stress_Z atom x", "not of style equal"),
         "compute-that-is-gone": lines(
             STRESS,
             "outputs stress",

@@ -63,8 +63,8 @@ def continued_otherwise(ranks):
         packing = dense_packing(1.5 if refused else 1.0, atom_style=style)
         with_it, without = (Deck(packing, surface="ellipsoid", extra=words) for words in (SYNCHRONIZED, ""))
         for first, second, said in (
-            (with_it, without, "it was written with 'time_level synchronized'. Say 'time_level synchronized'"),
-            (without, with_it, "it was written without 'time_level synchronized'. Say 'time_level host'"),
+            (with_it, without, "it was written with 'time_level synchronized'. Use 'time_level synchronized'"),
+            (without, with_it, "it was written without 'time_level synchronized'. Use 'time_level host'"),
         ):
             file = run(replace(first, body=["run 3", "write_restart a.restart"]), ranks).folder / "a.restart"
             again = second.restarted(file, ["run 3"])
@@ -87,7 +87,7 @@ def continued_with_as_many_columns(ranks):
             require_refused(
                 other.restarted(file, ["run 3"]),
                 ranks,
-                f"holds {many} numbers per contact, as many as this pair_style has, but other ones",
+                f"holds {many} numbers per contact, as many as this pair_style, but with other meanings",
             )
 
 
@@ -106,7 +106,7 @@ CASES = {
     ),
     "wall-without-a-surface": refusal(
         lambda: Deck(replace(dense_packing(1.5), triclinic=False), body=[WALL, "run 1"], boundary="p p f"),
-        f"fix floor (wall/gran): {BOUNDING}; got surface 'default'. Add 'surface ellipsoid' behind its other models",
+        f"fix floor (wall/gran): {BOUNDING}; got surface 'default'. Add 'surface ellipsoid' after its other models",
     ),
     "superquadrics-without-a-surface-under-gran": warned_under_gran,
     "hybrid": refusal(
@@ -133,23 +133,23 @@ CASES = {
     **{
         f"synchronized-{name}": refusal(make, f"pair_style gran/insitu: 'time_level synchronized' {requirement}", got)
         for name, make, requirement, got in (
-            ("cohesion", lambda: deck(extra=SYNCHRONIZED, cohesion="sjkr"), "knows 'cohesion' off only", "sjkr"),
+            ("cohesion", lambda: deck(extra=SYNCHRONIZED, cohesion="sjkr"), "works with 'cohesion' off only", "sjkr"),
             (
                 "rolling",
                 lambda: deck(extra=SYNCHRONIZED, rolling="cdt"),
-                "knows 'rolling_friction' off only",
+                "works with 'rolling_friction' off only",
                 "rolling_friction cdt",
             ),
             (
                 "without-friction",
                 lambda: deck(extra=SYNCHRONIZED, tangential="off"),
-                "knows 'tangential' history and no_history only",
+                "works with 'tangential' history and no_history only",
                 "tangential off",
             ),
             (
                 "surface",
                 lambda: as_text("tangential history", f"tangential history surface multicontact {SYNCHRONIZED}"),
-                "knows 'surface' default, superquadric and ellipsoid only",
+                "works with 'surface' default, superquadric and ellipsoid only",
                 "surface multicontact",
             ),
             (
@@ -157,7 +157,7 @@ CASES = {
                 lambda: as_text("model hertz", "model hooke/hysteresis", "run 1").replace(
                     "history", f"history {SYNCHRONIZED}"
                 ),
-                "knows the normal models hertz, hooke, hertz/stiffness and hooke/stiffness only",
+                "works with the normal models hertz, hooke, hertz/stiffness and hooke/stiffness only",
                 "hooke/hysteresis",
             ),
             ("ledger", lambda: deck(extra=SYNCHRONIZED + " ledger on"), "needs 'ledger off'", "got 'ledger on'"),
@@ -169,7 +169,7 @@ CASES = {
             body=[f"fix floor all wall/gran {MODEL} rolling_friction cdt primitive type 1 zplane -1 {SYNCHRONIZED}"],
             boundary="p p f",
         ),
-        "fix floor (wall/gran): 'time_level synchronized' knows 'rolling_friction' off only",
+        "fix floor (wall/gran): 'time_level synchronized' works with 'rolling_friction' off only",
         "rolling_friction cdt",
     ),
     "synchronized-wall-misspelt": refusal(

@@ -33,7 +33,7 @@ HYSTERESIS = [
     f"fix {name} all property/global coefficient{name} peratomtypepair 1 {value}"
     for name, value in (("MaxElasticStiffness", 5.0), ("AdhesionStiffness", 0.5), ("PlasticityDepth", 0.3))
 ]
-KNOWN = "'gain auto' knows the stiffness of the normal models hertz, hooke, hertz/stiffness and hooke/stiffness only"
+KNOWN = "'gain auto' works with the normal models hertz, hooke, hertz/stiffness and hooke/stiffness only"
 CASES = {
     "gain-auto-unknown-model": refused(
         f"{KNOWN}: give a number, or change the models of pair_style gran/insitu, got 'model hooke/hysteresis",

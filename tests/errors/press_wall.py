@@ -77,7 +77,8 @@ CASES = {
         ),
         (
             deck(GOOD, more=" surface_vel 0.5 0 0"),
-            WHO + "mesh 'plate' has the velocity of a conveyor belt: a plate has that of its motion",
+            WHO + "mesh 'plate' has the surface velocity of a conveyor belt, but a plate must have the velocity of "
+            "its motion",
         ),
         (
             deck(GOOD, "run 1", "unfix lid"),
@@ -89,8 +90,8 @@ CASES = {
         ),
     ),
     "second-mover": refused(
-        (deck(MOVE, GOOD), WHO + "mesh 'plate' is moved by fix swing too: one of them must go"),
-        (deck(GOOD, MOVE), WHO + "mesh 'plate' is moved by fix swing too: one of them must go"),
+        (deck(MOVE, GOOD), WHO + "mesh 'plate' is moved by fix swing too: remove one of them"),
+        (deck(GOOD, MOVE), WHO + "mesh 'plate' is moved by fix swing too: remove one of them"),
         (deck(GOOD, GOOD.replace("fix press", "fix two")), WHO + "mesh 'plate' is moved by fix press too"),
         (
             deck(
@@ -98,8 +99,8 @@ CASES = {
                 mesh="mesh/surface/stress/servo",
                 more=" com 0 0 0 ctrlPV force axis 0 0 -1 target_val 10.0 vel_max 0.1 kp 5.0",
             ),
-            WHO + "mesh 'plate' moves by itself (mesh/surface/stress/servo): take a fix mesh/surface or "
-            "mesh/surface/stress",
+            WHO
+            + "mesh 'plate' moves by itself (mesh/surface/stress/servo): use a fix mesh/surface or mesh/surface/stress",
         ),
     ),
     "grains": refused(
@@ -115,23 +116,29 @@ CASES = {
         (deck("group none id 1000", GOOD.replace("press all", "press none")), "got 0 below it"),
         (
             without_grains(),
-            WHO + "'limit' and a distance are required where there are no grains yet, whose size is its default",
+            WHO + "'limit' and a distance are required: the default is the size of the grains, and there are none yet",
         ),
     ),
     "speed": refused(
         (
             deck(press(1e4, "every/step 2 limit 0.5")),
-            WHO + "'limit' and 'maxrate' must let the plate move no further in a step than half of the neighbour skin, "
-            "0.1, got 0.25",
+            WHO + "'limit' and 'maxrate' must keep the motion of the plate in a step at or below half of the "
+            "neighbour skin, 0.1, got 0.25",
         ),
     ),
     "box": refused(
         (
             deck(GOOD, boundary="p p p"),
-            WHO + "the box must not be periodic along 'axis z', as grains would be on both sides of the plate",
+            WHO + "the box must not be periodic along 'axis z', because grains would be on both sides of the plate",
         ),
-        (open_sideways(), WHO + "'area box' is not known, as the box follows the grains along x: give the area of"),
-        (leaning(), WHO + "'area box' is not known, as the box is not at right angles to the axis along y: give the"),
+        (
+            open_sideways(),
+            WHO + "'area box' cannot be used, because the box is shrink-wrapped along x: give the area of",
+        ),
+        (
+            leaning(),
+            WHO + "'area box' cannot be used, because the box is not at right angles to the axis along y: give the",
+        ),
     ),
     "leaves-the-box": refused(
         (
@@ -148,7 +155,7 @@ CASES = {
     "unknown-model": refused(
         (
             deck(*HYSTERESIS, GOOD, normal="hooke/hysteresis"),
-            WHO + "'gain auto' knows the stiffness of the normal models hertz, hooke, hertz/stiffness and "
+            WHO + "'gain auto' works with the normal models hertz, hooke, hertz/stiffness and "
             "hooke/stiffness only: give a number, or change the models of wall 'plate', got 'model hooke/hysteresis",
         )
     ),

@@ -84,7 +84,7 @@ def former_seal_refused(ranks):
     """Files from before states had versions."""
     file, whole, resume = written(ranks)
     file.write_bytes(resealed(whole[: -SEAL.size], whole, format=1))
-    require_refused(resume, ranks, "was written by a version of grainscope that kept format 1, this one keeps format 2")
+    require_refused(resume, ranks, "was written by a version of grainscope with format 1, this one has format 2")
 
 
 def not_by_an_input_script(ranks):

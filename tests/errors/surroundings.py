@@ -96,12 +96,12 @@ def boxes_that_changed():
 def renumbered_warned(ranks):
     """Without a ledger the run goes on, as the host's does, and it is said once."""
     text = run(body("run 5", *RENUMBER, "run 1", "run 1"), ranks).output
-    require(text.count("grains were given other IDs") == 1, "no warning, or several")
+    require(text.count("grains got new IDs") == 1, "no warning, or several")
     text = run(body("run 5", *RENUMBER[:-1], RENUMBER[-1] + " compress no", "run 1"), ranks).output
     require("other IDs" not in text, "a warning for nothing")
 
 
-NO_STRAIN = "needs to know the strain: use fix press/strain, or the keyword 'strain' with f_ID[n], v_name or time"
+NO_STRAIN = "needs a strain: use fix press/strain, or the keyword 'strain' with f_ID[n], v_name or time"
 FOLLOW = [PRESS, "compute c all displacement/shear", "compute d all velocity/memory", *thermo(1, "c_c", "c_d")]
 NAMED = [PRESS, "compute c all displacement/shear strain f_press[1]", *thermo(1, "c_c")]
 VARIABLE = ["variable v equal step*1e-3", "compute c all velocity/memory strain v_v", *thermo(1, "c_c")]
@@ -131,7 +131,7 @@ CASES = {
         *(
             (
                 before_a_box(f"compute c all {line}"),
-                f"compute {line.split()[0]}: remembers what grains did: define it after " "the simulation box",
+                f"compute {line.split()[0]}: keeps data of each grain: define it after the simulation box",
             )
             for line in [*LEDGERS, *(f"{style} strain v_s" for style in STRAINED)]
         )
@@ -205,8 +205,8 @@ CASES = {
     "grains-renumbered": refused(
         (
             body("compute c all energy/ledger", "run 5", *RENUMBER, "run 1", extra="ledger on"),
-            "compute c (energy/ledger): grains were given other IDs",
-            "say 'compress no' to delete_atoms",
+            "compute c (energy/ledger): grains got new IDs",
+            "use 'delete_atoms ... compress no'",
         )
     ),
     "grains-renumbered-warned": renumbered_warned,
@@ -239,7 +239,7 @@ CASES = {
                 *thermo(100, "step"),
                 "run 5",
             ),
-            "compute stress/contact c: not tallied on this step, because nobody announced it",
+            "compute stress/contact c: not evaluated on this step, because nothing requested it in advance",
         )
     ),
     "strain-not-set-up": refused(

@@ -69,7 +69,9 @@ def out_of_plane(ranks):
     require_refused(discs(high), ranks, "pair_style gran/insitu: with 'dimension 2' all grains must be at one z, got")
     for motion in ("vz 0.1", "omegax 0.1", "omegay 0.1"):
         require_refused(
-            discs("unfix plane", f"set atom 3 {motion}"), ranks, "got 1 that have and are not held by a fix enforce2d"
+            discs("unfix plane", f"set atom 3 {motion}"),
+            ranks,
+            "got 1 that move so and are not held by a fix enforce2d",
         )
         run(discs(f"set atom 3 {motion}"), ranks)  # held
 
@@ -105,7 +107,7 @@ def mesh_walls(ranks):
         (
             "leaning",
             "compute c all wall/contact",
-            "the triangles of a mesh must stand upright, along z, got some that lean in mesh 'mesh'",
+            "the triangles of a mesh must be parallel to z, got others in mesh 'mesh'",
         ),
         ("standing", "compute c all wall/triangle", "compute wall/triangle: needs three dimensions, got 'dimension 2'"),
     ):

@@ -47,7 +47,7 @@ NAMES = refused(
     contact("area floor 0", "'area floor' must be an area > 0, got '0'"),
     contact("area floor 3 side", "'area side' must be an area > 0, got ''"),
     contact("area floor 3 floor 3", "'area' names 'floor' twice"),
-    contact("walls floor area side 3", "'area' names 'side', which is none of the chosen walls"),
+    contact("walls floor area side 3", "'area' names 'side', which is not one of the chosen walls"),
     (
         ["compute t all wall/triangle walls floor"],
         "ERROR: compute wall/triangle: 'walls' must name meshes of a fix wall/gran, got 'floor': there are none",
@@ -56,11 +56,11 @@ NAMES = refused(
 GONE = refused(
     (
         ["compute w all wall/contact", "run 1", "unfix side", "run 1"],
-        "ERROR: compute wall/contact w: wall 'side' is gone: there are floor. Define the compute again",
+        "ERROR: compute wall/contact w: wall 'side' no longer exists: there are floor. Define the compute again",
     ),
     (
         ["compute w all wall/contact", LID, "run 1"],
-        "ERROR: compute wall/contact w: wall 'lid' was made after it, and all walls were meant",
+        "ERROR: compute wall/contact w: wall 'lid' was defined after the compute, which measures all walls",
     ),
 )
 
@@ -87,8 +87,8 @@ def unknown_losses(ranks):
     require_refused(
         replace(grains, body=body),
         ranks,
-        "ERROR: compute wall/contact: wall 'floor': knows the damping of the normal models",
-        "Or say 'losses no'",
+        "ERROR: compute wall/contact: wall 'floor': works with the normal models",
+        "change its models, or use 'losses no'",
     )
     body = [*hysteresis, "compute w all wall/contact losses no", *thermo(1, "c_w[9]", "c_w[14]", "c_w[1][14]"), "run 1"]
     require(run(replace(grains, body=body), ranks).thermo()[0]["c_w[9]"].min() > 0.0, "the floor bears nothing")

@@ -32,7 +32,7 @@ TEST(contact_law, nothing_is_in_the_way_of_known_models) {
 TEST(contact_law, names_the_model_that_a_measure_does_not_know) {
   ContactLaw law = known();
   law.elastic = false;
-  EXPECT_TRUE(mentions(law.why_no_losses(), "knows the damping of the normal models hertz, hooke"));
+  EXPECT_TRUE(mentions(law.why_no_losses(), "works with the normal models hertz, hooke"));
   EXPECT_TRUE(mentions(law.why_no_energy(), "got 'model hertz tangential history'"));
   law = known();
   law.tangential = TangentialLaw::unknown;
