@@ -71,7 +71,7 @@ CASES = {
         before=["unfix integrate", "fix integrate all nve/limit radius_ratio 0.1"],
     ),
     "box-without-flow": refused(
-        NAME + "needs 'remap v' of a box that deforms, got fix shear (deform) without",
+        NAME + "needs 'remap v' where the box deforms, got fix shear (deform) without it",
         before=["fix shear all deform 1 xy erate 0.01 remap x"],
     ),
     "box-of-some-grains": refused(
@@ -87,7 +87,7 @@ CASES = {
         "compute c needs the fix ID 'c_ledger' for its ledger, but it is taken", before=["fix c_ledger all nve/noforce"]
     ),
     "record-gone": refused(
-        "fix c_ledger, which keeps the ledger of compute c, is gone", after=["unfix c_ledger", "run 1"]
+        "fix c_ledger, which keeps the ledger of compute c, no longer exists", after=["unfix c_ledger", "run 1"]
     ),
     "record-by-hand": refused(
         "fix ledger/record: is made by the computes that need it", compute="fix r all ledger/record x"

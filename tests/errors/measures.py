@@ -81,7 +81,7 @@ CASES = {
     ),
     "displacement-record-gone": line(
         "displacement/shear " + KNOWN,
-        "fix c_record, which holds the memory of compute c, is gone",
+        "fix c_record, which holds the memory of compute c, no longer exists",
         before=VARIABLE,
         after=["run 0", "unfix c_record"],
     ),
