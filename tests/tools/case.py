@@ -10,7 +10,7 @@ import traceback
 
 import numpy as np
 
-from run import Failure
+from run import SKIPPED, Failure, Skipped
 
 
 def require(condition, message):
@@ -60,6 +60,10 @@ def main(cases):
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("stopped by SIGTERM"))  # what was started is ended first
     try:
         cases[name](ranks)
+    except Skipped as reason:
+        shutil.rmtree(scratch)
+        print(f"SKIPPED {name}: {reason}")
+        sys.exit(SKIPPED)
     except Failure as failure:
         print(f"FAILED {name} on {ranks} rank(s): {failure}\nfiles: {scratch}")
         sys.exit(1)
