@@ -121,7 +121,8 @@ add_cases(build-fork errors/hosts.py LABEL error STYLES build CASES
   what-is-missing-is-named all-of-it-at-once what-was-not-foreseen a-header-that-is-not-there
   checked-again-when-a-header-changes)
 add_cases(build-installed cases/installed.py LABEL error STYLES build CASES
-  links-of-source links-of-installed broken-links-are-found program-is-found run-of-installed study-of-installed)
+  links-of-source links-of-installed broken-links-are-found program-is-found run-of-installed study-of-installed
+  knows-no-place without-the-link)
 add_cases(build-compilers errors/compilers.py LABEL error STYLES build CASES configured-without-a-warning)
 add_cases(build-compilers errors/compilers.py LABEL long STYLES build CASES
   clang-takes-the-host-as-c++17 every-file-for-this-processor)

@@ -3,6 +3,7 @@
 import os
 from pathlib import Path
 import re
+import shutil
 import subprocess
 import tarfile
 
@@ -85,7 +86,8 @@ def all_that_is_missing(ranks):
 
 
 def elsewhere(ranks):
-    """What CMAKE_PREFIX_PATH names is found, as of conda, where the system has nothing."""
+    """What CMAKE_PREFIX_PATH names is found, as of conda, where the system has nothing; by the installed program, too,
+    in its own prefix first."""
     prefix = Path(os.environ["GRAINSCOPE_SCRATCH"]) / "prefix"
     for folder in ("include", "lib", "share/eigen3"):
         (prefix / folder).mkdir(parents=True)
@@ -93,12 +95,14 @@ def elsewhere(ranks):
         (prefix / "include" / headers).symlink_to(f"/usr/include/{headers}")
     (prefix / "share/eigen3/cmake").symlink_to("/usr/share/eigen3/cmake")
     for library in ("libfftw3.so", "libfftw3_mpi.so"):
-        (prefix / "lib" / library).symlink_to(f"/usr/lib/x86_64-linux-gnu/{library}")
+        shutil.copy(f"/usr/lib/x86_64-linux-gnu/{library}", prefix / "lib")
     (prefix / "include/fftw3-mpi.h").symlink_to("/usr/include/fftw3-mpi.h")
     output, build = configured(HOST, f"-DCMAKE_PREFIX_PATH={prefix}", *HIDDEN[:1])
     require(f"FFTW with MPI: {prefix}/lib/libfftw3_mpi.so" in output, output)
     cache = (build / "CMakeCache.txt").read_text()
     require(f"Boost_INCLUDE_DIR:PATH={prefix}/include" in cache, "Boost was taken from elsewhere")
+    rpath = re.search(r'NEW_RPATH "(.*)"', (build / "cmake_install.cmake").read_text())[1]
+    require(rpath == f"\\$ORIGIN/../lib:{prefix}/lib", f"the installed program looks for libraries in '{rpath}'")
 
 
 def old_compiler(ranks):
