@@ -1,14 +1,15 @@
 # A Debian package of what is installed: cpack --config <build folder>/CPackConfig.cmake
 
 set(CPACK_GENERATOR DEB)
-set(CPACK_PACKAGE_CONTACT "The grainscope developers <grainscope@users.noreply.github.com>" CACHE STRING
+set(CPACK_PACKAGE_CONTACT "The grainscope developers <developers@grainscope.invalid>" CACHE STRING
     "Who answers for the package: Name <address>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "micromechanics of granular flows inside LIGGGHTS")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
-    "LIGGGHTS, a program for the discrete element method, with styles that measure a
-granular flow at its contacts while it runs: stress, fabric, dissipation, energy
-ledger, correlations and fields, of spheres and ellipsoids, on any number of
-ranks. With tools that draw and summarise what was measured, pages and examples.")
+    "LIGGGHTS, a program for the discrete element method, with styles that measure
+a granular flow at its contacts while it runs: stress, fabric, dissipation,
+energy ledger, correlations and fields, of spheres and ellipsoids, on any
+number of ranks. With tools that draw and summarise what was measured, pages
+and examples.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)

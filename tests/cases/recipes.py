@@ -179,7 +179,7 @@ def first_rows(ranks):
         for name in same:
             require_close(*first[name], 1e-12, f"{name} in the first row")  # sums in another order
         change = abs(np.subtract(*first[stress["P"]])) / first[stress["P"]][1]
-        require(damping == "off" or 1e-3 < change < 0.05, f"the first P is off by {change}, the page says 1 %")
+        require(damping == "off" or 1e-5 < change < 0.05, f"the first P is off by {change}, the page says up to 2 %")
         require(set(rows(whole, 3000)) - set(rows(parts, 3000)) == {1700}, "another row than that of 1700 is missing")
         require((whole / "grains.dump").read_bytes() == (parts / "grains.dump").read_bytes(), "the motion differs")
 
