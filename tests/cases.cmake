@@ -567,7 +567,9 @@ add_cases(suite-order cases/suite.py LABEL case STYLES suite CASES
 add_cases(study-runs cases/study_runs.py LABEL case STYLES study RANKS 1 LONG_RANKS 2 4 CASES
   longer-strain-continues-basic)
 add_cases(build-bare-debian cases/bare_debian.py LABEL long STYLES build CASES
-  demos-are-equal tests-on-bookworm tests-on-trixie clang-of-trixie)
+  demos-are-equal tests-on-bookworm tests-on-trixie package-of-bookworm package-of-trixie clang-of-trixie)
+add_cases(build-containers cases/containers.py LABEL case STYLES build CASES same-in-both build-gets-its-files)
+add_cases(build-job-scripts cases/job_scripts.py LABEL long STYLES build CASES slurm pbs sge)
 
 # What grains do at walls
 add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall/gran RANKS 1 2 LONG_RANKS 4 CASES
