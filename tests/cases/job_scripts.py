@@ -14,12 +14,14 @@ from slurm import job, local_slurm, output_of
 
 EXAMPLE = Path(os.environ["GRAINSCOPE_SOURCE"]) / "examples" / "long_run"
 STEPS, PART = 20000, 400
+SCHEDULER = {"NSLOTS": "2", "PBS_JOBID": "7", "JOB_ID": "7"}  # what PBS and SGE tell a job
 WHOLE = ["mpirun", "-np", "2", "grainscope", "-in", "in.long_run", "-var", "grid", "2 1 1"]
 
 
 def variables(**more):
     """The environment of a user who has the program on PATH."""
     env = {**environment(1), **more}
+    env.update(OMPI_MCA_hwloc_base_binding_policy="none", PRTE_MCA_hwloc_default_binding_policy="none")
     return {**env, "PATH": f"{more.get('bin', '')}{os.pathsep}{Path(binary()).parent}{os.pathsep}{env['PATH']}"}
 
 
@@ -47,24 +49,24 @@ def require_went_on(copy, expected):
     require(len(list(copy.glob("flow.*.txt"))) > 1, "the run was not stopped and taken up")
 
 
-def by_timeout(name):
+def by_timer(name, *again):
     """The script run by hand, with time limits from a fifth of a second on, each twice the last, for as long as it
-    submits itself again."""
+    submits itself again with these words."""
 
     def case(ranks):
         copy, programs = folder("stopped"), Path(os.environ["GRAINSCOPE_SCRATCH"]) / "bin"
         programs.mkdir()
-        (programs / "qsub").write_text('#!/bin/sh\necho "$@" >> submitted\n')
+        (programs / "qsub").write_text('#!/bin/sh\necho "$*" >> submitted\n')
         (programs / "qsub").chmod(0o755)
         jobs, limit = 0, 0.2
         while jobs == 0 or (copy / "submitted").exists():
             (copy / "submitted").unlink(missing_ok=True)
-            env = variables(bin=programs, LIMIT=str(limit), PBS_O_WORKDIR=str(copy), NSLOTS="2")
+            env = variables(bin=programs, LIMIT=str(limit), **SCHEDULER, PBS_O_WORKDIR=str(copy))
             done = subprocess.run(["bash", name], cwd=copy, env=env, capture_output=True, text=True)
             require(done.returncode == 0, f"job {jobs}: {done.stdout[-2000:]}{done.stderr}")
             if (copy / "submitted").exists():
                 said = (copy / "submitted").read_text()
-                require(said == f"{name}\n", f"it submitted '{said}'")
+                require(said == " ".join([*again, name]) + "\n", f"it submitted '{said}'")
             jobs, limit = jobs + 1, 2 * limit
         require(jobs > 1, "no time limit stopped the run")
         require((copy / "grains.dump").read_bytes() == uninterrupted(), "other grains than of the uninterrupted run")
@@ -111,4 +113,10 @@ def slurm(ranks):
         require(results[0] != results[1], "two seeds gave the same grains")
 
 
-main({"slurm": slurm, "pbs": by_timeout("job.pbs"), "sge": by_timeout("job.sge")})
+main(
+    {
+        "slurm": slurm,
+        "pbs": by_timer("job.pbs", "-W", "depend=afterany:7"),
+        "sge": by_timer("job.sge", "-hold_jid", "7"),
+    }
+)
