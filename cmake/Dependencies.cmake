@@ -43,7 +43,7 @@ endmacro()
 
 if(GRAINSCOPE_HOST)
   if(GRAINSCOPE_STATIC_RUNTIME)
-    set(MPI_CXX_SKIP_MPICXX ON)  # its C++ library would bring the shared C++ runtime back
+    set(MPI_CXX_SKIP_MPICXX ON)  # no C++ bindings of MPI, whose library has the shared C++ runtime
   endif()
   find_package(MPI QUIET COMPONENTS CXX)
   need(MPI_CXX_FOUND "MPI, which lets processors work together" DEBIAN libopenmpi-dev openmpi-bin CONDA openmpi

@@ -110,7 +110,8 @@ add_cases(build-host errors/build.py LABEL error STYLES build CASES
   folder-without-liggghts root-or-src source-left-untouched styles-are-listed mended-where-needed
   not-mended-where-right configured-twice-rebuilds-nothing own-whitelist missing-whitelist)
 add_cases(build-dependencies errors/dependencies.py LABEL error STYLES build CASES
-  tar-file tar-file-of-something-else no-network all-that-is-missing elsewhere old-compiler without-fftw)
+  tar-file tar-file-of-something-else no-network all-that-is-missing elsewhere old-compiler static-runtime
+  without-fftw)
 add_cases(build-dependencies errors/dependencies.py LABEL long STYLES build velocity/correlation CASES
   built-without-fftw)
 if(NOT FFTW_FOUND)

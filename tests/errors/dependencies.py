@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Configuring the build on a machine that lacks something: what is said of it; without network, root or FFTW."""
+import json
 import os
 from pathlib import Path
 import re
@@ -114,6 +115,18 @@ def old_compiler(ranks):
     require(code != 0 and "The C++ compiler must be gcc 12 or clang 14 or newer, got GNU 8." in output, output)
 
 
+def static_runtime(ranks):
+    """No file is compiled with the C++ bindings of MPI, whose library would bring the shared runtime back."""
+    _, build = configured(HOST, "-DGRAINSCOPE_STATIC_RUNTIME=ON")
+    commands = json.loads((build / "compile_commands.json").read_text())
+    with_mpi = [entry for entry in commands if "/CORE/" not in entry["file"]]
+    require(len(with_mpi) > 300, f"only {len(with_mpi)} files know MPI")
+    for entry in with_mpi:
+        require("-DOMPI_SKIP_MPICXX" in entry["command"], f"{entry['file']} has the bindings")
+    link = (build / "CMakeFiles" / "grainscope.dir" / "link.txt").read_text().split()
+    require({"-static-libstdc++", "-static-libgcc", "-Wl,--as-needed"} <= set(link), f"linked by {link[:20]}")
+
+
 def without_fftw(ranks):
     """AUTO goes without where there is none, and says so; OFF does where there is."""
     for options in (HIDDEN[:1] + ("-DBoost_INCLUDE_DIR=/usr/include",), ("-DGRAINSCOPE_FFTW=OFF",)):
@@ -157,6 +170,7 @@ CASES = {
     "all-that-is-missing": all_that_is_missing,
     "elsewhere": elsewhere,
     "old-compiler": old_compiler,
+    "static-runtime": static_runtime,
     "without-fftw": without_fftw,
     "built-without-fftw": built_without_fftw,
 }
