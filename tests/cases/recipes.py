@@ -137,6 +137,22 @@ def written_out(ranks):
         require_equal(values, expected[name][shared], name)
 
 
+def prolonged_as_shown(ranks):
+    """simple_shear's two commands, with less strain and fewer grains: the second prolongs what the first has ended."""
+    example = SOURCE / "examples" / "simple_shear"
+    first, second = commands(example / "README.md", "## Going on")
+    smaller = {"8": "0.2", "16": "0.4", "0.125": "0.1"}
+    first, second = ([smaller.get(word, word) for word in words] + ["-var", "N", "100"] for words in (first, second))
+    require(second[-5:-3] == ["resume", "1"] and "0.2" in first and "0.4" in second, f"the page shows {second}")
+    scratch = Path(os.environ["GRAINSCOPE_SCRATCH"])
+    whole, parts = (shutil.copytree(example, scratch / name) for name in ("whole", "parts"))
+    Run([word if word != "0.2" else "0.4" for word in first], whole).end()
+    for words in (first, second):
+        Run(words, parts).end()
+    found, expected = ((folder / "out" / "grains.dump").read_bytes() for folder in (parts, whole))
+    require(found == expected, "the grains are not those of the uninterrupted run")
+
+
 def stopped_in_order(ranks):
     """By SIGTERM without `write_restart_on_signal no`, and on with the page's line: from the very step."""
     line = re.search(r"^    (read_restart .*)$", section(PAGE, "## Recipe"), flags=re.M)[1]
@@ -241,6 +257,7 @@ main(
             EXAMPLE / "README.md", "# A long run", 2, ["-var", "steps", str(SHORT), "-var", "part", "200"]
         ),
         "written-out": written_out,
+        "prolonged-as-shown": prolonged_as_shown,
         "stopped-in-order": stopped_in_order,
         "first-rows": first_rows,
         "with-ledger": with_ledger,
