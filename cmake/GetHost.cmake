@@ -1,12 +1,14 @@
 # Where the host's source comes from, in this order:
-#   1. -DLIGGGHTS_SOURCE_DIR=<checkout root or its src/>, read only, never written to;
-#   2. the distribution's source package, through a private apt sources list (nothing under /etc changes);
-#   3. a git clone of LIGGGHTS-PUBLIC at a pinned commit.
+#   1. -DLIGGGHTS_SOURCE_DIR=<checkout root or its src/>, read only, never written to, or a tar file of one;
+#   2. a tar file in GRAINSCOPE_DOWNLOADS;
+#   3. the distribution's source package, through a private apt sources list (nothing under /etc changes);
+#   4. a git clone of LIGGGHTS-PUBLIC at a pinned commit.
 # Sets HOST_SOURCE, the folder that holds pair_gran_base.h.
 
-set(LIGGGHTS_SOURCE_DIR "" CACHE PATH "An existing LIGGGHTS-PUBLIC checkout, its root or its src/ (read only)")
+set(LIGGGHTS_SOURCE_DIR "" CACHE PATH
+    "An existing LIGGGHTS-PUBLIC checkout, its root or its src/ (read only), or a tar file")
 set(GRAINSCOPE_DOWNLOADS "${CMAKE_SOURCE_DIR}/build/host-source" CACHE PATH
-    "Where a fetched LIGGGHTS is kept, shared by presets")
+    "Where LIGGGHTS's source is kept, shared by presets; a tar file that is put there is taken in place of the network")
 set(HOST_TARBALL_SHA256 c18721d9a870c5170f03b91e4f1ffe13335c66ed1f0ff2c64ebd3be91c37867a)
 set(HOST_GIT_URL https://github.com/CFDEMproject/LIGGGHTS-PUBLIC.git)
 set(HOST_GIT_COMMIT bbd23c8521fe0a4f3f5bfd0d3dc9a7dddd68d90b)
@@ -20,6 +22,21 @@ function(host_is_at folder result)
       return()
     endif()
   endforeach()
+endfunction()
+
+# Unpacks a tar file; the folder in it, whatever its name, becomes `target`.
+function(unpack_host tarball target)
+  set(unpacked "${target}.part")
+  file(REMOVE_RECURSE "${unpacked}")
+  message(STATUS "LIGGGHTS: unpacking ${tarball}")
+  file(ARCHIVE_EXTRACT INPUT "${tarball}" DESTINATION "${unpacked}")
+  file(GLOB root "${unpacked}/*")
+  list(LENGTH root folders)
+  if(NOT folders EQUAL 1)  # without a folder around it
+    set(root "${unpacked}")
+  endif()
+  file(RENAME "${root}" "${target}")
+  file(REMOVE_RECURSE "${unpacked}")
 endfunction()
 
 # apt writes only below GRAINSCOPE_DOWNLOADS. It checks the signature of the archive; the tarball is checked against the
@@ -62,9 +79,7 @@ function(get_host_by_apt target why)
     set(${why} "${tarball} has SHA-256 ${sum}, expected ${HOST_TARBALL_SHA256}" PARENT_SCOPE)
     return()
   endif()
-  file(ARCHIVE_EXTRACT INPUT "${tarball}" DESTINATION "${apt}/unpacked")
-  file(GLOB root "${apt}/unpacked/*")
-  file(RENAME "${root}" "${target}")
+  unpack_host("${tarball}" "${target}")
   file(REMOVE_RECURSE "${apt}")
 endfunction()
 
@@ -94,27 +109,47 @@ function(get_host_by_git target why)
 endfunction()
 
 if(LIGGGHTS_SOURCE_DIR)
-  host_is_at("${LIGGGHTS_SOURCE_DIR}" HOST_SOURCE)
+  set(given "${LIGGGHTS_SOURCE_DIR}")
+  if(EXISTS "${given}" AND NOT IS_DIRECTORY "${given}")
+    file(SHA1 "${given}" sum)
+    string(SUBSTRING "${sum}" 0 8 sum)
+    set(given "${CMAKE_BINARY_DIR}/liggghts-${sum}")
+    if(NOT EXISTS "${given}")
+      unpack_host("${LIGGGHTS_SOURCE_DIR}" "${given}")
+    endif()
+  endif()
+  host_is_at("${given}" HOST_SOURCE)
   if(NOT HOST_SOURCE)
-    message(FATAL_ERROR "LIGGGHTS_SOURCE_DIR must be a LIGGGHTS-PUBLIC checkout (or its src/), got "
-                        "'${LIGGGHTS_SOURCE_DIR}': no pair_gran_base.h there or in its src/.")
+    message(FATAL_ERROR "LIGGGHTS_SOURCE_DIR must be a LIGGGHTS-PUBLIC checkout (or its src/), or a tar file of one, "
+                        "got '${LIGGGHTS_SOURCE_DIR}': no pair_gran_base.h there or in its src/.")
   endif()
 else()
-  host_is_at("${GRAINSCOPE_DOWNLOADS}/liggghts" HOST_SOURCE)
-  if(NOT HOST_SOURCE)
-    file(MAKE_DIRECTORY "${GRAINSCOPE_DOWNLOADS}")
-    get_host_by_apt("${GRAINSCOPE_DOWNLOADS}/liggghts" apt_failure)
-    host_is_at("${GRAINSCOPE_DOWNLOADS}/liggghts" HOST_SOURCE)
+  set(kept "${GRAINSCOPE_DOWNLOADS}/liggghts")
+  file(MAKE_DIRECTORY "${GRAINSCOPE_DOWNLOADS}")
+  file(GLOB tarball "${GRAINSCOPE_DOWNLOADS}/*.tar" "${GRAINSCOPE_DOWNLOADS}/*.tar.*" "${GRAINSCOPE_DOWNLOADS}/*.tgz")
+  host_is_at("${kept}" HOST_SOURCE)
+  if(NOT HOST_SOURCE AND tarball)
+    list(GET tarball 0 tarball)
+    unpack_host("${tarball}" "${kept}")
+    host_is_at("${kept}" HOST_SOURCE)
     if(NOT HOST_SOURCE)
-      get_host_by_git("${GRAINSCOPE_DOWNLOADS}/liggghts" git_failure)
+      file(REMOVE_RECURSE "${kept}")
+      message(FATAL_ERROR "'${tarball}' must be a tar file of LIGGGHTS-PUBLIC: there is no pair_gran_base.h in it.")
     endif()
-    host_is_at("${GRAINSCOPE_DOWNLOADS}/liggghts" HOST_SOURCE)
+  endif()
+  if(NOT HOST_SOURCE)
+    get_host_by_apt("${kept}" apt_failure)
+    host_is_at("${kept}" HOST_SOURCE)
+  endif()
+  if(NOT HOST_SOURCE)
+    get_host_by_git("${kept}" git_failure)
+    host_is_at("${kept}" HOST_SOURCE)
   endif()
   if(NOT HOST_SOURCE)
     message(FATAL_ERROR "No LIGGGHTS source was found.\n"
       "  apt: ${apt_failure}\n  git: ${git_failure}\n"
-      "Connect this machine to the network, or download LIGGGHTS-PUBLIC (${HOST_GIT_URL}) elsewhere, copy it here and "
-      "configure with -DLIGGGHTS_SOURCE_DIR=<its folder>.")
+      "Without network: get LIGGGHTS-PUBLIC elsewhere (${HOST_GIT_URL}), as a folder or a tar file, and configure with "
+      "-DLIGGGHTS_SOURCE_DIR=<it>, or put the tar file into ${GRAINSCOPE_DOWNLOADS}. doc/cluster.md shows how.")
   endif()
 endif()
 message(STATUS "LIGGGHTS source: ${HOST_SOURCE}")

@@ -375,6 +375,12 @@ add_cases(read_restart-goes-on cases/restarts.py LABEL case STYLES ${resumed} CA
   exact-superquadrics exact-by-the-host)
 add_cases(read_restart-goes-on cases/restarts.py LABEL long STYLES ${resumed} RANKS 1 2 CASES
   killed-spheres killed-spheroids)
+add_cases(read_restart-recipe cases/recipes.py LABEL case STYLES ${resumed} CASES
+  readme example example-with-mpirun written-out prolonged-as-shown stopped-in-order first-rows
+  complete-wherever-shown)
+add_cases(read_restart+energy/ledger-recipe cases/recipes.py LABEL case STYLES ${resumed} energy/ledger
+  CASES with-ledger)
+add_cases(build-job-scripts cases/recipes.py LABEL case STYLES build CASES job-scripts-are-named)
 add_cases(read_restart-damage cases/damage.py LABEL case STYLES read_restart RANKS 1 LONG_RANKS 2 CASES
   restart-cut restart-flipped other-settings)
 add_cases(read_restart-damage cases/damage.py LABEL case STYLES read_restart RANKS 1 2 CASES newest-whole-one)
@@ -572,7 +578,9 @@ add_cases(suite-order cases/suite.py LABEL case STYLES suite CASES
 add_cases(study-runs cases/study_runs.py LABEL case STYLES study RANKS 1 LONG_RANKS 2 4 CASES
   longer-strain-continues-basic)
 add_cases(build-bare-debian cases/bare_debian.py LABEL long STYLES build CASES
-  demos-are-equal tests-on-bookworm tests-on-trixie clang-of-trixie)
+  demos-are-equal tests-on-bookworm tests-on-trixie package-of-bookworm package-of-trixie clang-of-trixie)
+add_cases(build-containers cases/containers.py LABEL case STYLES build CASES same-in-both build-gets-its-files)
+add_cases(build-job-scripts cases/job_scripts.py LABEL long STYLES build CASES slurm pbs sge)
 
 # What grains do at walls
 add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall/gran RANKS 1 2 LONG_RANKS 4 CASES

@@ -109,11 +109,21 @@ add_cases(energy/ledger-refused errors/ledger.py LABEL error STYLES energy/ledge
 add_cases(build-host errors/build.py LABEL error STYLES build CASES
   folder-without-liggghts root-or-src source-left-untouched styles-are-listed mended-where-needed
   not-mended-where-right configured-twice-rebuilds-nothing own-whitelist missing-whitelist)
+add_cases(build-dependencies errors/dependencies.py LABEL error STYLES build CASES
+  tar-file tar-file-of-something-else no-network all-that-is-missing elsewhere old-compiler static-runtime
+  without-fftw)
+add_cases(build-dependencies errors/dependencies.py LABEL long STYLES build velocity/correlation CASES
+  built-without-fftw)
+if(NOT FFTW_FOUND)
+  add_cases(velocity/correlation-refused errors/measures.py LABEL error STYLES velocity/correlation RANKS 1 2
+    CASES mesh-without-fftw)
+endif()
 add_cases(build-fork errors/hosts.py LABEL error STYLES build CASES
   what-is-missing-is-named all-of-it-at-once what-was-not-foreseen a-header-that-is-not-there
   checked-again-when-a-header-changes)
 add_cases(build-installed cases/installed.py LABEL error STYLES build CASES
-  links-of-source links-of-installed broken-links-are-found program-is-found run-of-installed study-of-installed)
+  links-of-source links-of-installed broken-links-are-found program-is-found run-of-installed study-of-installed
+  knows-no-place without-the-link)
 add_cases(build-compilers errors/compilers.py LABEL error STYLES build CASES configured-without-a-warning)
 add_cases(build-compilers errors/compilers.py LABEL long STYLES build CASES
   clang-takes-the-host-as-c++17 every-file-for-this-processor)

@@ -131,9 +131,12 @@ ComputeVelocityCorrelation::ComputeVelocityCorrelation(LAMMPS *lmp, int &iarg, i
     if (keyword == "component") impl_->component.read(arguments);
     if (keyword == "bins") impl_->bins = arguments.whole_number(keyword, 1, 10000);
     if (keyword == "range") impl_->range = arguments.number(keyword, "a positive length", is_positive);
-    if (keyword == "method")
-      impl_->mesh.reset(arguments.choice(keyword, {"direct", "mesh"}) == "mesh" ? new grainscope::MeshCorrelation(world)
-                                                                                : nullptr);
+    if (keyword == "method") {
+      const bool by_mesh = arguments.choice(keyword, {"direct", "mesh"}) == "mesh";
+      impl_->mesh = by_mesh ? grainscope::MeshCorrelation::make(world) : nullptr;
+      if (by_mesh && !impl_->mesh)
+        arguments.fail("'method' must be direct in a program that was built without FFTW, got 'mesh'");
+    }
     if (keyword == "mesh") {
       mesh_given = true;
       impl_->mesh_per_bin = arguments.whole_number(keyword, 1, 100);

@@ -1,19 +1,57 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mesh_correlation.h"
 #include <algorithm>
+#include <cstddef>
+#include <fftw3-mpi.h>
 #include <numeric>
+#include <vector>
 
 namespace grainscope {
 
-MeshCorrelation::MeshCorrelation(MPI_Comm world) : world_(world) {
+namespace {
+
+class FftwCorrelation : public MeshCorrelation {
+ public:
+  explicit FftwCorrelation(MPI_Comm world);
+  ~FftwCorrelation() override;
+  FftwCorrelation(const FftwCorrelation &) = delete;
+  FftwCorrelation &operator=(const FftwCorrelation &) = delete;
+
+  PairSums pair_sums(const PeriodicCell &cell, const PointValues &points, const DistanceBins &bins,
+                     const std::array<int, 3> &size) override;
+  double memory_usage() const override { return numbers_ * sizeof(double); }
+
+ private:
+  struct Deposit {
+    std::ptrdiff_t cell;  // in the slab of the rank that it is sent to
+    double value;
+  };
+
+  MPI_Comm world_;
+  int ranks_;
+  LagMesh mesh_{{{0, 0, 0}}, 0, 0, 0};
+  std::ptrdiff_t numbers_ = 0;  // room for the slab and its transform
+  std::ptrdiff_t modes_ = 0;    // of the transform on this rank
+  double *field_ = nullptr;
+  fftw_plan forward_ = nullptr, backward_ = nullptr;
+  std::vector<int> owner_;             // rank of each plane
+  std::vector<std::ptrdiff_t> first_;  // plane of each rank
+
+  void plan(const std::array<int, 3> &size);
+  void clear();
+  std::vector<Deposit> slab_deposits(const PointValues &points) const;
+  void autocorrelate();
+};
+
+FftwCorrelation::FftwCorrelation(MPI_Comm world) : world_(world) {
   MPI_Comm_size(world, &ranks_);
   static const bool ready = (fftw_mpi_init(), true);
   static_cast<void>(ready);
 }
 
-MeshCorrelation::~MeshCorrelation() { clear(); }
+FftwCorrelation::~FftwCorrelation() { clear(); }
 
-void MeshCorrelation::clear() {
+void FftwCorrelation::clear() {
   if (forward_) fftw_destroy_plan(forward_);
   if (backward_) fftw_destroy_plan(backward_);
   if (field_) fftw_free(field_);
@@ -22,7 +60,7 @@ void MeshCorrelation::clear() {
 }
 
 /** Plans by estimate: measured ones would differ from run to run in the last digits. */
-void MeshCorrelation::plan(const std::array<int, 3> &size) {
+void FftwCorrelation::plan(const std::array<int, 3> &size) {
   if (size == mesh_.size) return;  // the same on all ranks: planning is collective
   clear();
   const std::ptrdiff_t half = size[2] / 2 + 1;
@@ -51,7 +89,7 @@ void MeshCorrelation::plan(const std::array<int, 3> &size) {
 }
 
 /** Sends the points to the ranks that hold their cells; returns what came for this one. */
-std::vector<MeshCorrelation::Deposit> MeshCorrelation::slab_deposits(const PointValues &points) const {
+std::vector<FftwCorrelation::Deposit> FftwCorrelation::slab_deposits(const PointValues &points) const {
   std::vector<std::vector<Deposit>> outgoing(ranks_);
   for (std::size_t i = 0; i < points.size(); i++) {
     const std::array<int, 3> cell = mesh_.cell_of(points, i);
@@ -73,7 +111,7 @@ std::vector<MeshCorrelation::Deposit> MeshCorrelation::slab_deposits(const Point
 }
 
 /** Replaces the field by its sum over all cells of the product with itself at each lag. */
-void MeshCorrelation::autocorrelate() {
+void FftwCorrelation::autocorrelate() {
   fftw_execute(forward_);
   const double scale = 1.0 / (static_cast<double>(mesh_.size[0]) * mesh_.size[1] * mesh_.size[2]);
   for (std::ptrdiff_t k = 0; k < modes_; k++) {
@@ -84,7 +122,7 @@ void MeshCorrelation::autocorrelate() {
   fftw_execute(backward_);
 }
 
-PairSums MeshCorrelation::pair_sums(const PeriodicCell &cell, const PointValues &points, const DistanceBins &bins,
+PairSums FftwCorrelation::pair_sums(const PeriodicCell &cell, const PointValues &points, const DistanceBins &bins,
                                     const std::array<int, 3> &size) {
   plan(size);
   const std::vector<Deposit> deposits = slab_deposits(points);
@@ -103,6 +141,12 @@ PairSums MeshCorrelation::pair_sums(const PeriodicCell &cell, const PointValues 
     for (double &sum : bin) sum *= 0.5;  // each pair was met at a lag and at its opposite
   }
   return sums;
+}
+
+}
+
+std::unique_ptr<MeshCorrelation> MeshCorrelation::make(MPI_Comm world) {
+  return std::unique_ptr<MeshCorrelation>(new FftwCorrelation(world));
 }
 
 }

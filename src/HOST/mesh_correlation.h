@@ -3,7 +3,9 @@
 #define GRAINSCOPE_MESH_CORRELATION_H
 
 #include "lag_mesh.h"
-#include <fftw3-mpi.h>
+#include <array>
+#include <memory>
+#include <mpi.h>
 
 namespace grainscope {
 
@@ -13,38 +15,16 @@ namespace grainscope {
  * Collective. */
 class MeshCorrelation {
  public:
-  explicit MeshCorrelation(MPI_Comm world);
-  ~MeshCorrelation();
-  MeshCorrelation(const MeshCorrelation &) = delete;
-  MeshCorrelation &operator=(const MeshCorrelation &) = delete;
+  /** Null in a program that was built without FFTW. */
+  static std::unique_ptr<MeshCorrelation> make(MPI_Comm world);
+  virtual ~MeshCorrelation() = default;
 
   /** The share of the pair sums that this rank's slab holds; `points` are this rank's own; those whose
    *  place is not finite are left out. */
-  PairSums pair_sums(const PeriodicCell &cell, const PointValues &points, const DistanceBins &bins,
-                     const std::array<int, 3> &size);
+  virtual PairSums pair_sums(const PeriodicCell &cell, const PointValues &points, const DistanceBins &bins,
+                             const std::array<int, 3> &size) = 0;
   /** On this rank. */
-  double memory_usage() const { return numbers_ * sizeof(double); }
-
- private:
-  struct Deposit {
-    std::ptrdiff_t cell;  // in the slab of the rank that it is sent to
-    double value;
-  };
-
-  MPI_Comm world_;
-  int ranks_;
-  LagMesh mesh_{{{0, 0, 0}}, 0, 0, 0};
-  std::ptrdiff_t numbers_ = 0;  // room for the slab and its transform
-  std::ptrdiff_t modes_ = 0;    // of the transform on this rank
-  double *field_ = nullptr;
-  fftw_plan forward_ = nullptr, backward_ = nullptr;
-  std::vector<int> owner_;             // rank of each plane
-  std::vector<std::ptrdiff_t> first_;  // plane of each rank
-
-  void plan(const std::array<int, 3> &size);
-  void clear();
-  std::vector<Deposit> slab_deposits(const PointValues &points) const;
-  void autocorrelate();
+  virtual double memory_usage() const = 0;
 };
 
 }

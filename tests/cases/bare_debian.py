@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""README's two commands in a Debian where nothing else is installed, oldstable and stable; as root, an hour or two for
-each release."""
+"""README's two commands in a Debian where nothing else is installed, oldstable and stable; the Debian package, made in
+one such system and used in another; as root, an hour or two for each release."""
 import os
 from pathlib import Path
+import shutil
 import subprocess
 
 from case import main, require
@@ -24,9 +25,25 @@ FILES = (
 )
 
 
-def in_bare(release, *command):
+# The package's user has nothing that builds, nor what a package merely recommends but mpirun.
+INSTALLED = """
+apt-get update -qq
+apt-get install -y -qq --no-install-recommends /package/grainscope_*.deb openmpi-bin python3-scipy python3-matplotlib
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+! command -v g++
+grainscope-tools --help
+cp -r /usr/share/grainscope/examples/collision /tmp/collision
+cd /tmp/collision
+liggghts -in in.collision
+cd /grainscope
+GRAINSCOPE_BINARY=/usr/bin/grainscope PYTHONPATH=tests/tools:tests:tools python3 tests/tools/run_example.py \
+  examples/collision
+"""
+
+
+def in_bare(release, *command, name=None):
     """Runs the command in a system of its own, which stays for the test; its output goes to a file beside it."""
-    folder = Path(os.environ["GRAINSCOPE_SCRATCH"]) / release
+    folder = Path(os.environ["GRAINSCOPE_SCRATCH"]) / (name or release)
     log = folder.with_suffix(".txt")
     with log.open("a") as output:
         done = subprocess.run(
@@ -63,6 +80,21 @@ def tests_pass(release):
     return lambda ranks: in_bare(release, "scripts/test")
 
 
+def package_of(release):
+    """Made as containers/Dockerfile does, without an error of lintian, and installed where nothing can build."""
+
+    def case(ranks):
+        build = (Path(os.environ["GRAINSCOPE_SOURCE"]) / "containers" / "Dockerfile").read_text()
+        command = build.split("\nRUN ")[1].split("\n\n")[0]
+        lint = "lintian --allow-root --fail-on error /package/grainscope_*.deb"
+        made = in_bare(release, "bash", "-ec", f"{command}\nscripts/install-packages lintian\n{lint}")
+        user = in_bare(release, "true", name=f"user-of-{release}")
+        shutil.copytree(made / "package", user / "package", ignore=shutil.ignore_patterns("_CPack_Packages"))
+        in_bare(release, "bash", "-ec", INSTALLED, name=f"user-of-{release}")
+
+    return case
+
+
 def clang_of_trixie(ranks):
     """The current clang: what it builds gives what the tests of one rank want."""
     in_bare(
@@ -80,5 +112,6 @@ main(
         "demos-are-equal": demos_are_equal,
         "clang-of-trixie": clang_of_trixie,
         **{f"tests-on-{release}": tests_pass(release) for release in RELEASES},
+        **{f"package-of-{release}": package_of(release) for release in RELEASES},
     }
 )

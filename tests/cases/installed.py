@@ -26,6 +26,11 @@ def installed():
     return prefix
 
 
+def moved():
+    """The same, moved away as a whole, where names have spaces."""
+    return installed().rename(scratch() / "moved away")
+
+
 def outside(**changes):
     """The environment of a user who has neither the source tree nor the program on PATH or PYTHONPATH."""
     env = {
@@ -92,8 +97,8 @@ def broken_links_are_found(ranks):
 
 
 def run_of_installed(ranks):
-    """grainscope-tools and the deck of the prefix, with the program of the prefix: the bits of this build's own."""
-    prefix = installed()
+    """grainscope-tools and the deck of a moved prefix, with the program there: the bits of this build's own."""
+    prefix = moved()
     call(
         [prefix / "bin/grainscope-tools", "study", "run", scratch() / "out", *SMALL],
         env=outside(),
@@ -107,6 +112,36 @@ def run_of_installed(ranks):
     found, expected = (read_table(scratch() / name, "series.txt")[0] for name in ("out", "own"))
     for column in expected:
         require_equal(found[column], expected[column], column)
+
+
+def knows_no_place(ranks):
+    """No file of the prefix names a folder of this machine, so that it can be moved; it also answers to liggghts."""
+    prefix = moved()
+    for file in prefix.rglob("*"):
+        if file.is_file() and not file.is_symlink():
+            data = file.read_bytes()
+            for place in (scratch(), SOURCE, BINARY.parents[1]):
+                require(f"{place}/".encode() not in data, f"{file.relative_to(prefix)} names {place}")
+    link = prefix / "bin" / "liggghts"
+    require(link.is_symlink() and os.readlink(link) == "grainscope", "bin/liggghts is no link to grainscope")
+    deck = prefix / "share/grainscope/examples/collision/in.collision"
+    output = call([link, "-in", deck, "-log", "none"], env=outside(), cwd=scratch())
+    require("LIGGGHTS (Version" in output and "ERROR" not in output, output[-2000:])
+
+
+def without_the_link(ranks):
+    """-DGRAINSCOPE_LIGGGHTS_LINK=OFF, for a prefix that has a LIGGGHTS of its own."""
+    build = scratch() / "build"
+    for choice, expected in (("ON", True), ("OFF", False)):
+        call(
+            [
+                *(os.environ["GRAINSCOPE_CMAKE"], "-S", SOURCE, "-B", build, "-DGRAINSCOPE_TESTS=OFF"),
+                f"-DLIGGGHTS_SOURCE_DIR={os.environ['GRAINSCOPE_HOST_SOURCE']}",
+                f"-DGRAINSCOPE_LIGGGHTS_LINK={choice}",
+            ]
+        )
+        found = '/bin" TYPE FILE FILES' in (build / "cmake_install.cmake").read_text()
+        require(found == expected, f"GRAINSCOPE_LIGGGHTS_LINK={choice} installs {'a' if found else 'no'} link")
 
 
 def study_of_installed(ranks):
@@ -156,6 +191,8 @@ main(
         "links-of-installed": links_of_installed,
         "broken-links-are-found": broken_links_are_found,
         "run-of-installed": run_of_installed,
+        "knows-no-place": knows_no_place,
+        "without-the-link": without_the_link,
         "study-of-installed": study_of_installed,
         "program-is-found": program_is_found,
     }

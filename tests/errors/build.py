@@ -12,6 +12,7 @@ from case import main, require
 
 ROOT = Path(os.environ["GRAINSCOPE_SOURCE"])
 HOST = Path(os.environ["GRAINSCOPE_HOST_SOURCE"])
+MUST_BE = "LIGGGHTS_SOURCE_DIR must be a LIGGGHTS-PUBLIC checkout (or its src/), or a tar file of one"
 LAMDA = "prd_lamda[0] = prd_lamda[1] = prd_lamda[2] = {};"
 HALF_LAMDA = "prd_half_lamda[0] = prd_half_lamda[1] = prd_half_lamda[2] = {};"
 
@@ -69,7 +70,7 @@ def folder_without_liggghts(ranks):
     empty = tempfile.mkdtemp(dir=os.environ["GRAINSCOPE_SCRATCH"])
     code, output, _ = configure(empty)
     require(code != 0, "an empty folder was accepted")
-    require(f"LIGGGHTS_SOURCE_DIR must be a LIGGGHTS-PUBLIC checkout (or its src/), got '{empty}'" in output, output)
+    require(f"{MUST_BE}, got '{empty}'" in output, output)
 
 
 def root_or_src(ranks):

@@ -2,10 +2,11 @@
 """What the computes of surface, displacement and correlation refuse because of grains, box, fixes and variables."""
 from dataclasses import replace
 
-from case import main
+from case import main, require
 from deck import Deck, thermo
 from packing import dense_packing
 from refusal import refusal
+from run import WITHOUT_FFTW, Started, tail
 
 SPHEROIDS, SPHERES = dense_packing(1.5), dense_packing(atom_style="sphere")
 
@@ -15,6 +16,13 @@ def line(command, *words, packing=SPHEROIDS, before=(), after=(), **choices):
     return refusal(
         lambda: Deck(packing, body=[*before, f"compute c all {command}", *after, "run 1"], **choices), *words
     )
+
+
+def mesh_without_fftw(ranks):
+    """Of a build that has none."""
+    result = Started(Deck(SPHERES, body=["compute c all velocity/correlation method mesh"]), ranks).end()
+    words = f"compute velocity/correlation: {WITHOUT_FFTW}"
+    require(result.code > 0 and words in result.output, f"code {result.code}: {tail(result.output)}")
 
 
 def strain(requirement, got, **choices):
@@ -73,6 +81,7 @@ CASES = {
         "must give fewer than 1e9 cells, got",
         after=thermo(1, "c_c"),
     ),
+    "mesh-without-fftw": mesh_without_fftw,
     "memory-without-strain": line("velocity/memory", f"compute velocity/memory: {NO_STRAIN}"),
     "displacement-record-taken": line(
         "displacement/shear",

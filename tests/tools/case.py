@@ -10,18 +10,12 @@ import traceback
 
 import numpy as np
 
-from run import Failure
-
-
-SKIPPED = 77  # the exit code that CTest takes for skipped
-
-
-class Skip(Exception):
-    """Why a test cannot be made here."""
+from run import SKIPPED, Failure, Skipped
 
 
 def skip(reason):
-    raise Skip(reason)
+    """Ends the test as one that cannot be made here."""
+    raise Skipped(reason)
 
 
 def require(condition, message):
@@ -71,9 +65,9 @@ def main(cases):
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("stopped by SIGTERM"))  # what was started is ended first
     try:
         cases[name](ranks)
-    except Skip as reason:
-        print(f"skipped: {reason}")
+    except Skipped as reason:
         shutil.rmtree(scratch)
+        print(f"SKIPPED {name}: {reason}")
         sys.exit(SKIPPED)
     except Failure as failure:
         print(f"FAILED {name} on {ranks} rank(s): {failure}\nfiles: {scratch}")

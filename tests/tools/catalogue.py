@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Every compute of fabric, surface, direction, fluctuation and correlation, ready to be watched all at once."""
+from run import FFTW
 from watch import Watched
 
 FABRIC = Watched("fabric", "fabric branch force/normal force/tangential", True, 40)
@@ -28,7 +29,8 @@ BLOCKS = {
 
 def everything(packing):
     surface = [SURFACE] if packing.atom_style == "superquadric" else []
-    return [FABRIC, DIRECTION, *surface, FLUCTUATION, LAYERING, DIRECT, MESH, DISPLACEMENT, MEMORY, GRAIN]
+    mesh = [MESH] if FFTW else []
+    return [FABRIC, DIRECTION, *surface, FLUCTUATION, LAYERING, DIRECT, *mesh, DISPLACEMENT, MEMORY, GRAIN]
 
 
 def strain_lines(rate):

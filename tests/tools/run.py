@@ -29,6 +29,15 @@ class Failure(Exception):
     """What a test found wrong, in words for a person."""
 
 
+class Skipped(Exception):
+    """Why a test cannot be made with this build."""
+
+
+SKIPPED = 77  # the exit code that says so to ctest
+FFTW = os.environ.get("GRAINSCOPE_FFTW", "TRUE") == "TRUE"  # whether the program has it
+WITHOUT_FFTW = "'method' must be direct in a program that was built without FFTW, got 'mesh'"
+
+
 def binary():
     path = os.environ.get("GRAINSCOPE_BINARY")
     if not path:
@@ -268,6 +277,8 @@ def attempt(deck, ranks=1, folder=None, arguments=(), program=None):
     """Runs a deck (a Deck or its text) and returns the Result, whatever its exit code."""
     result = Started(deck, ranks, folder, arguments, program, restore_signals=True).end()
     require_clean(result.output)
+    if not FFTW and WITHOUT_FFTW in result.output:
+        raise Skipped(WITHOUT_FFTW)
     return result
 
 

@@ -9,7 +9,7 @@ import tempfile
 from deck import Deck, Material
 from packing import dense_packing
 from plates import bed, plated
-from run import Failure, run
+from run import SKIPPED, Failure, Skipped, run
 
 
 def blocks(page):
@@ -60,6 +60,9 @@ def main(page):
 if __name__ == "__main__":
     try:
         main(Path(sys.argv[1]))
+    except Skipped as reason:
+        print(f"SKIPPED {reason}")
+        sys.exit(SKIPPED)
     except Failure as failure:
         print(f"FAILED {failure}")
         sys.exit(1)

@@ -8,7 +8,7 @@ import tempfile
 
 import numpy as np
 
-from run import Failure, columns_of, run
+from run import SKIPPED, Failure, Skipped, columns_of, run
 
 REDUCE = {
     "mean": np.mean,
@@ -82,6 +82,9 @@ def main(folder):
 if __name__ == "__main__":
     try:
         sys.exit(0 if main(Path(sys.argv[1]).resolve()) else 1)
+    except Skipped as reason:
+        print(f"SKIPPED {reason}")
+        sys.exit(SKIPPED)
     except Failure as failure:
         print(f"FAILED {failure}")
         sys.exit(1)
