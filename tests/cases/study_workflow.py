@@ -64,7 +64,7 @@ def failing_runs_do_not_stop_others(ranks):
             f"study: alpha1_mu{mu}_I0.1_N20_seed15485863 did not end" in output,
             f"the failed run is not reported:\n{output}",
         )
-    require("periodic box must be at least" in output, f"the reason is not given:\n{output}")
+    require("the box becomes too small" in output, f"the reason is not given:\n{output}")
     require("--config partial=1" in output, f"the way on is not given:\n{output}")
 
     status, output = snakemake("--config", "partial=1")
