@@ -22,9 +22,9 @@ grainscope::Outputs declared(int bins) {
        {"F_n", "force", intensive, "normal force in the plane, mean over the bin's contacts"},
        {"F_t", "force", intensive, "tangential force in the plane, mean over the bin's contacts"},
        {"F_along", "force", intensive, "tangential force along (-sin beta, cos beta), mean over the bin's contacts"},
-       {"F_n_sum", "force", whole, "sum that F_n is the mean of"},
-       {"F_t_sum", "force", whole, "sum that F_t is the mean of"},
-       {"F_along_sum", "force", whole, "sum that F_along is the mean of"}});
+       {"F_n_sum", "force", whole, "sum of which F_n is the mean"},
+       {"F_t_sum", "force", whole, "sum of which F_t is the mean"},
+       {"F_along_sum", "force", whole, "sum of which F_along is the mean"}});
   return outputs;
 }
 

@@ -25,10 +25,10 @@ grainscope::Outputs declared() {
   outputs.per_grain = {
       {"N_c", "-", intensive, "contacts of the grain, with grains and with walls"},
       {"N_sliding", "-", intensive, "its contacts that slide"},
-      {"P_n", "energy/time", intensive, "power lost by normal damping, half of each contact's with a grain"},
-      {"P_t", "energy/time", intensive, "power lost by friction, half of each contact's with a grain"},
+      {"P_n", "energy/time", intensive, "power lost by normal damping, half of it for contacts between grains"},
+      {"P_t", "energy/time", intensive, "power lost by friction, half of it for contacts between grains"},
       {"mobilisation", "-", intensive, "|F_t| over its friction limit, mean over its contacts"},
-      {"theta", "rad", intensive, "angle of the major axis to the flow in the plane, xy where none is said"},
+      {"theta", "rad", intensive, "angle of the major axis to the flow in the plane, xy by default"},
       {"N_w", "-", intensive, "contacts of the grain with walls"}};
   return outputs;
 }

@@ -51,9 +51,9 @@ grainscope::Outputs declared(int bins) {
                      {"P_t", "energy/time", whole, "power lost by friction, half to each grain of a contact"},
                      {"inhomogeneity", "-", intensive, "share of P_n + P_t over share of the area"},
                      {"inhomogeneity_printed", "-", intensive, "the same, as the paper prints it"},
-                     {"F_n_sum", "-", whole, "sum that F_n is the mean of"},
-                     {"F_t_sum", "-", whole, "sum that F_t is the mean of"},
-                     {"mobilisation_sum", "-", whole, "sum that mobilisation is the mean of"},
+                     {"F_n_sum", "-", whole, "sum of which F_n is the mean"},
+                     {"F_t_sum", "-", whole, "sum of which F_t is the mean"},
+                     {"mobilisation_sum", "-", whole, "sum of which mobilisation is the mean"},
                      {"sliding_sum", "-", whole, "the bin's contacts that slide"}});
   return outputs;
 }

@@ -47,7 +47,7 @@ grainscope::Outputs declared(int layers) {
       .add({"rate", "1/time", intensive, "shear rate of the box"})
       .add({"rate_measured", "1/time", intensive, "shear rate of the grains"})
       .add({"deviation", "-", intensive, "deviation of the velocity profile from the box's flow, over |rate| L"})
-      .add({"deviation_by_chance", "-", intensive, "what noise alone would give"})
+      .add({"deviation_by_chance", "-", intensive, "deviation expected from noise alone"})
       .add_each("x y z", {"T_*", "velocity^2", intensive, "granular temperature *, sum m dv_*^2 over sum m"})
       .add({"T", "velocity^2", intensive, "translational granular temperature, mean of those of the axes"})
       .add({"T_rot", "velocity^2", intensive,
@@ -59,7 +59,7 @@ grainscope::Outputs declared(int layers) {
   grainscope::OutputList columns = {
       {"position", "distance", intensive, "middle of the layer along the gradient, from the box centre"},
       {"N", "-", whole, "grains of the layer"}};
-  columns.add_each("x y z", {"u_*", "velocity", intensive, "mean velocity * by mass less the box's flow"});
+  columns.add_each("x y z", {"u_*", "velocity", intensive, "mean velocity * by mass relative to the flow of the box"});
   outputs.set_array(layers, "layer", columns);
   return outputs;
 }

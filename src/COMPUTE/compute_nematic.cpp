@@ -32,8 +32,7 @@ grainscope::Outputs declared() {
   outputs.vector.add_each("xx yy zz xy xz yz", {"Q*", "-", intensive, "order tensor Q_*"})
       .add_each("x y z", {"director_*", "-", intensive, "* of the director"})
       .add({"biaxiality", "-", intensive, "middle less smallest eigenvalue of Q"})
-      .add({"theta", "rad", intensive,
-            "mean angle of the major axes to the flow in the plane, theta_x where none is said"})
+      .add({"theta", "rad", intensive, "mean angle of the major axes to the flow in the plane, theta_x by default"})
       .add({"theta_director", "rad", intensive, "the same angle of the director"})
       .add_each("x y z", {"omega_*", "1/time", intensive, "mean angular velocity *"})
       .add({"N_axis", "-", whole, "grains with an axis"})

@@ -39,10 +39,10 @@ grainscope::Outputs declared() {
                     {"N_c_backbone", "-", whole, "contacts between grains that are no rattlers"},
                     {"N_w_backbone", "-", whole, "contacts of such grains with walls"},
                     {"P", "pressure", intensive, "pressure of the contacts"},
-                    {"rate", "1/time", intensive, "shear rate that I is made with"},
+                    {"rate", "1/time", intensive, "shear rate in I"},
                     {"rho", "mass/volume", intensive, "density of the grains, their mass over V_s"},
                     {"V_s", "volume", whole, "volume of the grains"},
-                    {"Omega", "volume", whole, "volume that phi and P are per"},
+                    {"Omega", "volume", whole, "volume in phi and P"},
                     {"d_spread", "-", intensive, "standard deviation of the diameters over d"}};
   return outputs;
 }

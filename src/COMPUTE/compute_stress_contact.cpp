@@ -37,7 +37,7 @@ grainscope::Outputs declared(const grainscope::TypePairs *pairs) {
   const char *const six = "xx yy zz xy xz yz";
   grainscope::Outputs outputs;
   const grainscope::NamedOutput pressure = {"P", "pressure", intensive,
-                                            "pressure, -syy or as the keyword pressure says"};
+                                            "pressure, -syy unless the keyword pressure says otherwise"};
   outputs.scalar = {pressure};
   outputs.vector.add_each(six, {"s*", "pressure", intensive, "stress sigma_*, tension positive"})
       .add({"syx", "pressure", intensive, "stress sigma_yx, from F_y r_x"})
@@ -45,10 +45,10 @@ grainscope::Outputs declared(const grainscope::TypePairs *pairs) {
       .add_each(six, {"s*_tangential", "pressure", intensive, "part of s* from tangential forces"})
       .add_each(six, {"s*_kinetic", "pressure", intensive, "kinetic stress *, not in s*"})
       .add(pressure)
-      .add({"mu_eff", "-", intensive, "effective friction, sxy/P, in another plane likewise"})
-      .add({"N1", "-", intensive, "first normal stress difference, (sxx - syy)/P, in another plane likewise"})
+      .add({"mu_eff", "-", intensive, "effective friction, sxy/P; with plane, that of the plane"})
+      .add({"N1", "-", intensive, "first normal stress difference, (sxx - syy)/P; with plane, that of the plane"})
       .add({"N2", "-", intensive,
-            "second normal stress difference, (syy - szz)/P, in another plane likewise; 0 in two dimensions"})
+            "second normal stress difference, (syy - szz)/P; with plane, that of the plane; 0 in two dimensions"})
       .add({"N_c", "-", whole, "contacts between grains"})
       .add({"Z", "-", intensive, "coordination number, (2 N_c + N_w)/N"})
       .add({"sliding", "-", intensive, "fraction of contacts that slide"})
@@ -63,7 +63,7 @@ grainscope::Outputs declared(const grainscope::TypePairs *pairs) {
       .add({"pair_syx", "pressure", intensive, "their part of syx"})
       .add({"pair_N_c", "-", whole, "their contacts between grains"})
       .add({"pair_N_w", "-", whole, "their contacts with walls"})
-      .add({"pair_N_sliding", "-", whole, "those of both that slide"});
+      .add({"pair_N_sliding", "-", whole, "sliding contacts of the pair of types"});
   outputs.set_array(pairs->size(), "pair of atom types", columns);
   return outputs;
 }

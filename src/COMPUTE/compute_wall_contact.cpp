@@ -58,7 +58,7 @@ OutputList numbers(const std::string &suffix, Extent sum, const Choices &chosen)
         .add({"P_t_damp" + suffix, "energy/time", sum, "power lost by tangential damping of contacts that stick"});
   if (chosen.impacts)
     list.add({"N_impacts" + suffix, "-", whole, "grains that began to touch it"})
-        .add({"impact_velocity" + suffix, "velocity", intensive, "mean of their normal velocity then, toward the wall"})
+        .add({"impact_velocity" + suffix, "velocity", intensive, "mean normal velocity of impacts, toward the wall"})
         .add({"impact_energy" + suffix, "energy", whole, "sum of m/2 times that velocity squared"});
   return list;
 }

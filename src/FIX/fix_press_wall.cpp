@@ -88,13 +88,14 @@ const std::vector<FixPressWall::Impl::Element> &FixPressWall::Impl::elements() {
   using F = FixPressWall;
   constexpr auto intensive = grainscope::Extent::intensive;
   static const std::vector<Element> all = {
-      {{"travel", "distance", intensive, "way of the plate along the axis"}, [](F &f) { return f.impl_->travel; }},
+      {{"travel", "distance", intensive, "displacement of the plate along the axis"},
+       [](F &f) { return f.impl_->travel; }},
       {{"target", "pressure", intensive, "pressure to hold, P_t"}, [](F &f) { return f.impl_->target; }},
       {{"P", "pressure", intensive, "pressure of this step's contacts"}, [](F &f) { return f.pressure_now(); }},
       {{"position", "distance", intensive, "coordinate of the plate's foremost node along the axis"},
        [](F &f) { return f.impl_->position(); }},
       {{"V", "velocity", intensive, "velocity of the plate along the axis"}, [](F &f) { return f.impl_->velocity; }},
-      {{"inputs", "-", intensive, "inputs so far"}, [](F &f) { return f.impl_->inputs; }},
+      {{"inputs", "-", intensive, "control inputs so far"}, [](F &f) { return f.impl_->inputs; }},
       {{"clipped", "-", intensive, "inputs clipped so far"}, [](F &f) { return f.impl_->clipped; }},
       {{"error", "-", intensive, "P_mean/P_t - 1"}, [](F &f) { return f.impl_->relative_error(); }}};
   return all;

@@ -28,7 +28,7 @@ const std::vector<FixPressStrain::Impl::Element> &FixPressStrain::Impl::elements
         {{"L", "distance", intensive, "box length along the axis"},
          [](F &f) { return f.impl_->box.length(f.impl_->shown_edge()); }},
         {{"L_rate", "velocity", intensive, "dL/dt"}, [](F &f) { return f.impl_->rates()[f.impl_->shown_edge()]; }},
-        {{"inputs", "-", intensive, "inputs so far"}, [](F &f) { return f.impl_->inputs; }},
+        {{"inputs", "-", intensive, "control inputs so far"}, [](F &f) { return f.impl_->inputs; }},
         {{"clipped", "-", intensive, "inputs clipped so far"}, [](F &f) { return f.impl_->clipped; }},
         {{"error", "-", intensive, "P_mean/P_t - 1, 0 when P_t is 0"}, [](F &f) { return f.relative_error(); }}};
     add_edges(list);
@@ -36,7 +36,7 @@ const std::vector<FixPressStrain::Impl::Element> &FixPressStrain::Impl::elements
     list.push_back(
         {{"pressure", "pressure", intensive, "mean of the pressures along the axes, of this step's contacts"},
          [](F &f) { return f.impl_->mean_of(f.pressures_now()); }});
-    list.push_back({{"target_mean", "pressure", intensive, "target of the mean pressure, 0 without"},
+    list.push_back({{"target_mean", "pressure", intensive, "target of the mean pressure, 0 if there is none"},
                     [](F &f) { return f.impl_->settings.has_mean ? f.impl_->settings.mean.value : 0.0; }});
     list.push_back({{"clipped_mean", "-", intensive, "inputs of the mean pressure clipped so far"},
                     [](F &f) { return f.impl_->clipped_of[mean_loop]; }});
@@ -52,7 +52,7 @@ void FixPressStrain::Impl::add_edges(std::vector<Element> &all) {
     const std::string axis(1, "xyz"[k]);
     all.push_back({{"P_" + axis, "pressure", intensive, "pressure along " + axis + " of this step's contacts"},
                    [k](F &f) { return f.pressures_now()[k]; }});
-    all.push_back({{"target_" + axis, "pressure", intensive, "pressure to hold along " + axis + ", 0 without"},
+    all.push_back({{"target_" + axis, "pressure", intensive, "pressure to hold along " + axis + ", 0 if there is none"},
                    [k](F &f) { return f.impl_->target_of(k); }});
     all.push_back({{"L_" + axis, "distance", intensive, "box length along " + axis},
                    [k](F &f) { return f.impl_->box.length(k); }});
@@ -72,8 +72,9 @@ void FixPressStrain::Impl::add_planes(std::vector<Element> &all) {
     const std::string plane = grainscope::name_of_box_mode(k);
     all.push_back({{"s_" + plane, "pressure", intensive, "shear stress " + plane + " of this step's contacts"},
                    [k](F &f) { return -f.pressures_now()[k]; }});
-    all.push_back({{"target_" + plane, "pressure", intensive, "shear stress to hold in " + plane + ", 0 without"},
-                   [k](F &f) { return f.impl_->target_of(k); }});
+    all.push_back(
+        {{"target_" + plane, "pressure", intensive, "shear stress to hold in " + plane + ", 0 if there is none"},
+         [k](F &f) { return f.impl_->target_of(k); }});
     all.push_back({{"rate_" + plane, "1/time", intensive, "shear rate in " + plane},
                    [k](F &f) { return f.impl_->true_rate(k); }});
     all.push_back({{"strain_" + plane, "-", intensive, "shear strain in " + plane + ", sum of rate dt"},
