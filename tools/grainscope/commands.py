@@ -34,7 +34,9 @@ COMMANDS = {
     "rows": Command(
         "rows", "draws profiles and maps: fix field/write, fix ave/time mode vector, fix ave/spatial", DRAWS
     ),
-    "render": Command("render", "draws the grains of a dump, by POV-Ray", DRAWS),
+    "render": Command(
+        "render.command", "draws pictures and films of grains, walls and force chains, by POV-Ray", DRAWS
+    ),
     "convert": Command("convert", "writes dumps for ParaView or OVITO", ("numpy",)),
     "summarise": Command("shear.summarise", "prints steady means of simple-shear runs, with errors", FITS),
     "figures": Command(

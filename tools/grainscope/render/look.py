@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What is drawn of each snapshot, and what all pictures of a film share: camera, colours, thickness of force chains."""
+
+from dataclasses import dataclass
+
+import matplotlib
+import numpy as np
+
+from grainscope.dumps import Dump
+from grainscope.errors import InputError
+from grainscope.render.camera import AXES, DEFAULT_VIEW, Camera, fitted, picture_axes, upright
+from grainscope.render.chains import Chains, chains_of, radii, strongest
+from grainscope.render.colours import GREY, Scale, scale_of, strip, strip_height, values_of
+from grainscope.render.drawn import Drawn, drawn_of
+from grainscope.render.scene import Scene, box_edges, corners_by_place
+from grainscope.render.walls import AllWalls
+from grainscope.selection import Condition
+
+EDGE, ARROW = 0.003, 0.005  # radii over the width of the picture
+FORCES = matplotlib.colors.ListedColormap(matplotlib.colormaps["YlOrRd"](np.linspace(0.25, 1.0, 256)))
+SEE_THROUGH = 0.15  # opacity of grains around force chains
+
+
+@dataclass
+class View:
+    """What is drawn of one snapshot."""
+
+    drawn: Drawn
+    chains: Chains
+    triangles: np.ndarray
+
+    @property
+    def box(self):
+        return self.drawn.snapshot.box
+
+    @property
+    def step(self):
+        return self.drawn.snapshot.step
+
+
+class Sources:
+    """The files that pictures are made of."""
+
+    def __init__(self, arguments):
+        self.arguments = arguments
+        self.grains = Dump(arguments.dump)
+        self.contacts = Dump(arguments.contacts) if arguments.contacts else None
+        self.walls = AllWalls(arguments.walls, arguments.primitive)
+        self.condition = Condition(arguments.where) if arguments.where else None
+        self.steps = self.grains.steps
+        self.notes = self.grains.notes + (self.contacts.notes if self.contacts else [])
+
+    def view(self, step):
+        snapshot = self.grains.at(step)
+        drawn = drawn_of(snapshot, self.condition, self.arguments.cut)
+        chains = None
+        if self.contacts:
+            chains = chains_of(self.contacts.at(step), self.arguments.contact_columns, drawn)
+        return View(drawn, chains, self.walls.triangles(step, snapshot.box))
+
+
+class Look:
+    """What all pictures of these steps share."""
+
+    def __init__(self, sources, steps, arguments):
+        self.arguments = arguments
+        views = [sources.view(step) for step in steps]
+        self._require_something(views, sources)
+        first = views[0]
+        self.flat = all(view.drawn.lie_flat for view in views)
+        self.with_box = arguments.box
+        if self.with_box is None:
+            self.with_box = all(first.box.periodic[: 2 if self.flat else 3])
+        self.plane = shear_plane(views) if arguments.arrows is None else arguments.arrows
+        if self.plane == "none" or (arguments.arrows is None and not self.with_box):
+            self.plane = None
+        self.colour, self.scale = self._scale_of_grains(views)
+        self._scale_of_forces(views)
+        self.top = upright(arguments.up)[1]
+        self.axes = picture_axes(arguments.view or ((0.0, 0.0) if self.flat else DEFAULT_VIEW), arguments.up)
+        self._fit(views)
+
+    def _require_something(self, views, sources):
+        if any(len(view.drawn) for view in views):
+            return
+        chosen = [f"--where '{self.arguments.where}'"] if self.arguments.where else []
+        chosen += [f"--cut {axis} {low:g} {high:g}" for axis, low, high in self.arguments.cut]
+        snapshot = views[-1].drawn.snapshot
+        raise InputError(
+            f"{snapshot.path}: no grain to draw of the {snapshot.rows} of step {snapshot.step}"
+            + (f" with {' and '.join(chosen)}" if chosen else "")
+        )
+
+    def _scale_of_grains(self, views):
+        """The column of the colours, and its scale; grains are grey without."""
+        name = self.arguments.colour
+        if self.arguments.only_contacts or (name is None and self.arguments.contacts):
+            return None, None
+        name = name or "alignment"
+        axis = self.arguments.along or (self.plane or "x")[0]
+        values = np.concatenate([values_of(view.drawn, name, axis) for view in views])
+        label = self.arguments.label
+        if name == "alignment" and label is None and self.plane:
+            label = "angle to the flow"
+        scale = scale_of(values, name, axis, self.arguments.range, self.arguments.colormap, label)
+        return name, scale
+
+    def _scale_of_forces(self, views):
+        self.force_scale = None
+        if not self.arguments.contacts:
+            return
+        high = self.arguments.strongest or strongest([view.chains for view in views]) or 1.0
+        self.force_scale = Scale("normal force", FORCES, 0.0, high)
+        self.grain = np.mean(np.concatenate([np.cbrt(np.prod(view.drawn.semi_axes, axis=1)) for view in views]))
+
+    def _fit(self, views):
+        width, height = self.arguments.size
+        self.scales = [scale for scale in (self.scale, self.force_scale) if scale is not None]
+        self.noted = self.arguments.animate is not None
+        if self.scales or self.noted:
+            height -= strip_height(width)
+        if height < 1:
+            raise InputError(f"--size: {self.arguments.size[1]} pixels are too low for a width of {width}")
+        self.pixels = width, height
+        points, sizes = zip(*[part for view in views for part in self._seen(view)])
+        points, sizes = np.concatenate(points), np.concatenate(sizes)
+        orthographic = self.arguments.orthographic or self.flat
+        self.camera: Camera = fitted(self.axes, points, sizes, width / height, orthographic)
+
+    def _seen(self, view):
+        """Points, and radii of what is about them."""
+        drawn = view.drawn
+        sizes = drawn.reach if not self.arguments.only_contacts else np.zeros(len(drawn))
+        yield drawn.positions, sizes
+        corners = view.triangles.reshape(-1, 3).copy()
+        for axis, low, high in self.arguments.cut:
+            corners[:, AXES.index(axis)] = np.clip(corners[:, AXES.index(axis)], low, high)
+        yield corners, np.zeros(len(corners))
+        if self.with_box:
+            yield view.box.corners(), np.zeros(8)
+        arrows = self._arrows(view).reshape(-1, 3)
+        yield arrows, np.zeros(len(arrows))
+
+    def _arrows(self, view):
+        """Ends (tail, tip) of the arrows of the flow: along it beyond the far edge of the box, against it at the near
+        one."""
+        if not self.plane:
+            return np.empty((0, 2, 3))
+        flow, gradient = map(AXES.index, self.plane)
+        third = 3 - flow - gradient
+        near = int(self.axes[2][third] > 0)
+        corners, arrows = corners_by_place(view.box), []
+        length = 0.3 * np.linalg.norm(view.box.edges[flow]) * np.eye(3)[flow]
+        gap = 1.6 * view.drawn.reach.max(initial=0.0) * np.eye(3)[gradient]
+        for side, sign in ((1, 1.0), (0, -1.0)):
+            place = [0, 0, 0]
+            place[gradient], place[third] = side, near if side == 0 else 1 - near
+            start = corners[tuple(place)]
+            place[flow] = 1
+            middle = 0.5 * (start + corners[tuple(place)]) + sign * gap
+            arrows.append((middle - 0.5 * sign * length, middle + 0.5 * sign * length))
+        return np.array(arrows)
+
+    def scene(self, view):
+        """POV-Ray's text."""
+        arguments, width = self.arguments, self.camera.width
+        scene = Scene(self.camera, self.pixels[0] / self.pixels[1], arguments.light, self.top)
+        if not arguments.only_contacts:
+            scene.add_grains(view.drawn, self._colours(view.drawn), self._opacity())
+        if view.chains is not None:
+            colours = self.force_scale.colours(np.abs(view.chains.forces))
+            thickness = radii(view.chains, self.force_scale.high, self.grain)
+            scene.add_cylinders(view.chains.starts, view.chains.ends, thickness, colours)
+        scene.add_walls(view.triangles, arguments.wall_style, EDGE / 2 * width, arguments.cut)
+        if self.with_box:
+            scene.add_lines(box_edges(corners_by_place(view.box)), EDGE * width)
+        if self.plane:
+            scene.add_arrows(self._arrows(view), ARROW * width)
+        seen = np.concatenate([points - sizes[:, None] * self.top for points, sizes in self._seen(view)])
+        if not self.flat:
+            scene.add_floor(seen[np.argmin(seen @ self.top)] - 0.02 * width * self.top)
+        return scene.text()
+
+    def _colours(self, drawn):
+        if self.scale is None:
+            return np.tile(GREY, (len(drawn), 1))
+        axis = self.arguments.along or (self.plane or "x")[0]
+        return self.scale.colours(values_of(drawn, self.colour, axis))
+
+    def _opacity(self):
+        if self.arguments.opacity is not None:
+            return self.arguments.opacity
+        return SEE_THROUGH if self.arguments.contacts else 1.0
+
+    def strip(self, step):
+        """Colour bars and, in films, the step, as rows of pixels."""
+        return strip(self.scales, self.pixels[0], f"step {step}" if self.noted else "")
+
+
+def shear_plane(views):
+    """The plane xy, xz or yz, flow and gradient, in which boxes are tilted the most; None where none is."""
+    tilts = {
+        "xy": max(abs(view.box.edges[1][0]) / view.box.edges[1][1] for view in views),
+        "xz": max(abs(view.box.edges[2][0]) / view.box.edges[2][2] for view in views),
+        "yz": max(abs(view.box.edges[2][1]) / view.box.edges[2][2] for view in views),
+    }
+    plane = max(tilts, key=tilts.get)
+    return plane if tilts[plane] > 0.0 else None
