@@ -94,7 +94,7 @@ def strip(scales, width, note=""):
     height = strip_height(width)
     figure = Figure(figsize=(width / 100.0, height / 100.0), dpi=100)
     canvas = FigureCanvasAgg(figure)
-    size = 0.012 * width
+    size = 0.013 * width
     for k, scale in enumerate(scales):
         left = 0.05 + 0.36 * k
         if scale.kinds:

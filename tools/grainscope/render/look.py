@@ -132,6 +132,8 @@ class Look:
         drawn = view.drawn
         sizes = drawn.reach if not self.arguments.only_contacts else np.zeros(len(drawn))
         yield drawn.positions, sizes
+        if view.chains is not None:
+            yield view.chains.ends, radii(view.chains, self.force_scale.high, self.grain)
         corners = view.triangles.reshape(-1, 3).copy()
         for axis, low, high in self.arguments.cut:
             corners[:, AXES.index(axis)] = np.clip(corners[:, AXES.index(axis)], low, high)
