@@ -13,9 +13,9 @@ import numpy as np
 
 from grainscope.errors import InputError, warn
 from grainscope.render.camera import AXES
-from grainscope.render.film import film, picture, require_writer
+from grainscope.render.film import film, finished, require_writer
 from grainscope.render.look import Look, Sources
-from grainscope.render.scene import LIGHTS, require_povray
+from grainscope.render.scene import LIGHTS, require_povray, run_povray
 from grainscope.render.walls import STYLES
 
 NUMBER = re.compile(r"-(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$")
@@ -141,5 +141,6 @@ def run(arguments):
     look, view = Look(sources, [step], given), sources.view(step)
     if given.scene:
         Path(given.scene).write_text(look.scene(view))
-    matplotlib.image.imsave(given.output, picture(look, view, given.jobs))
+    pixels = run_povray(look.scene(view), *look.pixels, given.jobs)
+    matplotlib.image.imsave(given.output, finished(look, step, pixels))
     print(given.output)

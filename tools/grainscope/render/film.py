@@ -6,14 +6,13 @@ from pathlib import Path
 import importlib.util
 import shutil
 import subprocess
-import sys
 import tempfile
-import time
 
 import matplotlib.image
 import numpy as np
 
 from grainscope.errors import InputError
+from grainscope.progress import Line, duration
 from grainscope.render.scene import run_povray
 
 ENDINGS = (".mp4", ".gif")
@@ -36,53 +35,31 @@ def require_writer(path):
         )
 
 
-def picture(look, view, threads):
-    """The pixels of one snapshot, colour bars included."""
-    pixels = run_povray(look.scene(view), *look.pixels, threads)
-    return finished(look, view.step, pixels)
-
-
 def finished(look, step, pixels):
+    """A picture with its colour bars."""
     return np.concatenate([pixels, look.strip(step)])
 
 
-def film(look, sources, path, rate, jobs):
-    """Draws every snapshot, `jobs` at a time, and writes the film."""
+def film(look, sources, path, rate, jobs, line=None):
+    """Draws every snapshot, `jobs` at a time, says how far it is, and writes the film."""
     steps = sources.steps
+    line = line or Line()
+
+    def draw(step):
+        return run_povray(look.scene(sources.view(step)), *look.pixels, 1)
+
     with tempfile.TemporaryDirectory(prefix="grainscope-") as folder:
-        progress = Progress(len(steps))
-
-        def draw(number):
-            pixels = run_povray(look.scene(sources.view(steps[number])), *look.pixels, 1)
-            matplotlib.image.imsave(Path(folder, f"{number:06d}.png"), finished(look, steps[number], pixels))
-            progress.advance()
-
         with ThreadPoolExecutor(jobs) as pool:
-            for _ in pool.map(draw, range(len(steps))):
-                pass
-        progress.end()
-        (write_mp4 if Path(path).suffix == ".mp4" else write_gif)(folder, len(steps), path, rate)
+            for number, pixels in enumerate(pool.map(draw, steps), 1):
+                frame = finished(look, steps[number - 1], pixels)
+                matplotlib.image.imsave(Path(folder, f"{number:06d}.png"), frame)
+                left = (line.clock() - line.begin) / number * (len(steps) - number)
+                line.show(f"frame {number} of {len(steps)}, {duration(left)} left")
+        line.end()
+        (write_mp4 if Path(path).suffix == ".mp4" else write_gif)(folder, path, rate)
 
 
-class Progress:
-    """One line on stderr: which frame of how many, and the time that is left."""
-
-    def __init__(self, frames):
-        self.frames, self.done, self.start = frames, 0, time.monotonic()
-        self.ending = "\r" if sys.stderr.isatty() else "\n"
-
-    def advance(self):
-        self.done += 1
-        left = (time.monotonic() - self.start) / self.done * (self.frames - self.done)
-        text = f"frame {self.done} of {self.frames}, {left // 60:.0f} min {left % 60:02.0f} s left"
-        print(f"{text:<50}", end=self.ending, file=sys.stderr, flush=True)
-
-    def end(self):
-        if self.ending == "\r":
-            print(file=sys.stderr)
-
-
-def write_mp4(folder, frames, path, rate):
+def write_mp4(folder, path, rate):
     """By H.264, which wants even sizes."""
     command = ["ffmpeg", "-y", "-loglevel", "error", "-framerate", f"{rate:g}", "-i", f"{folder}/%06d.png"]
     command += ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-pix_fmt", "yuv420p", path]
@@ -91,8 +68,8 @@ def write_mp4(folder, frames, path, rate):
         raise InputError("ffmpeg failed:\n" + "\n".join(done.stderr.splitlines()[-10:]))
 
 
-def write_gif(folder, frames, path, rate):
+def write_gif(folder, path, rate):
     from PIL import Image
 
-    pictures = [Image.open(Path(folder, f"{number:06d}.png")).convert("RGB") for number in range(frames)]
-    pictures[0].save(path, save_all=True, append_images=pictures[1:], duration=1000.0 / rate, loop=0)
+    first, *others = [Image.open(name).convert("RGB") for name in sorted(Path(folder).glob("*.png"))]
+    first.save(path, save_all=True, append_images=others, duration=1000.0 / rate, loop=0)
