@@ -59,8 +59,8 @@ def gif(ranks):
 
 
 def progress(ranks):
-    """One line on a terminal, rewritten for each frame, with the time that the others will take. The clock goes on by 7 s
-    each time that it is looked at: twice a frame."""
+    """One line on a terminal, rewritten for each frame, with the time that the others will take. The clock goes on by
+    7 s each time that it is looked at: twice a frame."""
 
     class Terminal(io.StringIO):
         def isatty(self):

@@ -9,7 +9,7 @@ from dump_files import new_folder, snapshot, tool
 from grainscope.dumps import Dump
 from grainscope.render.chains import chains_of, radii
 from grainscope.render.drawn import drawn_of
-from grainscope.render.walls import edges_of
+from grainscope.render.walls import below, edges_of
 from packing import dense_packing
 from pixels import KINDS, cover, drawn, middle, moments, spheres, spot
 import meshes
@@ -113,6 +113,30 @@ def cuts(ranks):
     scale = scale_of(picture, (0, 3), [(5, 1, 0), (9, 5, 0)])
     area = spot(picture, WALL).sum() / scale**2
     require_close(area, 36.0 - 4 * np.pi * 0.16, 0.03, "area of a wall that is cut twice")
+    # behind the part of a cylinder that is cut off its other half is seen
+    words = ["--primitive", "ycylinder", 2, 5, 0, 2, 8, "--wall-style", "solid", "--cut", "z", -5, 0]
+    picture = drawn(spheres([(1, 5, -3), (9, 5, -3)], 0.4), *FRONT, *words, size=(300, 320))
+    scale = scale_of(picture, (0, 1), [(1, 5, 0), (9, 5, 0)])
+    require_close(spot(picture, WALL).sum() / scale**2, 24.0, 0.03, "area of half a cylinder")
+
+
+def wall_parts(ranks):
+    """What is left of a cube's faces between two planes has the area of these parts; of many triangles at random places
+    the parts below and above a plane have the whole area, and lie there."""
+    cube = np.array(meshes.box((0, 0, 0), (1, 1, 1)), dtype=float)
+    left = below(below(cube, 2, 0.75, 1.0), 2, 0.5, -1.0)
+    require_close(areas(left).sum(), 4 * 0.25, 1e-12, "four strips of a cube")
+    require_close(areas(below(cube, 0, 1.0, 1.0)).sum(), 6.0, 1e-12, "a plane through a face cuts nothing off")
+    require(len(below(cube, 0, -0.1, 1.0)) == 0, "nothing is below the cube")
+    triangles = np.random.default_rng(5).uniform(-1.0, 1.0, (200, 3, 3))
+    for axis in range(3):
+        lower, upper = below(triangles, axis, 0.2, 1.0), below(triangles, axis, 0.2, -1.0)
+        require(lower[..., axis].max() < 0.2 + 1e-12 and upper[..., axis].min() > 0.2 - 1e-12, f"axis {axis}")
+        require_close(areas(lower).sum() + areas(upper).sum(), areas(triangles).sum(), 1e-12, "both parts together")
+
+
+def areas(triangles):
+    return 0.5 * np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1)
 
 
 def wrapped(ranks):
@@ -279,6 +303,7 @@ main(
         "wall-edges": wall_edges,
         "primitives": primitives,
         "cuts": cuts,
+        "wall-parts": wall_parts,
         "wrapped": wrapped,
         "boxes-and-arrows": boxes_and_arrows,
         "chains": chains,

@@ -45,7 +45,7 @@ class Sources:
         self.arguments = arguments
         self.grains = Dump(arguments.dump)
         self.contacts = Dump(arguments.contacts) if arguments.contacts else None
-        self.walls = AllWalls(arguments.walls, arguments.primitive)
+        self.walls = AllWalls(arguments.walls, arguments.primitive, arguments.cut)
         self.condition = Condition(arguments.where) if arguments.where else None
         self.steps = self.grains.steps
         self.notes = self.grains.notes + (self.contacts.notes if self.contacts else [])
@@ -134,9 +134,7 @@ class Look:
         yield drawn.positions, sizes
         if view.chains is not None:
             yield view.chains.ends, radii(view.chains, self.force_scale.high, self.grain)
-        corners = view.triangles.reshape(-1, 3).copy()
-        for axis, low, high in self.arguments.cut:
-            corners[:, AXES.index(axis)] = np.clip(corners[:, AXES.index(axis)], low, high)
+        corners = view.triangles.reshape(-1, 3)
         yield corners, np.zeros(len(corners))
         if self.with_box:
             yield view.box.corners(), np.zeros(8)
@@ -173,7 +171,7 @@ class Look:
             colours = self.force_scale.colours(np.abs(view.chains.forces))
             thickness = radii(view.chains, self.force_scale.high, self.grain)
             scene.add_cylinders(view.chains.starts, view.chains.ends, thickness, colours)
-        scene.add_walls(view.triangles, arguments.wall_style, EDGE / 2 * width, arguments.cut)
+        scene.add_walls(view.triangles, arguments.wall_style, EDGE / 2 * width)
         if self.with_box:
             scene.add_lines(box_edges(corners_by_place(view.box)), EDGE * width)
         if self.plane:

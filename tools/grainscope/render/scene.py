@@ -10,7 +10,7 @@ import matplotlib.image
 import numpy as np
 
 from grainscope.errors import InputError
-from grainscope.render.camera import AXES, OPENING
+from grainscope.render.camera import OPENING
 from grainscope.render.walls import edges_of
 
 LIGHTS = {
@@ -89,17 +89,12 @@ class Scene:
             self.parts.append(f"cylinder {{ {vector(tail)}, {vector(neck)}, {radius:.7g} {look}")
             self.parts.append(f"cone {{ {vector(neck)}, {2.8 * radius:.7g}, {vector(tip)}, 0 {look}")
 
-    def add_walls(self, triangles, style, radius, cuts):
-        """Of the walls what is between the ends of all cuts."""
+    def add_walls(self, triangles, style, radius):
         if not len(triangles):
             return
-        self.parts.append("union {")
         if style != "wire":
             self._add_mesh(triangles, 0.0 if style == "solid" else 0.78)
         self.add_lines(edges_of(triangles, 0.1 if style == "wire" else 30.0), radius, WALL)
-        if cuts:
-            self.parts.append(f"clipped_by {{ {' '.join(self._slab(*cut) for cut in cuts)} }}")
-        self.parts.append("}")
 
     def _add_mesh(self, triangles, transmit):
         self.parts.append("mesh {")
@@ -109,13 +104,6 @@ class Scene:
             f"pigment {{ color rgbt <{WALL}, {transmit}> }} finish {{ line_finish }} double_illuminate"
             + (" no_shadow }" if transmit else " }")
         )
-
-    def _slab(self, axis, low, high):
-        """Half-spaces below and above the ends of a cut; POV-Ray's planes point out of theirs."""
-        normal = self.camera.axes @ np.eye(3)[AXES.index(axis)]
-        middle = self.camera.target[AXES.index(axis)]
-        planes = ((normal, high - middle), (-normal, middle - low))
-        return " ".join(f"plane {{ {vector(outward)}, {self.unit * height:.7g} }}" for outward, height in planes)
 
     def add_floor(self, lowest):
         """Below a point; not where it would hide things or be seen from straight above."""

@@ -68,18 +68,45 @@ class Primitive:
 class AllWalls:
     """All walls of a picture: STL files, which may change with the step, and primitive walls."""
 
-    def __init__(self, files, primitives):
+    def __init__(self, files, primitives, cuts):
         self._files = Walls(files)
         self._primitives = [Primitive.of(words) for words in primitives]
+        self._cuts = cuts
         self._read = lru_cache(read_stl)
 
     def triangles(self, step, box):
-        """At a step, (triangles, corners, x y z); of primitive walls what is in the box."""
+        """At a step, (triangles, corners, x y z), between the ends of the cuts (axis, low, high); of primitive walls
+        what is in the box."""
         corners = box.corners()
         low, high = corners.min(axis=0), corners.max(axis=0)
         found = [self._read(name) for name in self._files.files(step)]
         found += [primitive.triangles(low, high) for primitive in self._primitives]
-        return np.concatenate(found) if found else np.empty((0, 3, 3))
+        triangles = np.concatenate(found) if found else np.empty((0, 3, 3))
+        for axis, low, high in self._cuts:
+            place = AXES.index(axis)
+            triangles = below(below(triangles, place, high, 1.0), place, low, -1.0)
+        return triangles
+
+
+def below(triangles, axis, limit, sign):
+    """The parts of triangles where sign*x <= sign*limit, x along an axis. A triangle with one corner beyond becomes
+    two, with two corners beyond a smaller one."""
+    beyond = sign * (triangles[..., axis] - limit) > 0.0
+    number = beyond.sum(axis=1)
+    whole, crossing = triangles[number == 0], (number == 1) | (number == 2)
+    triangles, beyond, number = triangles[crossing], beyond[crossing], number[crossing]
+    single = np.where(number == 1, np.argmax(beyond, axis=1), np.argmin(beyond, axis=1))  # alone on its side
+    order = (single[:, None] + np.arange(3)) % 3
+    alone, left, right = np.take_along_axis(triangles, order[..., None], axis=1).transpose(1, 0, 2)
+
+    def at_limit(end):
+        """Where the edges from the corner that is alone meet the limit."""
+        share = (limit - alone[:, axis]) / (end[:, axis] - alone[:, axis])
+        return alone + share[:, None] * (end - alone)
+
+    one, other = at_limit(left), at_limit(right)
+    parts = ((number == 2, (alone, one, other)), (number == 1, (one, left, right)), (number == 1, (one, right, other)))
+    return np.concatenate([whole, *(np.stack(corners, axis=1)[chosen] for chosen, corners in parts)])
 
 
 def edges_of(triangles, least_bend):
