@@ -677,6 +677,19 @@ add_cases(tools-convert-contacts cases/tools_convert_contacts.py LABEL case STYL
 add_cases(tools-convert-ovito cases/tools_convert_ovito.py LABEL case STYLES tools CASES
   page conversion spheres refusals)
 add_cases(tools-paraview cases/tools_paraview.py LABEL case STYLES tools LONG_RANKS 1 CASES grains contacts)
+# Tools: pictures and films
+add_cases(tools-selection cases/tools_selection.py LABEL case STYLES tools CASES same-as-python refused)
+add_cases(tools-render cases/tools_render.py LABEL case STYLES tools CASES
+  outline-prolate outline-triaxial outline-in-perspective up-axis views colour-map vectors-and-kinds alignment
+  two-dimensions superquadrics)
+add_cases(tools-render-scene cases/tools_render_scene.py LABEL case STYLES tools CASES
+  walls wall-edges primitives cuts wall-parts wrapped boxes-and-arrows chains chains-across-faces see-through needs)
+add_cases(tools-render-scene cases/tools_render_scene.py LABEL case STYLES tools contact/local
+  RANKS 1 LONG_RANKS 2 CASES chains-of-a-run)
+add_cases(tools-render-film cases/tools_render_film.py LABEL case STYLES tools CASES
+  gif progress one-step walls-that-move missing-programs refusals scene-file)
+add_cases(tools-render-film cases/tools_render_film.py LABEL case STYLES tools LONG_RANKS 1 CASES mp4)
+add_cases(tools-render-page cases/tools_render_page.py LABEL case STYLES tools contact/local CASES commands gallery)
 
 # Format of the files, and what the tools that look for faults say of them
 add_cases(documentation cases/documentation.py LABEL case STYLES documentation CASES

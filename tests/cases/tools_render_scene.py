@@ -293,7 +293,7 @@ def needs(ranks):
         (["--contact-columns", "ids"], "--contact-columns must be of id image"),
         ([], "Dump contacts by"),
     ):
-        code, _, said = tool("render", *words, *more, folder=folder)
+        code, said = tool("render", *words, *more, folder=folder)
         require(code == 1 and expected in said, f"{more}: {code}, {said}")
 
 

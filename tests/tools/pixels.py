@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Pictures of grainscope-tools render, looked at pixel by pixel. They are drawn without light, so that a grain is a spot
-of one colour: that of its type."""
+"""Pictures of grainscope-tools render, looked at pixel by pixel. They are drawn without light, so that a grain is a
+spot of one colour: that of its type."""
 import matplotlib.image
 import numpy as np
 import scipy.ndimage
@@ -38,7 +38,7 @@ def drawn(columns, *words, size=SIZE, light="none", folder=None, strip=False, **
     folder = folder or new_folder()
     (folder / "grains.dump").write_text(snapshot(5, columns, **({"sides": "ff ff ff"} | box)))
     words = ["grains.dump", "--size", *size, "--light", light, "--jobs", 1, "--output", "picture.png", *words]
-    code, _, messages = tool("render", *words, folder=folder)
+    code, messages = tool("render", *words, folder=folder)
     require(code == 0, f"render {words}: {messages}")
     picture = read(folder / "picture.png")
     require(picture.shape == (size[1], size[0], 3), f"a picture of {picture.shape}")
@@ -61,7 +61,7 @@ def linear(values):
 
 
 def cover(picture, colour):
-    """How much of each pixel an object of this colour covers, before a white ground and with nothing else next to it."""
+    """How much of each pixel an object of this colour covers, before a white ground and with nothing else beside it."""
     near = scipy.ndimage.binary_dilation(spot(picture, colour), np.ones((3, 3)))
     missing = 1.0 - linear(colour)
     return np.where(near, np.clip((1.0 - linear(picture)) @ missing / (missing @ missing), 0.0, 1.0), 0.0)

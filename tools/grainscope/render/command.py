@@ -36,7 +36,7 @@ def add_arguments(parser):
         default="soft",
         help="plain is quicker, none shows pure colours (default: soft)",
     )
-    add("--jobs", type=int, default=len(os.sched_getaffinity(0)), help="processor cores to use (default: all)")
+    add("--jobs", type=int, default=os.cpu_count() or 1, help="processor cores to use (default: all)")
     add("--scene", metavar="FILE.pov", help="also write POV-Ray's scene")
 
     group = parser.add_argument_group("view")
