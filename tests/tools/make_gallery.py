@@ -13,7 +13,7 @@ TOP = Path(__file__).resolve().parent.parent.parent
 HEAD = """# Gallery
 
 Each picture is drawn by the commands below it, in the folder of an example, after the run of its input script. They
-want `build/release/bin` on the path. The page is made from `images/gallery.csv` by
+want `build/release/bin` and `tools` on the path. The page is made from `images/gallery.csv` by
 `tests/tools/make_gallery.py --write`.
 """
 
