@@ -3,7 +3,7 @@ model: Markdown tables."""
 import numpy as np
 
 from grainscope.study.cost_model import PAPER, classical_cost_of_grid, cost_of_grid, memory_of, seconds_of, step_seconds
-from grainscope.study.table import read_study
+from grainscope.study.table import coverage, read_study
 
 
 def measured(runs):
@@ -81,7 +81,7 @@ def run(arguments):
     print(
         *measured(runs),
         "",
-        f"{len(runs)} runs, {hours:.2f} core-hours in the attempts that ended.",
+        f"{coverage(arguments.study)}: {hours:.2f} core-hours.",
         "",
         *predicted(),
         "",

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import math
 
 YOUNG, POISSON, DENSITY, SMALLEST = 5.0e6, 0.3, 1000.0, 0.8  # of the deck
+START_STEPS = 3000  # that push the random start apart
 # Core time of a grain for a step [s] by aspect ratio, with everything measured, N = 2000, dense flow
 GRAIN_STEP = {0.33: 1.25e-6, 0.5: 1.5e-6, 0.67: 1.3e-6, 1: 0.65e-6, 1.5: 1.45e-6, 2: 1.75e-6, 3: 2.05e-6}
 # The same over that of N = 2000, by grains of a rank: grains and springs of larger systems are fetched from memory

@@ -1,9 +1,11 @@
-"""Draws figures of the paper from a study's tables (those that `study table` writes); no run is needed."""
+"""Draws figures of the paper from a study's tables (those that `study table` writes); no run is needed. Of tables that
+hold only some of the planned runs each picture says so."""
 from grainscope.errors import InputError
 from grainscope.figures.paper import FIGURES, GRID_FIGURES, sorted_runs
+from grainscope.figures.style import marked
 from grainscope.progress import progress
 from grainscope.study.plan import figures_of
-from grainscope.study.table import largest, over_seeds, read_study, study_arguments
+from grainscope.study.table import coverage, largest, over_seeds, read_study, study_arguments
 
 ALL = {**FIGURES, **GRID_FIGURES}
 
@@ -28,6 +30,8 @@ def run(arguments):
     runs = over_seeds(read_study(arguments.study))
     measure = "all" if all(run.measured_all for run in runs) else "basic"
     names = arguments.figure or figures_of(measure)
-    for name in progress(names, "figures"):
-        draw(runs, name, arguments.output / name)
+    covered = coverage(arguments.study)
+    with marked(str(covered) if covered.partial else ""):
+        for name in progress(names, "figures"):
+            draw(runs, name, arguments.output / name)
     print(*(arguments.output / name for name in names), sep="\n")
