@@ -50,6 +50,9 @@ COMMANDS = {
     "study fit": Command("study.fit", "fits laws to a study", FITS),
     "study compare": Command("study.compare", "compares a study with what the paper published", FITS),
     "study plot": Command("study.plot", "draws the paper's figures of a study", DRAWS + FITS),
+    "study export": Command(
+        "study.export", "writes a study as a data set: tables, provenance, figures", DRAWS + FITS + ("yaml",)
+    ),
     "study cost": Command("study.cost", "prints what a study's runs cost, and what the model expects", FITS),
 }
 DEBIAN = {name: f"python3-{name}" for command in COMMANDS.values() for name in command.needs}

@@ -16,6 +16,17 @@ def draw(runs, name, path):
     ALL[name](sorted_runs(runs if name == "fig14.png" else largest(runs)), path)
 
 
+def draw_all(study, output, names=()):
+    """Draws the named figures of a study, by default all that its runs can give; the paths."""
+    runs, covered = over_seeds(read_study(study)), coverage(study)
+    measure = "all" if all(run.measured_all for run in runs) else "basic"
+    names = names or figures_of(measure)
+    with marked(str(covered) if covered.partial else ""):
+        for name in progress(names, "figures"):
+            draw(runs, name, output / name)
+    return [output / name for name in names]
+
+
 def add_arguments(parser):
     study_arguments(parser)
     parser.add_argument(
@@ -27,11 +38,4 @@ def run(arguments):
     unknown = [name for name in arguments.figure if name not in ALL]
     if unknown:
         raise InputError(f"figure must be one of {', '.join(sorted(ALL))}, got '{unknown[0]}'")
-    runs = over_seeds(read_study(arguments.study))
-    measure = "all" if all(run.measured_all for run in runs) else "basic"
-    names = arguments.figure or figures_of(measure)
-    covered = coverage(arguments.study)
-    with marked(str(covered) if covered.partial else ""):
-        for name in progress(names, "figures"):
-            draw(runs, name, arguments.output / name)
-    print(*(arguments.output / name for name in names), sep="\n")
+    print(*draw_all(arguments.study, arguments.output, arguments.figure), sep="\n")

@@ -1,6 +1,6 @@
 """Collects runs of examples/simple_shear into tables: table.csv has a row for each run, the files in curves/ their
-profiles, and columns.csv tells the unit and meaning of every column. The figures, the fits and the comparison of a
-study are made from these alone."""
+profiles, and columns.csv tells the unit, meaning and source of every column. The figures, the fits and the comparison
+of a study are made from these alone."""
 import csv
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,6 +11,7 @@ from grainscope.errors import InputError, warn
 from grainscope.progress import progress
 from grainscope.shear.measures import ALWAYS, CURVES, MEASURED, SERIES, SteadyRun, steady_run
 from grainscope.shear.output import read_run
+from grainscope.study.sources import OF_COLUMN, OF_CURVE, STUDY
 from grainscope.tables import read_rows
 
 LONGEST = 40  # points of a curve that are kept, up to twice as many
@@ -80,12 +81,17 @@ def header():
             yield f"{name}_error", unit, "its standard error"
 
 
+COLUMNS = ["file", "column", "unit", "meaning", "source"]
+
+
 def all_headers():
-    """File, name, unit and meaning of every column."""
-    yield from (("table.csv", *column) for column in header())
+    """COLUMNS of every column of every table."""
+    for name, unit, meaning in header():
+        yield "table.csv", name, unit, meaning, OF_COLUMN[name.removesuffix("_error")]
     for curve, columns in CURVES.items():
-        yield f"curves/{curve}.csv", "run", "", "name of the run"
-        yield from ((f"curves/{curve}.csv", name, unit, meaning) for name, (unit, meaning) in columns.items())
+        file = f"curves/{curve}.csv"
+        yield file, "run", "", "name of the run", STUDY
+        yield from ((file, name, unit, meaning, OF_CURVE[curve]) for name, (unit, meaning) in columns.items())
 
 
 def text(value):
@@ -145,7 +151,7 @@ def write_tables(runs, output, plan=None):
     names = [name for name, _, _ in header()]
     (output / "curves").mkdir(parents=True, exist_ok=True)
     write_csv(output / "table.csv", names, [[text(row.get(name, "")) for name in names] for row in rows])
-    write_csv(output / "columns.csv", ["file", "column", "unit", "meaning"], all_headers())
+    write_csv(output / "columns.csv", COLUMNS, all_headers())
     for curve, points in curves.items():
         write_csv(output / "curves" / f"{curve}.csv", ["run", *CURVES[curve]], points)
 
