@@ -63,13 +63,16 @@ def markdown(rows, untold, covered):
     return "\n".join(lines) + "\n"
 
 
+def write_comparison(study, output):
+    covered = coverage(study)
+    rows, untold = compare(over_seeds(read_study(study)), covered.partial)
+    output.mkdir(parents=True, exist_ok=True)
+    write_csv(output / "comparison.csv", [*NAMES, "coverage"], [[*row, str(covered)] for row in rows])
+    (output / "comparison.md").write_text(markdown(rows, untold, covered))
+
+
 add_arguments = study_arguments
 
 
 def run(arguments):
-    covered = coverage(arguments.study)
-    rows, untold = compare(over_seeds(read_study(arguments.study)), covered.partial)
-    arguments.output.mkdir(parents=True, exist_ok=True)
-    table = [[*row, str(covered)] for row in rows]
-    write_csv(arguments.output / "comparison.csv", [*NAMES, "coverage"], table)
-    (arguments.output / "comparison.md").write_text(markdown(rows, untold, covered))
+    write_comparison(arguments.study, arguments.output)

@@ -1,27 +1,27 @@
 """Writes a study as a data set to publish: table.csv with a row for each run, curves, columns.csv with unit, meaning
-and source of every column, fits and comparison as far as they were made, provenance.json (commits, programs, machines,
-versions, and of each run its seed, command and attempts), figures, README.md, CITATION.cff and .zenodo.json. What is
-partial says so. The tables are those that Snakemake made in the study's output folder. At most 20 MB."""
+and source of every column, fits, comparison with the paper, provenance.json (commits, programs, machines, versions, and
+of each run its seed, command and attempts), figures, README.md, CITATION.cff and .zenodo.json. All are made anew from
+the runs that have ended, and say so where that is a part of the study. At most 20 MB."""
 from importlib.metadata import PackageNotFoundError, version
 import json
 from pathlib import Path
 import platform
-import shutil
 
 import yaml
 
 from grainscope.errors import InputError
 from grainscope.program import TOP
-from grainscope.study.plan import OTHERS, plan
+from grainscope.shear.output import read_run
+from grainscope.study.compare import write_comparison
+from grainscope.study.fit import write_fits
+from grainscope.study.plan import OTHERS, plan, write_plan
 from grainscope.study.planned import read_config
 from grainscope.study.plot import draw_all
 from grainscope.study.provenance import attempts_of, source
 from grainscope.study.slices import now, read_slices
-from grainscope.study.table import COLUMNS, ENDED, coverage, read_csv
+from grainscope.study.table import coverage, write_tables
 
 LIMIT = 20_000_000  # bytes
-NEEDED = ("table.csv", "columns.csv", "plan.csv")
-OPTIONAL = ("fits.csv", "crossovers.csv", "comparison.csv", "comparison.md", "cost.md")
 TITLE = "Simple shear of frictional spheroids: data of a study with grainscope"
 PRIVATE = ("program", "output")  # words of a configuration that concern one machine
 
@@ -49,7 +49,7 @@ def versions():
     return found
 
 
-def provenance(config, runs, output):
+def provenance(config, runs, output, covered):
     """Where the runs of the tables came from; what many attempts share stands in lists, and is named by its number."""
     sources, programs, machines, of_runs = [], [], [], {}
     for run in runs:
@@ -69,7 +69,7 @@ def provenance(config, runs, output):
         of_runs[run.name]["programs"] = programs_of(run.folder(output))
     return {
         "made": now().isoformat(),
-        "coverage": str(coverage(output)),
+        "coverage": str(covered),
         "study": {name: value for name, value in config.items() if name not in PRIVATE},
         "tools": {"source": source(), "versions": versions()},
         "sources": sources,
@@ -113,26 +113,9 @@ FILES = {
     "figures/": "figures by the numbers of the paper",
     **dict.fromkeys(("fits.csv", "crossovers.csv"), "fitted parameters; points of equal losses"),
     **dict.fromkeys(("comparison.csv", "comparison.md"), "against the numbers of the paper"),
-    "cost.md": "core time, memory and bytes",
     "CITATION.cff": "how to cite the data",
     ".zenodo.json": "metadata of a deposit",
 }
-
-
-def copy_tables(output, target):
-    for name in NEEDED:
-        if not (output / name).exists():
-            raise InputError(
-                f"{output / name}: missing; Snakemake makes it: snakemake -s examples/study/Snakefile --configfile "
-                "... -c2 --config partial=1"
-            )
-    described = read_csv(output / "columns.csv")
-    if not described or set(COLUMNS) - set(described[0]):
-        raise InputError(f"{output / 'columns.csv'}: must have the columns {', '.join(COLUMNS)}; make the tables again")
-    target.mkdir(parents=True, exist_ok=True)
-    for name in (*NEEDED, *(name for name in OPTIONAL if (output / name).exists())):
-        shutil.copyfile(output / name, target / name)
-    shutil.copytree(output / "curves", target / "curves", dirs_exist_ok=True)
 
 
 def size_of(folder, limit=LIMIT):
@@ -157,16 +140,18 @@ def add_arguments(parser):
 def run(arguments):
     config = read_config(arguments.config)
     output, target = Path(config.get("output", OTHERS["output"])), arguments.output
-    if target.resolve() == output.resolve():
-        raise InputError(f"--output must be another folder than that of the study, got {target}")
-    copy_tables(output, target)
-    ended = {row["run"] for row in read_csv(output / "table.csv") if row.get("state") == ENDED}
-    runs = [run for run in plan(config).values() if run.name in ended]
-    unplanned = ended - {run.name for run in runs}
-    if unplanned:
-        raise InputError(f"{output / 'table.csv'}: holds runs that {arguments.config} does not plan: {min(unplanned)}")
-    (target / "provenance.json").write_text(json.dumps(provenance(config, runs, output), indent=1) + "\n")
-    covered = coverage(output)
+    planned = list(plan(config).values())
+    ended = [run for run in planned if run.marker(output).exists()]
+    if not ended:
+        raise InputError(f"{output}: must have at least one run that has ended, has none")
+    write_plan(planned, target / "plan.csv")
+    runs = [(read_run(run.folder(output)), run.value("steady")) for run in ended]
+    write_tables(runs, target, target / "plan.csv")
+    write_fits(target, target)
+    write_comparison(target, target)
+    covered = coverage(target)
+    text = json.dumps(provenance(config, ended, output, covered), indent=1)
+    (target / "provenance.json").write_text(text + "\n")
     cff, zenodo = citation(arguments.title, covered)
     (target / "CITATION.cff").write_text(cff)
     (target / ".zenodo.json").write_text(zenodo)

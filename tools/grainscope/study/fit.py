@@ -18,20 +18,24 @@ def cells(record):
     ]
 
 
-add_arguments = study_arguments
-
-
-def run(arguments):
-    runs = largest(over_seeds(read_study(arguments.study)))
-    covered = str(coverage(arguments.study))
-    arguments.output.mkdir(parents=True, exist_ok=True)
+def write_fits(study, output):
+    runs = largest(over_seeds(read_study(study)))
+    covered = str(coverage(study))
+    output.mkdir(parents=True, exist_ok=True)
     write_csv(
-        arguments.output / "fits.csv",
+        output / "fits.csv",
         [*names_of(Fitted), "coverage"],
         [[*cells(fit), covered] for fit in all_fits(runs)],
     )
     write_csv(
-        arguments.output / "crossovers.csv",
+        output / "crossovers.csv",
         ["powers", *names_of(Crossover), "coverage"],
         [[kind, *cells(point), covered] for kind in kinds(runs) for point in crossovers(runs, kind)],
     )
+
+
+add_arguments = study_arguments
+
+
+def run(arguments):
+    write_fits(arguments.study, arguments.output)

@@ -42,7 +42,8 @@ def processor():
 
 
 def machine():
-    return {"processor": processor(), "cores": os.cpu_count(), "system": platform.platform()}
+    system = " ".join((platform.system(), platform.machine(), *platform.libc_ver()))
+    return {"processor": processor(), "cores": os.cpu_count(), "system": system}
 
 
 def note_attempt(folder, binary, ranks, variables):

@@ -148,6 +148,7 @@ def summary(grid):
 def add_arguments(parser):
     parser.add_argument("config", help="configuration of the study, such as examples/study/config.yaml")
     parser.add_argument("--hours", type=positive, required=True, help="wall time, after which nothing runs any more")
+    parser.add_argument("--binary", help="the program (default: `program` of the configuration)")
     parser.add_argument("--jobs", type=jobs, default=1, help="runs at a time (default: 1)")
 
 
@@ -162,7 +163,7 @@ def run(arguments):
     config = read_config(arguments.config)
     runs = list(plan(config).values())
     settings = {**OTHERS, **config}
-    output, program = Path(settings["output"]), find_program(settings["program"])
+    output, program = Path(settings["output"]), arguments.binary or find_program(settings["program"])
     with alone(output):
         write_plan(runs, output / "plan.csv")
         grid = Grid(runs, output, program, arguments.jobs, 3600 * arguments.hours)
