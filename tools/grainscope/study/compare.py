@@ -64,8 +64,8 @@ def markdown(rows, untold, covered):
 
 
 def write_comparison(study, output):
-    covered = coverage(study)
-    rows, untold = compare(over_seeds(read_study(study)), covered.partial)
+    runs, covered = over_seeds(read_study(study)), coverage(study)
+    rows, untold = compare(runs, covered.partial)
     output.mkdir(parents=True, exist_ok=True)
     write_csv(output / "comparison.csv", [*NAMES, "coverage"], [[*row, str(covered)] for row in rows])
     (output / "comparison.md").write_text(markdown(rows, untold, covered))
