@@ -118,4 +118,4 @@ class Speed:
 
 def model_step(run):
     """Wall time of a step by the cost model."""
-    return step_seconds(run.value("alpha"), run.value("N"), run.ranks) / run.speed
+    return step_seconds(run.value("alpha"), run.value("I"), run.value("N"), run.ranks) / run.speed
