@@ -63,9 +63,10 @@ def scaled(grains=1_000_000, alpha=1.5, inertial=0.1, strain=16):
         "|---|---|---|---|---|",
     ]
     for ranks in (1, 16, 64, 256, 1024):
+        step = step_seconds(alpha, inertial, grains, ranks)
         hours = seconds_of(alpha, inertial, grains, strain, ranks) / 3600
         rows.append(
-            f"| {ranks} | {1e3 * step_seconds(alpha, inertial, grains, ranks):.3g} | {hours:.3g} | {hours * ranks:.3g} | "
+            f"| {ranks} | {1e3 * step:.3g} | {hours:.3g} | {hours * ranks:.3g} | "
             f"{memory_of(grains, ranks) / ranks / 1e9:.2g} |"
         )
     return rows
