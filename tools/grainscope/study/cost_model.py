@@ -8,7 +8,17 @@ YOUNG, POISSON, DENSITY, SMALLEST = 5.0e6, 0.3, 1000.0, 0.8  # of the deck
 START_STEPS = 3000  # that push the random start apart
 # Core time of a grain for a step [s] by aspect ratio, N = 2000, dense flow of mu = 0.4; and for a strain of 1 [s]: what
 # is done at strains and not at steps, neighbour lists and measuring everything
-GRAIN_STEP = {0.33: 0.44e-6, 0.5: 0.40e-6, 0.67: 0.36e-6, 1: 0.19e-6, 1.5: 0.36e-6, 2: 0.49e-6, 3: 0.55e-6}
+GRAIN_STEP = {
+    0.33: 0.44e-6,
+    0.5: 0.40e-6,
+    0.67: 0.36e-6,
+    0.83: 0.29e-6,
+    1: 0.19e-6,
+    1.2: 0.30e-6,
+    1.5: 0.36e-6,
+    2: 0.49e-6,
+    3: 0.55e-6,
+}
 GRAIN_STRAIN = 1.5e-3
 # The same over that of N = 2000, by grains of a rank: grains and springs of larger systems are fetched from memory
 GROWTH = {2000: 1.0, 16000: 1.3, 128000: 2.2, 1024000: 2.6}
