@@ -673,7 +673,7 @@ add_cases(stress/contact-at-walls cases/wall_analytic.py LABEL case
 
 # Tools: dumps read, and converted for ParaView and OVITO
 add_cases(tools-dumps cases/tools_dumps.py LABEL case STYLES tools CASES
-  many-snapshots many-files boxes cut-off refusals words-and-frames of-a-run)
+  many-snapshots many-files side-by-side boxes cut-off refusals words-and-frames of-a-run)
 add_cases(tools-convert cases/tools_convert.py LABEL case STYLES tools CASES
   glyph-tensors-polydisperse glyph-tensors-prolate glyph-tensors-oblate glyph-tensors-triaxial surfaces boxy-surfaces
   all-columns other-names series walls refusals)

@@ -127,9 +127,10 @@ class Dump:
         return _snapshot(path, self._content(path)[start:end])
 
     def _content(self, path):
-        if self._opened[0] != path:
-            self._opened = (path, _content(path))
-        return self._opened[1]
+        opened = self._opened  # taken once: a film reads its snapshots side by side
+        if opened[0] != path:
+            opened = self._opened = (path, _content(path))
+        return opened[1]
 
     def _whole_snapshots(self, path):
         """Step, and first and last place in the file, of each snapshot that is whole."""
