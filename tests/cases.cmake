@@ -497,7 +497,7 @@ add_cases(tools cases/tools_command.py LABEL case STYLES tools CASES
   help-of-all unknown-refused missing-input-refused runs-refused python-without-numpy missing-packages-named
   packages-are-installed-by-scripts syntax-of-python-3-9 examples-of-page progress-is-said run-is-followed)
 add_cases(tools-plot cases/tools_plot.py LABEL case STYLES tools CASES
-  known-error steady-parts files-of-the-program picture not-finite command-line)
+  known-error constants steady-parts files-of-the-program picture not-finite command-line)
 add_cases(tools-rows cases/tools_rows.py LABEL case STYLES tools CASES
   tables files-of-the-program incomplete command-line)
 add_cases(tools-fields cases/field_pictures.py LABEL case STYLES tools CASES
