@@ -167,7 +167,7 @@ def command_line(ranks):
     values = correlated(1, 4096)[0]
     a, b = written("a.txt", {"v_mu": values, "v_phi": values}), written("b.txt", {"v_mu": values})
     with a.open("a") as file:
-        file.write("409600 3.1")
+        file.write("409600 3.1 2")  # of 2.99, say: as many numbers as the others, but not all digits
     code, said = asked("plot", a, b, "v_mu", "--output", scratch("a.pdf"))
     require(code == 0 and scratch("a.pdf").read_bytes().startswith(b"%PDF"), said)
     require("a.txt: the last row is incomplete and left out" in said, said)
