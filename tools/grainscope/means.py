@@ -10,8 +10,8 @@ ROUNDING = 1e-14  # scatter of a constant, over its magnitude
 
 def mean_and_error(values):
     """Mean and its standard error by blocking (Flyvbjerg & Petersen, J. Chem. Phys. 91, 461 (1989)): blocks of 1, 2, 4
-    ... rows, at least 8 of them where there are so many rows; the largest error counts. One row has no error: 0; nor has
-    a constant."""
+    ... rows, at least 8 of them where there are so many rows; the largest error counts. One row, or a
+    constant, has no error: 0."""
     error, blocks = 0.0, np.asarray(values)
     if blocks.std() <= ROUNDING * np.abs(blocks).max(initial=0.0):
         return blocks[0], 0.0
