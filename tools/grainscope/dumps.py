@@ -110,6 +110,10 @@ class Dump:
             raise InputError("\n".join([f"{' '.join(map(str, patterns))}: no whole snapshot", *self.notes]))
         self.steps = sorted(self._places)
 
+    @property
+    def files(self):
+        return {Path(path) for path, _, _ in self._places.values()}
+
     def __len__(self):
         return len(self.steps)
 
