@@ -16,7 +16,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3, python3-numpy")
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "openmpi-bin, python3-scipy, python3-matplotlib")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "openmpi-bin, python3-scipy, python3-matplotlib, python3-pandas, python3-yaml")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "povray, snakemake")
 if(GRAINSCOPE_LIGGGHTS_LINK)  # the same /usr/bin/liggghts as Debian's own
   set(CPACK_DEBIAN_PACKAGE_PROVIDES liggghts)

@@ -497,7 +497,7 @@ add_cases(tools cases/tools_command.py LABEL case STYLES tools CASES
   help-of-all unknown-refused missing-input-refused runs-refused python-without-numpy missing-packages-named
   packages-are-installed-by-scripts syntax-of-python-3-9 examples-of-page progress-is-said run-is-followed)
 add_cases(tools-plot cases/tools_plot.py LABEL case STYLES tools CASES
-  known-error steady-parts files-of-the-program picture not-finite command-line)
+  known-error constants steady-parts files-of-the-program picture not-finite command-line)
 add_cases(tools-rows cases/tools_rows.py LABEL case STYLES tools CASES
   tables files-of-the-program incomplete command-line)
 add_cases(tools-fields cases/field_pictures.py LABEL case STYLES tools CASES
@@ -673,7 +673,7 @@ add_cases(stress/contact-at-walls cases/wall_analytic.py LABEL case
 
 # Tools: dumps read, and converted for ParaView and OVITO
 add_cases(tools-dumps cases/tools_dumps.py LABEL case STYLES tools CASES
-  many-snapshots many-files boxes cut-off refusals words-and-frames of-a-run)
+  many-snapshots many-files side-by-side boxes cut-off refusals words-and-frames of-a-run)
 add_cases(tools-convert cases/tools_convert.py LABEL case STYLES tools CASES
   glyph-tensors-polydisperse glyph-tensors-prolate glyph-tensors-oblate glyph-tensors-triaxial surfaces boxy-surfaces
   all-columns other-names series walls refusals)

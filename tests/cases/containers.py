@@ -40,6 +40,7 @@ def stages_of_definition():
         for section in sections:
             title, _, body = section.partition("\n")
             require(title.split()[0] not in found, f"%{title} is there twice")
+            body = re.sub(r"\s*\\\n\s*", " ", body)
             found[title.split()[0]] = [line.strip() for line in body.splitlines() if line.strip()]
         stages.append((header, found))
     return stages

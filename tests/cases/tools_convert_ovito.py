@@ -112,6 +112,11 @@ def refusals(ranks):
     refused("convert", words, "no column quat1, quat2, quat3, quat4", "dump grains all custom", folder=result.folder)
     for option in (["--mesh", "1"], ["--walls", "a.stl"], ["--contacts", "c"]):
         refused("convert", [*words, *option], "--to ovito must be without --contacts", folder=result.folder)
+    before = result.file("grains.dump").read_text()
+    for path in ("grains.dump", "./grains.dump"):
+        named = [*words, "--output", path]
+        refused("convert", named, "--output must not be a file that is read, got 'grains.dump'", folder=result.folder)
+    require(result.file("grains.dump").read_text() == before, "the dump that was read is as it was")
 
 
 main({"page": page, "conversion": conversion, "spheres": spheres, "refusals": refusals})

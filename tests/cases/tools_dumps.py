@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The reader of dumps, on files whose numbers are known, whole and damaged."""
+from concurrent.futures import ThreadPoolExecutor
 import gzip
 import importlib.util
+import sys
 
 import numpy as np
 
@@ -57,6 +59,21 @@ def many_files(ranks):
     require([one["x"][0] for one in dump] == dump.steps, "x is the step")
     (folder / "grains.again").write_text(snapshot(900, COLUMNS))
     refused(lambda: Dump(str(folder / "grains.*")), "step 900 is in two files", "grains.900.dump", "grains.again")
+
+
+def side_by_side(ranks):
+    """Snapshots in files of their own that threads read at the same time, as a film does. Threads change as often as
+    they can, so that one that takes another's file is seen."""
+    folder = new_folder()
+    for step in range(8):
+        (folder / f"grains.{step}.dump").write_text(snapshot(step, dict(COLUMNS, x=[step, 0, 0])))
+    dump, before = Dump(str(folder / "grains.*")), sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    with ThreadPoolExecutor(8) as pool:
+        found = list(pool.map(lambda step: (step, dump.at(step).step, dump.at(step)["x"][0]), [*range(8)] * 500))
+    sys.setswitchinterval(before)
+    wrong = [one for one in found if len(set(one)) > 1]
+    require(not wrong, f"{len(wrong)} of {len(found)} are of other steps, the first: {wrong[:3]}")
 
 
 def boxes(ranks):
@@ -139,6 +156,7 @@ main(
     {
         "many-snapshots": many_snapshots,
         "many-files": many_files,
+        "side-by-side": side_by_side,
         "boxes": boxes,
         "cut-off": cut_off,
         "refusals": refusals,

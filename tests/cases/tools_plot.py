@@ -13,7 +13,7 @@ from scipy.signal import lfilter
 from case import main, require, require_close, require_equal
 from command import asked, require_refused
 from deck import Deck, thermo
-from grainscope.means import mean_and_error, steady_start
+from grainscope.means import mean_and_error, steady_start, text_of
 from grainscope.plot import draw, measured
 from grainscope.tables import read_series
 from packing import dense_packing
@@ -71,6 +71,17 @@ def known_error(ranks):
         least - slack < squares.mean() < least * (1.0 + spread) + slack,
         f"squared errors are {squares.mean():.3f} of the exact variance; {least:.3f} to {least * (1 + spread):.3f}",
     )
+
+
+def constants(ranks):
+    """They have no error, whatever rounding makes of their mean; a scatter just above rounding is one."""
+    for value in (0.0, 0.1, 1000.3, -1.0 / 3.0, 1e-30):
+        for rows in (1, 7, 1000):
+            found = mean_and_error(np.full(rows, value))
+            require(found == (value, 0.0), f"{rows} rows of {value}: {found}")
+    require(text_of(*mean_and_error(np.full(1000, 0.1))) == "0.1", "a constant as text")
+    error = mean_and_error(1.0 + 1e-12 * np.where(np.arange(64) % 2, 1.0, -1.0))[1]
+    require_close(error, 1e-12 / np.sqrt(63.0), 1e-3, "error of a small scatter")
 
 
 def steady_parts(ranks):
@@ -156,7 +167,7 @@ def command_line(ranks):
     values = correlated(1, 4096)[0]
     a, b = written("a.txt", {"v_mu": values, "v_phi": values}), written("b.txt", {"v_mu": values})
     with a.open("a") as file:
-        file.write("409600 3.1")
+        file.write("409600 3.1 2")  # of 2.99, say: as many numbers as the others, but not all digits
     code, said = asked("plot", a, b, "v_mu", "--output", scratch("a.pdf"))
     require(code == 0 and scratch("a.pdf").read_bytes().startswith(b"%PDF"), said)
     require("a.txt: the last row is incomplete and left out" in said, said)
@@ -201,6 +212,7 @@ def command_line(ranks):
 main(
     {
         "known-error": known_error,
+        "constants": constants,
         "steady-parts": steady_parts,
         "files-of-the-program": files_of_the_program,
         "picture": picture,

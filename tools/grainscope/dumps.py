@@ -110,6 +110,10 @@ class Dump:
             raise InputError("\n".join([f"{' '.join(map(str, patterns))}: no whole snapshot", *self.notes]))
         self.steps = sorted(self._places)
 
+    @property
+    def files(self):
+        return {Path(path) for path, _, _ in self._places.values()}
+
     def __len__(self):
         return len(self.steps)
 
@@ -127,9 +131,10 @@ class Dump:
         return _snapshot(path, self._content(path)[start:end])
 
     def _content(self, path):
-        if self._opened[0] != path:
-            self._opened = (path, _content(path))
-        return self._opened[1]
+        opened = self._opened  # taken once: a film reads its snapshots side by side
+        if opened[0] != path:
+            opened = self._opened = (path, _content(path))
+        return opened[1]
 
     def _whole_snapshots(self, path):
         """Step, and first and last place in the file, of each snapshot that is whole."""

@@ -122,7 +122,7 @@ def read_tables(path, along=None):
         )
     found = []
     for step, length, table in blocks(path, rows, lambda row: 1 + int(row[1])):
-        if len(table) < length or (table[-1] is rows[-1] and len(table[-1]) < len(names)):
+        if len(table) < length:
             warn(f"{path}: the table of step {step} is incomplete and left out")
         elif length > 1:
             values = numbers(path, table[1:], names)

@@ -3,6 +3,7 @@
 as Orientation, in the order x y z w, and c_shape[1] to [3] as Aspherical Shape, semi-axes. It would halve LIGGGHTS's
 shapex to shapez, which it takes for diameters as those of LAMMPS, and does not know quat1 to quat4."""
 from grainscope import grains as of_grains
+from grainscope.errors import InputError
 from grainscope.progress import progress
 
 ORIENTATION = [f"c_orient[{k}]" for k in (1, 2, 3, 4)]
@@ -11,6 +12,8 @@ SHAPE = [f"c_shape[{k}]" for k in (1, 2, 3)]
 
 def write_ovito(dump, path):
     """All snapshots in one file, with all columns but other places than x y z, of which OVITO would take the last."""
+    if path.exists() and any(path.samefile(one) for one in dump.files):
+        raise InputError(f"--output must not be a file that is read, got '{path}'")
     with open(path, "w") as file:
         for step in progress(dump.steps, "snapshots"):
             snapshot = dump.at(step)

@@ -43,6 +43,12 @@ def lines_of(path):
         raise InputError(f"{path}: not a text file") from None
 
 
+def is_ended(path):
+    """Whether the last line has its end: a run that goes on, or was killed, leaves one without, and numbers in it that
+    may lack digits."""
+    return Path(path).read_bytes().endswith(b"\n")
+
+
 def is_csv(path):
     """Whether it is of fix field/write."""
     return any("," in line for line in lines_of(path) if not line.startswith("#"))
@@ -59,8 +65,10 @@ def is_number(word):
 def read_rows(path):
     """Names of the columns and their units, and the rows as lists of words. The last '#' line gives the names, or a
     line without '#' in front of the first row. In name[unit] brackets hold the unit; in c_stress[26] they belong to
-    the name."""
+    the name. A last line without its end is left out."""
     lines = lines_of(path)
+    if not is_ended(path):
+        del lines[-1:]
     titles = [line for line in lines if line.startswith("#")]
     rows = [line.split() for line in lines if line.strip() and not line.startswith("#")]
     while rows and not is_number(rows[0][0]):
@@ -88,8 +96,7 @@ def numbers(path, rows, names):
 
 
 def read_series(path):
-    """Columns of a file with a row for each step, and their units. A last row that the run has not ended is left
-    out."""
+    """Columns of a file with a row for each step, and their units."""
     if is_csv(path):
         raise InputError(f"{path}: files of fix field/write are drawn by `rows`")
     names, units, rows = read_rows(path)
@@ -98,9 +105,8 @@ def read_series(path):
         raise InputError(f"{path}: each column must have a name of its own, got '{twice}' twice")
     if len(rows[0]) == 2 != len(names) and rows[0][1].isdigit():
         raise InputError(f"{path}: tables with a line 'step rows' before each (mode vector) are drawn by `rows`")
-    if len(rows) > 1 and len(rows[-1]) < len(rows[-2]):
+    if not is_ended(path):
         warn(f"{path}: the last row is incomplete and left out")
-        del rows[-1]
     return Columns(path, zip(names, numbers(path, rows, names).T)), units
 
 

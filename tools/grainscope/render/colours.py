@@ -28,6 +28,9 @@ class Scale:
     kinds: tuple = ()
     ticks: tuple = ()  # in degrees
 
+    def __post_init__(self):
+        self.colormap(0.0)  # makes its table, which the threads of a film must not do side by side
+
     def colours(self, values):
         """(N,4); grey where a value is not finite."""
         if self.kinds:
