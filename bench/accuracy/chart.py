@@ -22,11 +22,7 @@ COLOURS = dict(zip(MEASURES, RUN_COLOURS))
 MODES = ("instantaneous", "step", "ledger")
 LEAKS = ("G_k", "G_p", "G_n", "G_open", "G_dt")
 MISSED = [f"{mode}_{part} - ledger_{part}" for mode in ("instantaneous", "step") for part in "nt"]
-PAIRS = (
-    ((0.0, 0.4), "0.04"),
-    ((10.0,), "0.01"),
-)  # frictions, and a strain over which chaos has not yet parted the runs
-FINEST_LONG = "fraction 0.1"
+COMPARED = ((0.0, 0.4), "0.04")  # frictions, and a strain over which chaos has not yet parted the runs
 Flow = namedtuple("Flow", "alpha mu I e")
 
 
@@ -87,32 +83,6 @@ def pooled(results, quantity, setting, frictions, window):
     return np.mean([row["value"] for row in rows]), math.sqrt(sum(row["error"] ** 2 for row in rows)) / len(rows)
 
 
-def worst(results, setting, frictions, window, inertial=0.1):
-    """The largest paired error of any measure in any flow."""
-    rows = [
-        row
-        for quantity in MEASURES
-        for mu in frictions
-        for row in results.pick("paired", quantity, setting=setting, I=inertial, mu=mu, at=window)
-    ]
-    return max(rows, key=lambda row: abs(row["value"]))
-
-
-def long_errors(results, quantity, setting):
-    """Relative difference from the finest long run, pooled over the flows by the weight of their errors; powers over
-    the power dissipated."""
-    differences, errors = [], []
-    for flow in results.flows("long"):
-        value, error = results.pair("long", quantity, setting=setting, **flow)
-        reference, reference_error = results.pair("long", quantity, setting=FINEST_LONG, **flow)
-        unit = reference
-        if quantity.startswith("step"):
-            unit = sum(results.pair("long", f"step_{part}", setting=FINEST_LONG, **flow)[0] for part in "nt")
-        differences.append((value - reference) / unit)
-        errors.append(math.hypot(error, reference_error) / unit)
-    return np.mean(differences), math.sqrt(np.sum(np.square(errors))) / len(errors)
-
-
 def energy_error(results, alpha, setting, inertial=0.1, mu=0.4):
     return abs(results.pair("account", "G_dt", alpha=alpha, mu=mu, I=inertial, e=0.1, setting=setting)[0])
 
@@ -147,138 +117,6 @@ def floor_label(axis, value, text):
     axis.annotate(
         text, (1.0, value), xycoords=("axes fraction", "data"), ha="left", va="center", fontsize=8, color="0.4"
     )
-
-
-def draw_step(results, path):
-    """Errors against the time step: energy, pairs of short runs, long runs."""
-    figure, axes = plt.subplots(2, 2, figsize=(10.5, 7.4), constrained_layout=True, sharex=True, sharey=True)
-    energy, *pairs, long = axes.flat
-    for alpha in ALPHAS:
-        for inertial, line in ((0.1, "-"), (0.01, "--")):
-            fractions, names = zip(*results.steps("account", alpha=alpha, mu=0.4, I=inertial))
-            energy.plot(
-                fractions,
-                [energy_error(results, alpha, name, inertial) for name in names],
-                line,
-                color=shape_colour(alpha),
-                marker=shape_marker(alpha),
-                markersize=4,
-                linewidth=1.2,
-            )
-    guide(energy, [0.01, 0.6], 0.01, 2)
-    energy.legend(
-        handles=[shape_handle(alpha) for alpha in ALPHAS]
-        + [Line2D([], [], color="k", label="$I = 0.1$"), Line2D([], [], color="k", linestyle="--", label="$I = 0.01$")],
-        fontsize=8,
-    )
-    energy.set_title("energy error of the time step, |G_dt|/(D_n + D_t)", fontsize=9)
-    steps = results.steps("paired", I=0.1)
-    for axis, (frictions, window) in zip(pairs, PAIRS):
-        for quantity, label in MEASURES.items():
-            found = [pooled(results, quantity, name, frictions, window) for _, name in steps]
-            points(
-                axis,
-                [fraction for fraction, _ in steps],
-                [(abs(value), error) for value, error in found],
-                color=COLOURS[quantity],
-                marker="o",
-                label=label,
-            )
-        guide(axis, [0.02, 0.6], 0.03, 1)
-        axis.set_title(
-            f"runs from the same states, mean over strain {window}, $\\mu_p$ = "
-            f"{' and '.join(f'{mu:g}' for mu in frictions)}",
-            fontsize=9,
-        )
-    for quantity, label in MEASURES.items():
-        found = [
-            (fraction, *long_errors(results, quantity.replace("ledger", "step"), name))
-            for fraction, name in results.steps("long")
-            if name != FINEST_LONG
-        ]
-        points(
-            long,
-            [one[0] for one in found],
-            [(abs(one[1]), one[2]) for one in found],
-            color=COLOURS[quantity],
-            marker="o",
-            label=label,
-        )
-    long.set_title("long runs against those of step 0.1, all $\\mu_p$; powers by mode step", fontsize=9)
-    long.legend(fontsize=8, loc="lower left")
-    for axis in axes.flat:
-        step_axis(axis, (0.01, 0.02, 0.05, 0.1, 0.2, 0.5))
-        axis.set_yscale("log")
-        axis.set_ylim(1e-8, 0.3)
-        axis.axvline(0.15, color="0.9", linewidth=4, zorder=0)
-    for axis in axes[:, 0]:
-        axis.set_ylabel("relative error")
-    save(figure, path)
-
-
-def draw_cost(results, path):
-    """Error against the time of a run."""
-    figure, axes = plt.subplots(1, 2, figsize=(11, 4.2), constrained_layout=True)
-    others = {"superquadric": "*", "nve/superquadric": "P", "superquadric and nve/superquadric": "X"}
-    for alpha in ALPHAS:
-        names = [name for _, name in results.steps("account", alpha=alpha, mu=0.4, I=0.1)]
-        axes[0].plot(
-            [relative_time(results, alpha, name) for name in names],
-            [energy_error(results, alpha, name) for name in names],
-            "-",
-            color=shape_colour(alpha),
-            marker=shape_marker(alpha),
-            markersize=4,
-            linewidth=1.2,
-        )
-        for name, marker in others.items():
-            if results.pick("account", "G_dt", alpha=alpha, mu=0.4, setting=name):
-                axes[0].plot(
-                    relative_time(results, alpha, name),
-                    energy_error(results, alpha, name),
-                    marker,
-                    color=shape_colour(alpha),
-                    markersize=9,
-                    markerfacecolor="none",
-                )
-    axes[0].set_title("energy of the time step, |G_dt|/(D_n + D_t)", fontsize=9)
-    axes[0].legend(
-        handles=[shape_handle(alpha) for alpha in ALPHAS]
-        + [
-            Line2D([], [], color="k", linestyle="", marker=marker, markerfacecolor="none", label=name)
-            for name, marker in others.items()
-            if results.pick("account", "G_dt", setting=name)
-        ],
-        fontsize=8,
-    )
-    names = [name for _, name in results.steps("paired", I=0.1)]
-    times = [np.mean([relative_time(results, alpha, name) for alpha in ALPHAS]) for name in names]
-    for quantity, label in MEASURES.items():
-        for (frictions, window), line in zip(PAIRS, ("-", "--")):
-            pairs = [pooled(results, quantity, name, frictions, window) for name in names]
-            points(
-                axes[1],
-                times,
-                [(abs(value), error) for value, error in pairs],
-                color=COLOURS[quantity],
-                marker="o",
-                linestyle=line,
-                label=label if line == "-" else None,
-            )
-    axes[1].set_ylim(1e-8, 0.1)
-    axes[1].set_title(r"runs from the same states ($\mu_p$ = 0 and 0.4; dashed: 10)", fontsize=9)
-    for level in (0.01, 0.001):
-        floor_label(axes[1], level, f"{100 * level:g} %")
-    axes[1].legend(fontsize=8, ncols=4, loc="lower center")
-    ticks = (0.2, 0.5, 1, 2, 5, 10)
-    for axis in axes:
-        axis.set_xscale("log")
-        axis.set_xticks(ticks, labels=[f"{tick:g}" for tick in ticks])
-        axis.set_xticks([], minor=True)
-        axis.set_yscale("log")
-        axis.set_xlabel("time per unit of strain / default")
-    axes[0].set_ylabel("relative error")
-    save(figure, path)
 
 
 def draw_divergence(results, path):
@@ -423,58 +261,6 @@ def print_costs(results):
     )
 
 
-def print_steps(results):
-    rows = []
-    for fraction, name in results.steps("account", mu=0.4, I=0.1):
-        cells = [f"{fraction:g}", f"{np.mean([relative_time(results, alpha, name) for alpha in ALPHAS]):.2f}"]
-        cells += [percent(energy_error(results, alpha, name)) for alpha in ALPHAS]
-        for frictions, window in PAIRS:
-            for quantity in MEASURES:
-                cells.append(
-                    "0" if name == "fraction 0.01" else percent(*pooled(results, quantity, name, frictions, window))
-                )
-        rows.append(cells)
-    table(
-        "Time step, errors in %",
-        [
-            "dt / T_R",
-            "time",
-            *(f"G_dt, alpha = {a:g}" for a in ALPHAS),
-            *(f"mu_p {mu}: {q}" for mu in ("0, 0.4", "10") for q in MEASURES),
-        ],
-        rows,
-    )
-
-
-def print_long(results):
-    rows = [
-        [
-            f"{fraction:g}",
-            *(percent(*long_errors(results, quantity.replace("ledger", "step"), name)) for quantity in MEASURES),
-        ]
-        for fraction, name in results.steps("long")
-        if name != FINEST_LONG
-    ]
-    table("Long runs, differences from those of step 0.1 in %", ["dt / T_R", *MEASURES], rows)
-
-
-def print_worst(results):
-    rows = []
-    for fraction, name in results.steps("paired", I=0.1):
-        cells = [f"{fraction:g}", f"{np.mean([relative_time(results, alpha, name) for alpha in ALPHAS]):.2f}"]
-        for frictions, window, inertial in (*((*pair, 0.1) for pair in PAIRS), ((0.4,), "0.004", 0.01)):
-            row = worst(results, name, frictions, window, inertial)
-            cells.append(
-                f"{percent(row['value'], row['error'])} ({row['quantity']}, alpha {row['alpha']:g}, mu_p {row['mu']:g})"
-            )
-        rows.append(cells)
-    table(
-        "The largest error of mu_eff, phi, P_n and P_t in any flow, %",
-        ["dt / T_R", "time", "I = 0.1, mu_p = 0, 0.4", "I = 0.1, mu_p = 10", "I = 0.01, mu_p = 0.4"],
-        rows,
-    )
-
-
 def print_variants(results):
     rows = []
     names = dict.fromkeys(
@@ -485,7 +271,7 @@ def print_variants(results):
     for name in names:
         cells = [name, ", ".join(f"{relative_time(results, alpha, name):.2f}" for alpha in ALPHAS)]
         for quantity in MEASURES:
-            cells.append(percent(*pooled(results, quantity, name, *PAIRS[0])))
+            cells.append(percent(*pooled(results, quantity, name, *COMPARED)))
         cells.append(percent(max(abs(row["value"]) for row in results.pick("account", "residual", setting=name))))
         rows.append(cells)
     table(
@@ -574,8 +360,6 @@ def main():
     images = parser.parse_args().images
     results = Results(HERE / "results.csv")
     for draw, name in (
-        (draw_step, "accuracy_step"),
-        (draw_cost, "accuracy_cost"),
         (draw_divergence, "accuracy_divergence"),
         (draw_sampling, "accuracy_sampling"),
         (draw_modes, "dissipation_modes"),
@@ -584,9 +368,6 @@ def main():
     for show in (
         print_times,
         print_costs,
-        print_steps,
-        print_worst,
-        print_long,
         print_variants,
         print_modes,
         print_modes_by_step,

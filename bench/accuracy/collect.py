@@ -17,8 +17,8 @@ COLUMN = {
 }
 SOLID = 4 / 3 * math.pi * 500 * np.mean(np.linspace(0.8, 1.2, 15) ** 3)  # volume of the grains over alpha
 BLOCKS = 8
-WINDOWS = (0.01, 0.04)  # strain, at I = 0.1
-FINEST_PAIRED, FINEST_OF_MODES = "fraction 0.01", "fraction 0.05"
+WINDOW = 0.04  # strain, at I = 0.1
+FINEST_OF_MODES = "fraction 0.05"
 
 
 @dataclass
@@ -103,11 +103,6 @@ def is_step(label):
     return label == "default" or label.startswith("fraction")
 
 
-def reference_of(groups, flow, label, finest):
-    """Time steps are held against the finest, all else against the default; the finest itself against nothing."""
-    return None if label == finest else groups[flow, finest if is_step(label) else "default"]
-
-
 def standard_error(values):
     return np.std(values, ddof=1) / math.sqrt(len(values)) if len(values) > 1 else math.nan
 
@@ -128,16 +123,20 @@ def relative_to(found, reference):
 
 
 def of_pairs(scratch, runs):
-    """Differences from a run of the same start over some strain: mean and standard error over the starts."""
+    """What other settings than the step change against the default, from the same start over some strain: mean and
+    standard error over the starts. Runs of another step begin with a start of their own (onset.py), and are not told.
+    """
     groups = {key: [Rows.read(scratch, run) for run in group] for key, group in grouped(runs).items()}
     for (flow, label), own in groups.items():
-        other = reference_of(groups, flow, label, FINEST_PAIRED)
-        for window in WINDOWS if other else ():
-            strain = window * flow.I / 0.1
-            errors = [relative_to(a.until(strain).means(), b.until(strain).means()) for a, b in zip(own, other)]
-            for name in errors[0]:
-                values = np.array([one[name] for one in errors])
-                yield "paired", flow, label, strain, name, values.mean(), standard_error(values)
+        if is_step(label):
+            continue
+        strain = WINDOW * flow.I / 0.1
+        errors = [
+            relative_to(a.until(strain).means(), b.until(strain).means()) for a, b in zip(own, groups[flow, "default"])
+        ]
+        for name in errors[0]:
+            values = np.array([one[name] for one in errors])
+            yield "paired", flow, label, strain, name, values.mean(), standard_error(values)
 
 
 def of_accounts(scratch, runs):
@@ -153,8 +152,8 @@ def of_divergence(scratch, runs, bins=25):
     """How far the shear stress of single rows is from that of the reference, root mean square over a bin of strain."""
     groups = {key: Rows.read(scratch, group[0]).values for key, group in grouped(runs).items()}
     for (flow, label), own in groups.items():
-        other = reference_of(groups, flow, label, FINEST_OF_MODES)
-        if other:
+        if label != FINEST_OF_MODES:
+            other = groups[flow, FINEST_OF_MODES if is_step(label) else "default"]
             apart = (own["sigma_xy"] - other["sigma_xy"]) / other["sigma_xy"].mean()
             passed = own["strain"] - own["strain"][0]
             for part in np.array_split(np.arange(len(apart)), bins):

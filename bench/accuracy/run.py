@@ -5,7 +5,7 @@ for accuracy.
 
     run.py build/release/bin/grainscope --scratch folder
 
-Runs the grid below on one core, one run after the other (about 45 minutes), and writes results.csv beside this script.
+Runs the grid below on one core, one run after the other (about 35 minutes), and writes results.csv beside this script.
 What the folder holds already is not run again. chart.py draws the results.
 """
 import argparse
@@ -138,20 +138,6 @@ def paired_runs():
                 yield Run("paired", flow, 0.004 if slow else 0.04, state(flow, number), label, number, options)
 
 
-def long_runs():
-    """Means over long strains, sampled five times per six of the shorter times."""
-    for label, options in by_fraction((0.15, 0.6, 0.3, 0.1)).items():
-        for flow in quick_flows():
-            yield Run(
-                "long",
-                flow,
-                1.5 if is_flat(flow) else 4,
-                state(flow),
-                label,
-                options={"measure": "basic", "sample": 1.2 * flow.shorter_strain, "repeat": 5, **options},
-            )
-
-
 def sampling_runs():
     flow = Flow(1.5, 0.4)
     yield Run("sampling", flow, 6, state(flow, 1), options={"measure": "basic", "sample": 2e-4, "repeat": 1})
@@ -214,16 +200,16 @@ def execute(binary, scratch, run):
 
 
 def all_runs():
-    return [*preparations(), *mode_runs(), *paired_runs(), *timed_runs(), *sampling_runs(), *long_runs()]
+    return [*preparations(), *mode_runs(), *paired_runs(), *timed_runs(), *sampling_runs()]
 
 
 HEADER = """\
 # Written by run.py. Columns: study, flow (alpha, mu_p, I, e), setting, at, quantity, value, standard error (empty: none).
 # times: T_R, T_H [1/rate].
-# modes, long: means of single runs. mu_eff, phi, Z [-], P [target]; powers <mode>_n, <mode>_t [rate P volume];
+# modes: means of single runs. mu_eff, phi, Z [-], P [target]; powers <mode>_n, <mode>_t [rate P volume];
 #   differences of modes, G_*, residual [D_n + D_t].
-# paired: error of means over the strain `at`, against the run of the finest step (steps) or the default (all else) from the same
-#   start: mu_eff, phi, P relative; ledger_n, ledger_t [D_n + D_t]; mean over the starts.
+# paired: difference of means over the strain `at` from the default, from the same start: mu_eff, phi, P relative;
+#   ledger_n, ledger_t [D_n + D_t]; mean over the starts.
 # account: G_*, residual [D_n + D_t] of the same runs.
 # divergence: rms difference of the shear stress from that of step 0.05 (steps) or of the default (all else) [its mean], at the
 #   strain `at` since the start.
@@ -248,7 +234,7 @@ def gather(scratch, runs):
             done.setdefault(run.study, []).append(run)
     rows = itertools.chain(
         collect.of_times(scratch, [run for run in done["state"] if run.number == 0]),
-        collect.of_means(scratch, done["modes"] + done["long"]),
+        collect.of_means(scratch, done["modes"]),
         collect.of_pairs(scratch, done["paired"]),
         collect.of_accounts(scratch, done["paired"]),
         collect.of_divergence(

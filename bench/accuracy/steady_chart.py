@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""How the time step shifts steady means: the tables of doc/accuracy.md and its data page, and their figures, from steady.csv,
+"""How the time step shifts steady means: the tables of doc/accuracy_data.md and their figures, from steady.csv,
 onset.csv and, for energies and times, results.csv. Runs nothing."""
 import argparse
 import csv
@@ -50,9 +50,7 @@ class FlowMeans:
         self.flow = series.flow
         self.blocks = {f: found for f in sorted(SHARE) if (found := of_series(rows, series, f))}
         self.fractions = np.array(list(self.blocks))
-        self.means = {
-            q: [Mean([row[q] for row in found]) for found in self.blocks.values()] for q in self.quantities()
-        }
+        self.means = {q: [Mean([row[q] for row in found]) for found in self.blocks.values()] for q in self.quantities()}
         self.lines = {q: self.line(q) for q in self.means} if len(self.fractions) > 2 else {}
 
     def quantities(self):
@@ -178,7 +176,8 @@ def print_onset(onset):
             rows.append(cells)
     table(
         "Runs of 0.3 T_R against those of 0.01 from the same states, %, in units of T_R since the start",
-        ["alpha", "mu_p", "state by"] + [f"{q}, {t}" for q in ("sigma_xy", "P_n", "P_t") for t in ("0-6", "6-36", "36-60")],
+        ["alpha", "mu_p", "state by"]
+        + [f"{q}, {t}" for q in ("sigma_xy", "P_n", "P_t") for t in ("0-6", "6-36", "36-60")],
         rows,
     )
 
