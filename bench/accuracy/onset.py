@@ -4,8 +4,8 @@
 
     onset.py build/release/bin/grainscope --scratch folder
 
-Each flow has STATES steady states, made with 0.3 T_R and, over a last strain of 0.02, with 0.01 T_R. From each of them a
-run with each of STEPS starts. Means over rows of 6 T_R are compared with those of the run of 0.01 T_R. Half an hour;
+Each flow has STATES steady states, made with 0.3 T_R and, over a last strain of 0.02, with 0.01 T_R. From each of them
+a run with each of STEPS starts. Means over rows of 6 T_R are compared with those of the run of 0.01 T_R. Half an hour;
 writes onset.csv.
 """
 import argparse
@@ -90,7 +90,7 @@ def main():
             print(f"{flow}, states of {made_by:g} T_R", flush=True)
     with open(HERE / "onset.csv", "w", newline="") as out:
         out.write(
-            "# Written by onset.py. made_by, fraction: time steps over T_R of the state and of the run; row: of 6 T_R.\n"
+            "# Written by onset.py. made_by, fraction: time steps of the state and of the run over T_R; row: of 6 T_R\n"
             "# value: difference from the run of 0.01 T_R, over its mean (powers: over the power dissipated).\n"
             "# error: standard error over the states.\n"
         )

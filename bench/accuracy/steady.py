@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""How the time step shifts the means of the steady flow: long runs, each at its own step from a dilute start of its own.
+"""How the time step shifts the means of a steady flow: long runs, each at one step from a dilute start of its own.
 
     steady.py build/release/bin/grainscope --hours 3 --jobs 2     # runs on, and adds what ends to steady.csv
     steady.py --plan                                              # what there is, and what the rest will take
 
-A run is one flow at one step from one seed. It shears for a strain that is left out (SETTLING) and one that is measured, in
-BLOCKS blocks. Runs go on in the order in which they are most missed, until the hours are over; what is then still at
-work ends first. steady_chart.py makes the tables and figures.
+A run is one flow at one step from one seed. It shears over a strain that is left out and one that is measured in
+BLOCKS blocks. The next run is always that of the flow and step that has the smallest part of its strain. When the hours
+are over no run is started; those at work still end. steady_chart.py makes the tables and figures.
 """
 import argparse
 import csv
@@ -117,7 +117,7 @@ def append(rows):
     with open(RESULTS, "a", newline="") as out:
         if new:
             out.write(
-                "# Written by steady.py. Means of one block of a run; fraction: time step over T_R; strain: the block's;\n"
+                "# Written by steady.py. Means of a block of a run; fraction: time step over T_R; strain: of it;\n"
                 "# mu_eff, phi, Z [-]; P_n, P_t [rate P volume]; seconds of processor time.\n"
             )
             csv.writer(out, lineterminator="\n").writerow(COLUMNS)
