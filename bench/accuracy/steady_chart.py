@@ -44,14 +44,14 @@ class Mean:
 
 
 class FlowMeans:
-    """Means of one flow at each of its steps, and the straight line through each quantity against the step."""
+    """Means of one flow at each of its steps, and the curve through each quantity against the step."""
 
     def __init__(self, rows, series):
         self.flow = series.flow
         self.blocks = {f: found for f in sorted(SHARE) if (found := of_series(rows, series, f))}
         self.fractions = np.array(list(self.blocks))
         self.means = {q: [Mean([row[q] for row in found]) for found in self.blocks.values()] for q in self.quantities()}
-        self.lines = {q: self.line(q) for q in self.means} if len(self.fractions) > 2 else {}
+        self.curves = {q: self.curve(q) for q in self.means if len(self.fractions) > len(self.exponents(q))}
 
     def quantities(self):
         return [q for q in QUANTITIES if not (q == "P_t" and self.flow.mu == 0)]
@@ -59,26 +59,34 @@ class FlowMeans:
     def strain(self):
         return sum(row["strain"] for found in self.blocks.values() for row in found)
 
-    def line(self, quantity):
-        """Value at step 0, slope over the unit of `quantity` per T_R and its error, and chi^2 per degree of freedom."""
+    def exponents(self, quantity):
+        """Powers of the step in the curve: a straight line. At high friction a parabola: springs that are cut within a
+        few steps bend it. Without friction what is not dissipated is the energy error, which is of second order."""
+        if self.flow.mu > 1:
+            return np.array([0, 1, 2])
+        return np.array([0, 2] if quantity == "P_n" and self.flow.mu == 0 else [0, 1])
+
+    def curve(self, quantity):
+        """Coefficients of the curve, their covariance, and chi^2 per degree of freedom."""
         values = np.array([mean.value for mean in self.means[quantity]])
         weights = 1 / np.array([mean.error for mean in self.means[quantity]])
-        design = np.stack([np.ones_like(self.fractions), self.fractions], axis=1) * weights[:, None]
-        (start, slope), *_ = np.linalg.lstsq(design, values * weights, rcond=None)
-        covariance = np.linalg.inv(design.T @ design)
-        chi = np.sum((values * weights - design @ (start, slope)) ** 2) / (len(values) - 2)
-        return start, slope, math.sqrt(covariance[1, 1]), chi
+        design = self.fractions[:, None] ** self.exponents(quantity) * weights[:, None]
+        coefficients, *_ = np.linalg.lstsq(design, values * weights, rcond=None)
+        chi = np.sum((values * weights - design @ coefficients) ** 2) / (len(values) - len(coefficients))
+        return coefficients, np.linalg.inv(design.T @ design), chi
 
     def unit(self, quantity):
         """What a shift is relative to: the value; of powers all that is dissipated."""
         if quantity in POWERS:
             return sum(np.mean([mean.value for mean in self.means[q]]) for q in POWERS if q in self.means)
-        return self.lines[quantity][0]
+        return self.curves[quantity][0][0]
 
     def shift(self, quantity, fraction):
-        """Relative shift of the mean at a step, and its error."""
-        _, slope, error, _ = self.lines[quantity]
-        return fraction * slope / self.unit(quantity), fraction * error / self.unit(quantity)
+        """Relative shift of the mean at a step from that at step 0, and its error."""
+        coefficients, covariance, _ = self.curves[quantity]
+        powers = np.append(0.0, fraction ** self.exponents(quantity)[1:])
+        value, error = powers @ coefficients, math.sqrt(powers @ covariance @ powers)
+        return value / self.unit(quantity), error / self.unit(quantity)
 
 
 def percent(value, error):
@@ -88,7 +96,7 @@ def percent(value, error):
 
 def pooled(flows, quantity, fraction):
     """Shift at a step over several flows, weighted by their errors."""
-    found = [flow.shift(quantity, fraction) for flow in flows if quantity in flow.lines]
+    found = [flow.shift(quantity, fraction) for flow in flows if quantity in flow.curves]
     weights = np.array([error**-2 for _, error in found])
     return np.sum(weights * [value for value, _ in found]) / weights.sum(), weights.sum() ** -0.5
 
@@ -103,12 +111,12 @@ def kinds(flows):
 
 def print_shifts(flows):
     table(
-        "Shift of each mean at 0.15 T_R, %: the straight line through all steps",
+        "Shift of each mean at 0.15 T_R, %: the curve through all steps",
         ["alpha", "mu_p", "I", "strain, all steps", *QUANTITIES, "chi^2 per degree of freedom"],
         [
             [f"{one.flow.alpha:g}", f"{one.flow.mu:g}", f"{one.flow.I:g}", f"{one.strain():,.0f}"]
-            + [percent(*one.shift(q, 0.15)) if q in one.lines else "" for q in QUANTITIES]
-            + [", ".join(f"{one.lines[q][3]:.1f}" for q in one.lines)]
+            + [percent(*one.shift(q, 0.15)) if q in one.curves else "" for q in QUANTITIES]
+            + [", ".join(f"{one.curves[q][2]:.1f}" for q in one.curves)]
             for one in flows
         ],
     )
@@ -120,7 +128,7 @@ def print_kinds(flows):
         for name, found in kinds(flows):
             cells = []
             for q in QUANTITIES:
-                there = [one for one in found if q in one.lines]
+                there = [one for one in found if q in one.curves]
                 cells.append(percent(*pooled(there, q, fraction)) if there else "")
             rows.append([f"{fraction:g}", name, *cells])
     table("Shift by kind of flow, %", ["dt / T_R", "flows", *QUANTITIES], rows)
@@ -139,18 +147,32 @@ def print_means(flows):
     table("Means", ["alpha", "mu_p", "I", "dt / T_R", "strain", *QUANTITIES], rows)
 
 
+def print_energy(results):
+    rows = []
+    for fraction, name in results.steps("account", mu=0.4, I=0.1):
+        times = [relative_time(results, alpha, name) for alpha in ALPHAS]
+        errors = [f"{100 * energy_error(results, alpha, name):.1g}" for alpha in ALPHAS]
+        rows.append([f"{fraction:g}", f"{np.mean(times):.2f}", *errors])
+    table(
+        "Energy error, |G_dt| over D_n + D_t, %",
+        ["dt / T_R", "time", *(f"alpha = {alpha:g}" for alpha in ALPHAS)],
+        rows,
+    )
+
+
 def print_scatter(rows, flows):
-    """Whether blocks are long enough: their error against that of the means of whole runs, all flows together."""
-    ratios = []
+    """Whether blocks are long enough: half the mean squared difference of one block from the next, over their variance,
+    is 1 if they are independent (von Neumann 1941, doi 10.1214/aoms/1177731677), less if they are not."""
+    steps, variances = [], []
     for one in flows:
         for found in one.blocks.values():
-            runs = {row["seed"] for row in found}
-            if len(runs) >= 4:
-                whole = Mean([np.mean([row["mu_eff"] for row in found if row["seed"] == seed]) for seed in runs])
-                ratios.append(whole.error / Mean([row["mu_eff"] for row in found]).error)
+            for seed in {row["seed"] for row in found}:
+                values = np.array([row["mu_eff"] for row in found if row["seed"] == seed]) / one.unit("mu_eff")
+                steps.append(np.mean(np.diff(values) ** 2) / 2)
+                variances.append(values.var(ddof=1))
     hours = sum(row["seconds"] for row in rows) / 3600
-    print(f"\nerror of mu_eff from whole runs over that from blocks, rms: {np.sqrt(np.mean(np.square(ratios))):.2f}")
-    print(f"of {len(ratios)} means; strain {sum(row['strain'] for row in rows):,.0f}; {hours:.1f} core hours")
+    print(f"\nmu_eff: ratio of von Neumann {np.sum(steps) / np.sum(variances):.2f}, of {len(steps)} runs")
+    print(f"strain {sum(row['strain'] for row in rows):,.0f}; {hours:.1f} core hours")
 
 
 def read_onset():
@@ -214,7 +236,7 @@ def legend():
 
 
 def draw_steps(results, flows, path):
-    """Energy error, and the shift of each mean against the step, with the line through all steps."""
+    """Energy error, and the shift of each mean against the step, with the curve through all steps."""
     figure, axes = plt.subplots(2, 3, figsize=(12, 7), constrained_layout=True)
     energy, *others = axes.flat
     for alpha in ALPHAS:
@@ -229,9 +251,9 @@ def draw_steps(results, flows, path):
     energy.set_title("energy error |G_dt|/(D_n + D_t); dashed: I = 0.01", fontsize=9)
     for axis, quantity in zip(others, QUANTITIES):
         for number, one in enumerate(flows):
-            if quantity not in one.lines or one.flow.I < 0.1:
+            if quantity not in one.curves or one.flow.I < 0.1:
                 continue
-            start, unit = one.lines[quantity][0], one.unit(quantity)
+            start, unit = one.curves[quantity][0][0], one.unit(quantity)
             aside = one.fractions + 0.003 * (number - len(flows) / 2)
             axis.errorbar(
                 aside,
@@ -243,9 +265,9 @@ def draw_steps(results, flows, path):
                 markersize=3.5,
                 linewidth=0.8,
             )
-            ends = np.array([0, 0.6])
-            shifts = [100 * one.shift(quantity, end)[0] for end in ends]
-            axis.plot(ends, shifts, LINES[one.flow.mu], color=shape_colour(one.flow.alpha), linewidth=1.1)
+            steps = np.linspace(0, 0.6, 31)
+            shifts = [100 * one.shift(quantity, step)[0] for step in steps]
+            axis.plot(steps, shifts, LINES[one.flow.mu], color=shape_colour(one.flow.alpha), linewidth=1.1)
         axis.axhline(0, color="0.7", linewidth=0.8, zorder=0)
         over = "$(P_n + P_t)$" if quantity in POWERS else "its value at 0"
         axis.set_title(f"shift of {LABELS[quantity]}, % of {over}", fontsize=9)
@@ -260,7 +282,7 @@ def draw_cost(results, flows, path):
     surfaces = {"ellipsoid": ("o", 1.0), "superquadric": ("*", None)}
     for axis, (name, found) in zip(axes, kinds([one for one in flows if one.flow.I == 0.1])):
         for quantity, colour in zip(("mu_eff", "phi", "P_n", "P_t"), COLOURS.values()):
-            there = [one for one in found if quantity in one.lines]
+            there = [one for one in found if quantity in one.curves]
             if not there:
                 continue
             for marker, factor in surfaces.values():
@@ -304,11 +326,12 @@ def main():
     results, rows, onset = Results(HERE / "results.csv"), read_results(), read_onset()
     if not rows:
         raise SystemExit(f"steady_chart.py: {RESULTS} has no rows; steady.py makes them")
-    flows = [one for series in SERIES if (one := FlowMeans(rows, series)).lines]
+    flows = [one for series in SERIES if (one := FlowMeans(rows, series)).curves]
     print_shifts(flows)
     print_kinds(flows)
     print_onset(onset)
     print_means(flows)
+    print_energy(results)
     print_scatter(rows, flows)
     draw_steps(results, flows, images / "accuracy_step.png")
     draw_cost(results, flows, images / "accuracy_cost.png")
