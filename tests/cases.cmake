@@ -376,7 +376,7 @@ add_cases(read_restart-goes-on cases/restarts.py LABEL case STYLES ${resumed} CA
 add_cases(read_restart-goes-on cases/restarts.py LABEL long STYLES ${resumed} RANKS 1 2 CASES
   killed-spheres killed-spheroids)
 add_cases(read_restart-recipe cases/recipes.py LABEL case STYLES ${resumed} CASES
-  readme example example-with-mpirun written-out prolonged-as-shown stopped-in-order first-rows
+  running example example-with-mpirun written-out prolonged-as-shown stopped-in-order first-rows
   complete-wherever-shown)
 add_cases(read_restart+energy/ledger-recipe cases/recipes.py LABEL case STYLES ${resumed} energy/ledger
   CASES with-ledger)

@@ -117,7 +117,7 @@ def killed_as_shown(page, heading, at=0, shorter=()):
         whole, killed = folder_with_deck("whole"), killed_half_way(first)
         Run(first, whole).end()
         result = Run(second, killed).end()
-        require("read_restart: taking" in result.output, "no restart file was read")
+        require("read_restart: reading" in result.output, "no restart file was read")
         require(len(list(killed.glob("flow.*.txt"))) == 2, "the run did not begin a table of its own")
         require_same_end(killed, whole, SHORT if shorter else STEPS)
 
@@ -167,7 +167,7 @@ def stopped_in_order(ranks):
     left = list(result.folder.glob("restart_forced_liggghts_*.data"))
     require(result.code == 0 and len(left) == 1, f"code {result.code}, restart files: {left}")
     again = Started(deck, folder=first.folder, arguments=["-var", "resume", "1"]).end()
-    require(f"read_restart: taking '{left[0].name}'" in again.output and again.code == 0, again.output[-2000:])
+    require(f"read_restart: reading '{left[0].name}'" in again.output and again.code == 0, again.output[-2000:])
     step = int(left[0].name.split("_")[-1].split(".")[0])
     require(again.thermo()[-1]["step"][[0, -1]].tolist() == [step, STEPS], "it did not go on from there to the end")
 
@@ -251,7 +251,7 @@ def files_to_copy(ranks):
 
 main(
     {
-        "readme": killed_as_shown(SOURCE / "README.md", "## Long runs"),
+        "running": killed_as_shown(SOURCE / "doc" / "running.md", "## Long runs"),
         "example": killed_as_shown(EXAMPLE / "README.md", "# A long run"),
         "example-with-mpirun": killed_as_shown(
             EXAMPLE / "README.md", "# A long run", 2, ["-var", "steps", str(SHORT), "-var", "part", "200"]
