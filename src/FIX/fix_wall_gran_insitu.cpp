@@ -269,9 +269,7 @@ void FixWallGranInsitu::post_run() {
   impl_->kept = true;
 }
 
-bool FixWallGranInsitu::keeps_velocities() {
-  return is_mesh_wall() && impl_->pair && impl_->pair->evaluation_memory();
-}
+bool FixWallGranInsitu::keeps_velocities() { return is_mesh_wall() && impl_->pair && impl_->pair->evaluation_memory(); }
 
 void FixWallGranInsitu::post_force(int vflag) {
   impl_->kept = false;
