@@ -474,15 +474,22 @@ add_cases(study-config cases/study_config.py LABEL case STYLES study CASES
   runs-of-lists exceptions numbers-that-yaml-takes-for-words example-is-valid howto-has-the-grid-of-the-paper
   every-figure-is-asked-for steps-of-deck unknown-word empty-list no-list word-for-number yes-for-number
   negative-friction half-a-grain not-finite twice steady-beyond-strain exception-steady measure exception-shape
-  exceptions-no-list exception-where exception-use exception-value output ranks)
+  exceptions-no-list exception-where exception-use exception-value output ranks
+  groups paper-size groups-no-list group-words group-no-points group-keyword group-value group-twice)
 add_cases(study-fits cases/study_fits.py LABEL case STYLES study CASES
   friction-law fraction-law power-law without-errors decay refused curves-that-do-not-bend crossing level-set
   laws-of-grid laws-of-shape seeds-and-sizes agreement published-of-grid)
 add_cases(study-runs cases/study_runs.py LABEL case STYLES study RANKS 1 LONG_RANKS 2 CASES
   killed-run-continues longer-strain-continues)
 add_cases(study-runs cases/study_runs.py LABEL case STYLES study CASES
-  one-at-a-time stopped-run-has-not-ended first-restart-cut no-restart-whole other-variables-refused
+  one-at-a-time stopped-run-has-not-ended out-of-time hours-refused first-restart-cut no-restart-whole other-variables-refused
   part-must-be-named reason-is-given means-of-files table-holds-everything)
+add_cases(study-slices cases/study_slices.py LABEL case STYLES study CASES
+  parts-within-time first-that-fits stopped-slice-goes-on killed-slice-goes-on killed-slice-leaves-none
+  one-slice-at-a-time nothing-fits failures-are-told options-refused)
+add_cases(study-partial cases/study_partial.py LABEL case STYLES study CASES
+  status-of-known-files status-of-nothing partial-is-marked table-refusals data-set data-set-refused metadata
+  every-column-has-a-source)
 add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study CASES basic-measures bad-configuration)
 add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study LONG_RANKS 1 CASES
   failing-runs-do-not-stop-others study-goes-on)

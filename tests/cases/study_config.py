@@ -62,6 +62,54 @@ def exceptions(ranks):
     )
 
 
+def groups(ranks):
+    """Group after group, in each the cheapest first; a run belongs to the first group that has it; what a group does
+    not name is as it is for the study; exceptions hold for all."""
+    points = [
+        [{"I": [0.01, 0.1], "mu": 0.4}],
+        [{"alpha": 1, "mu": "1e-3", "I": 0.1}, {"alpha": 1, "mu": 0.4}],
+        [{"N": 600, "seed": [15485863, 15485867], "alpha": [2], "mu": [0], "I": [0.1]}],
+    ]
+    named = [{"name": name, "points": found} for name, found in zip(("first", "second", "third"), points)]
+    runs = list(plan({**SMALL, "groups": named, "exceptions": [{"where": {"N": 600}, "use": {"strain": 7}}]}).values())
+    found = [(run.group, *(run.variables[name] for name in ("alpha", "mu", "I", "N", "strain"))) for run in runs]
+    require(
+        found
+        == [
+            ("first", "1", "0.4", "0.1", "300", "10"),
+            ("first", "2", "0.4", "0.1", "300", "10"),
+            ("first", "1", "0.4", "0.01", "300", "10"),
+            ("first", "2", "0.4", "0.01", "300", "10"),
+            ("second", "1", "0.001", "0.1", "300", "10"),
+            ("third", "2", "0", "0.1", "600", "7"),
+            ("third", "2", "0", "0.1", "600", "7"),
+        ],
+        f"found {found}",
+    )
+    require({run.group for run in plan(SMALL).values()} == {"all"}, "a study without groups is one")
+    alone = plan({"groups": [{"name": "one", "points": [{"alpha": 1, "mu": 0, "I": 0.1, "N": 300}]}]})
+    require(len(alone) == 1, "groups that name everything need no lists of the study")
+
+
+def paper_size(ranks):
+    """The study of the paper's size: its own N and strain, the groups one after the other, I from large to small."""
+    runs = list(plan(yaml.safe_load((SOURCE / "examples/study/paper_size.yaml").read_text())).values())
+    groups = list(dict.fromkeys(run.group for run in runs))
+    require(
+        len(groups) == 5 and [run.group for run in runs] == sorted((run.group for run in runs), key=groups.index), ""
+    )
+    first = [run for run in runs if run.group == groups[0]]
+    require(len(first) == 9 * 7 * 3 and {run.value("I") for run in first} == {0.1, 0.046, 0.022}, f"{len(first)} runs")
+    require(sum(run.group == groups[1] for run in runs) == 9 * 7, "all of I = 0.01")
+    require(all(run.strain == 16 for run in runs), "strain 16")
+    require(sorted(run.value("N") for run in runs)[-3:] == [2000, 4000, 4000], "two of 4000 grains, all others of 2000")
+    for one in runs:  # what howto_study.md says of the steady state and of the box
+        require(one.value("steady") == (6 if one.value("I") >= 0.01 else 4), f"{one.name}: steady")
+        require(one.value("N") >= 80 * max(one.value("alpha") ** 2, 1 / one.value("alpha")), f"{one.name}: N")
+    longest = max(run.seconds * run.value("part") / run.strain for run in runs)
+    require(longest < 900, f"a part takes {longest:.0f} s by the model, too long for a slice")
+
+
 def numbers_that_yaml_takes_for_words(ranks):
     config = {**SMALL, "alpha": [1], "I": [0.1], "mu": yaml.safe_load("[1e-3]")}
     (run,) = plan({**config, "exceptions": [{"where": {"mu": "1e-3"}, "use": {"N": "5e2"}}]}).values()
@@ -148,6 +196,20 @@ REFUSED = {
     "exception-value": refused(
         ("N must be a whole number above 0", "got -1"), exceptions=[{"where": {}, "use": {"N": -1}}]
     ),
+    "groups-no-list": refused(("groups must be a list", "got 3"), groups=3),
+    "group-words": refused(("groups: entry 1 must be", "got {'name': 'a'}"), groups=[{"name": "a"}]),
+    "group-no-points": refused(("groups: entry 1 must be", "'points': []"), groups=[{"name": "a", "points": []}]),
+    "group-keyword": refused(
+        ("groups: entry 1 ('a'): points must name alpha", "got 'strain'"),
+        groups=[{"name": "a", "points": [{"strain": 3}]}],
+    ),
+    "group-value": refused(
+        ("groups: entry 2 ('b'): mu must be a number of at least 0, got -1",),
+        groups=[{"name": "a", "points": [{}]}, {"name": "b", "points": [{}, {"mu": -1}]}],
+    ),
+    "group-twice": refused(
+        ("groups must have different names, got 'a' twice",), groups=2 * [{"name": "a", "points": [{}]}]
+    ),
     "output": refused(("output must be the name of a folder without spaces", "'my study'"), output="my study"),
     "ranks": refused(("ranks must be a whole number above 0", "got 0"), ranks=0),
 }
@@ -156,6 +218,8 @@ main(
     {
         "runs-of-lists": runs_of_lists,
         "exceptions": exceptions,
+        "groups": groups,
+        "paper-size": paper_size,
         "numbers-that-yaml-takes-for-words": numbers_that_yaml_takes_for_words,
         "example-is-valid": example_is_valid,
         "every-figure-is-asked-for": every_figure_is_asked_for,

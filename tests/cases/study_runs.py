@@ -2,71 +2,32 @@
 """Runs of a study by `grainscope-tools study run`: killed, prolonged, damaged, refused; and what `study table` makes of
 them."""
 import os
-from pathlib import Path
 import signal
 import shutil
 import subprocess
 
 import numpy as np
 
-from case import main, require, require_close, require_equal
+from case import main, require, require_close
 from grainscope.means import mean_and_error
 from grainscope.shear.measures import steady_run
-from grainscope.shear.output import read_blocks, read_run, read_table
+from grainscope.shear.output import read_run
 from grainscope.study import table as study_table
-from run import TIME_LIMIT, Failure, environment, kill_session, processes_of, wait_until
-
-SOURCE = Path(os.environ["GRAINSCOPE_SOURCE"])
-SMALL = {"N": 150, "alpha": 1, "mu": 0.4, "I": 0.1, "measure": "all", "strain": 0.6, "steady": 0.2, "part": 0.1}
-ROWS = ("series.txt", "micro.txt", "displacement.txt")
-TABLES = ("surface.txt", "direction.txt", "correlation.txt", "layering.txt", "memory.txt")
-
-
-def folder(name):
-    return Path(os.environ["GRAINSCOPE_SCRATCH"]) / name
-
-
-def start(name, ranks=1, **variables):
-    words = [f"{key}={value}" for key, value in {**SMALL, **variables}.items()]
-    command = [
-        SOURCE / "tools" / "grainscope-tools",
-        "study",
-        "run",
-        folder(name),
-        *words,
-        "--binary",
-        os.environ["GRAINSCOPE_BINARY"],
-        "--ranks",
-        str(ranks),
-    ]
-    return subprocess.Popen(
-        [*map(str, command)],
-        env=environment(ranks),
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        start_new_session=True,
-    )
-
-
-def run_to_end(name, ranks=1, **variables):
-    """Exit status, and what was printed."""
-    return end_of(start(name, ranks, **variables))
-
-
-def end_of(process):
-    try:
-        output, _ = process.communicate(timeout=TIME_LIMIT)
-    except subprocess.TimeoutExpired:
-        kill_session(process.pid)
-        raise Failure(f"a run did not end in {TIME_LIMIT:g} s") from None
-    return process.returncode, output
-
-
-def ended(name, ranks=1, **variables):
-    status, output = run_to_end(name, ranks, **variables)
-    require(status == 0, f"{name} ended with {status}: {output}")
-    return folder(name)
+from run import environment, kill_session, wait_until
+from shear_runs import (
+    ROWS,
+    SOURCE,
+    TABLES,
+    attempts_of,
+    end_of,
+    ended,
+    folder,
+    last_step,
+    ranks_of,
+    run_to_end,
+    same_tables,
+    start,
+)
 
 
 def stopped_half_way(name, ranks, stop, **variables):
@@ -93,33 +54,6 @@ def killed(name, ranks=1, **variables):
 
     stopped_half_way(name, ranks, kill, **variables)
     return folder(name)
-
-
-def ranks_of(process):
-    program = Path(os.environ["GRAINSCOPE_BINARY"]).name[:15]
-    return [pid for pid, name in processes_of(process.pid) if name == program]
-
-
-def attempts_of(out):
-    """The steps at which the attempts began."""
-    return [
-        int(line.split()[-1]) for line in (out / "parameters.txt").read_text().splitlines() if not line.startswith("#")
-    ]
-
-
-def last_step(out):
-    """The step at which the last attempt ended."""
-    return int((out / "parameters.txt").read_text().split()[-2])
-
-
-def same_tables(one, other, names=ROWS + TABLES):
-    for name in names:
-        found, expected = (
-            read_blocks(out, name) if name in TABLES else read_table(out, name)[0] for out in (one, other)
-        )
-        require(list(found) == list(expected), f"{name}: other columns")
-        for column in expected:
-            require_equal(found[column], expected[column], f"{name}, {column}")
 
 
 def stopped_run_has_not_ended(ranks):
@@ -202,6 +136,25 @@ def first_restart_cut(ranks):
     status, output = run_to_end("cut", ranks, strain=0.3, steady=0.1)
     require(status == 0 and "starting again" in output, f"ended with {status}: {output}")
     require(attempts_of(out) == [0], "the run did not start again")
+
+
+def out_of_time(ranks):
+    """Without time for anything a run ends in order, with a status of its own, and the next attempt gives the bits of
+    the run that was left alone."""
+    whole = ended("whole", ranks)
+    status, output = end_of(start("short", ranks, options=("--hours", "1e-9")))
+    require(status == 3 and "out of time" in output, f"ended with {status}: {output}")
+    same_tables(ended("short", ranks), whole)
+
+
+def hours_refused(ranks):
+    for value in ("0", "-1", "nan", "inf", "soon"):
+        status, output = end_of(start("hours", ranks, options=(f"--hours={value}",)))
+        require(
+            status == 2 and f"--hours: must be a number above 0, got '{value}'" in output,
+            f"{value}: {status}, {output}",
+        )
+    require(not folder("hours").exists(), "something was run")
 
 
 def no_restart_whole(ranks):
@@ -313,6 +266,8 @@ main(
         "killed-run-continues": killed_run_continues,
         "longer-strain-continues": longer_strain_continues,
         "longer-strain-continues-basic": longer_strain_continues_basic,
+        "out-of-time": out_of_time,
+        "hours-refused": hours_refused,
         "first-restart-cut": first_restart_cut,
         "no-restart-whole": no_restart_whole,
         "other-variables-refused": other_variables_refused,

@@ -71,9 +71,16 @@ def failing_runs_do_not_stop_others(ranks):
     require(status == 0, f"the study of the runs that ended was not made:\n{output}")
     study = folder() / "study-output"
     require(
-        sorted(row["run"] for row in read_csv(study / "table.csv"))
-        == [f"alpha1_mu{mu}_I0.1_N150_seed15485863" for mu in ("0.4", "1")],
-        "the table must hold the runs that ended",
+        sorted((row["run"], row["state"]) for row in read_csv(study / "table.csv"))
+        == [
+            (f"alpha1_mu{mu}_I0.1_N{grains}_seed15485863", state)
+            for mu in ("0.4", "1")
+            for grains, state in ((150, "ended"), (20, "not run"))
+        ],
+        "the table must hold the runs that ended, and name the others",
+    )
+    require(
+        (study / "comparison.md").read_text().startswith("**partial: 2 of 4 points**"), "it must say that it is partial"
     )
     require(
         {"fig02.png", "fig03.png", "fig08.png", "fig14.png", "fig18.png", "memory.png"}

@@ -67,6 +67,9 @@ def missing_input_refused(ranks):
         (["study", "plan", none], f"{none}: No such file"),
         (["study", "plan", SOURCE / "README.md"], "README.md"),
         (["study", "plan", TOOL], "grainscope-tools"),
+        (["study", "run-grid", none, "--hours", "1"], f"{none}: No such file"),
+        (["study", "status", none], f"{none}: No such file"),
+        (["study", "export", none, "--output", scratch()], f"{none}: No such file"),
         (["study", "table", none], f"{none}/parameters.txt: No such file"),
         (["study", "table", f"{none}:half"], f"with a number, got '{none}:half'"),
         (["study", "fit", none], f"{none}/curves/correlation.csv: No such file"),
@@ -161,7 +164,7 @@ def examples_of_page(ranks):
     require(len(lines) >= len(COMMANDS), f"only {len(lines)} examples")
     (scratch("examples")).symlink_to(SOURCE / "examples")
     for words in lines:
-        if words[1:3] == ["study", "run"]:
+        if words[1:3] in (["study", "run"], ["study", "run-grid"]):
             words += ["--binary", os.environ["GRAINSCOPE_BINARY"]]
         code, said, complaint = called(TOOL, *words[1:])
         require(code == 0, f"{' '.join(words)}: {code}, {said}{complaint}")
@@ -175,6 +178,8 @@ def examples_of_page(ranks):
         "ovito.dump",
         "pictures/series.png",
         "fits/fits.csv",
+        "first-try/status.html",
+        "dataset/table.csv",
     ):
         require(scratch(name).stat().st_size > 0, f"{name} is empty")
 

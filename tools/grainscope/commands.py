@@ -44,10 +44,15 @@ COMMANDS = {
     ),
     "study plan": Command("study.planned", "prints the runs of a study, with the cost that is expected", ("yaml",)),
     "study run": Command("study.run", "begins a run of examples/simple_shear, or goes on with it", ()),
+    "study run-grid": Command("study.run_grid", "runs a study for so many hours, and goes on with it", ("yaml",)),
+    "study status": Command("study.status", "tells how far a study is, and when it will have ended", ("yaml",)),
     "study table": Command("study.table", "collects runs into the tables of a study", FITS),
     "study fit": Command("study.fit", "fits laws to a study", FITS),
     "study compare": Command("study.compare", "compares a study with what the paper published", FITS),
     "study plot": Command("study.plot", "draws the paper's figures of a study", DRAWS + FITS),
+    "study export": Command(
+        "study.export", "writes a study as a data set: tables, provenance, figures", DRAWS + FITS + ("yaml",)
+    ),
     "study cost": Command("study.cost", "prints what a study's runs cost, and what the model expects", FITS),
 }
 DEBIAN = {name: f"python3-{name}" for command in COMMANDS.values() for name in command.needs}

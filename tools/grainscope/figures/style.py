@@ -1,5 +1,7 @@
 """Colours, markers and layouts that the figures share."""
 
+from contextlib import contextmanager
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -174,6 +176,21 @@ def friction_grid(measures, rows, width=3.2, height=2.6, **options):
     return figure, axes, [with_value(measures, mu=mu) for mu in frictions]
 
 
+_marks = []
+
+
+@contextmanager
+def marked(text):
+    """Figures that are saved in the block carry the text on top, unless it is empty."""
+    _marks.append(text)
+    try:
+        yield
+    finally:
+        _marks.pop()
+
+
 def save(figure, path):
+    if _marks and _marks[-1]:
+        figure.text(0.5, 1.01, _marks[-1], ha="center", va="bottom", color="#B22222", fontweight="bold")
     figure.savefig(path)
     plt.close(figure)

@@ -3,7 +3,7 @@ model: Markdown tables."""
 import numpy as np
 
 from grainscope.study.cost_model import PAPER, classical_cost_of_grid, cost_of_grid, memory_of, seconds_of, step_seconds
-from grainscope.study.table import read_study
+from grainscope.study.table import coverage, read_study
 
 
 def measured(runs):
@@ -63,9 +63,10 @@ def scaled(grains=1_000_000, alpha=1.5, inertial=0.1, strain=16):
         "|---|---|---|---|---|",
     ]
     for ranks in (1, 16, 64, 256, 1024):
+        step = step_seconds(alpha, inertial, grains, ranks)
         hours = seconds_of(alpha, inertial, grains, strain, ranks) / 3600
         rows.append(
-            f"| {ranks} | {1e3 * step_seconds(alpha, grains, ranks):.3g} | {hours:.3g} | {hours * ranks:.3g} | "
+            f"| {ranks} | {1e3 * step:.3g} | {hours:.3g} | {hours * ranks:.3g} | "
             f"{memory_of(grains, ranks) / ranks / 1e9:.2g} |"
         )
     return rows
@@ -81,7 +82,7 @@ def run(arguments):
     print(
         *measured(runs),
         "",
-        f"{len(runs)} runs, {hours:.2f} core-hours in the attempts that ended.",
+        f"{coverage(arguments.study)}: {hours:.2f} core-hours.",
         "",
         *predicted(),
         "",

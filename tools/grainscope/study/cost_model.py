@@ -5,8 +5,21 @@ from dataclasses import dataclass
 import math
 
 YOUNG, POISSON, DENSITY, SMALLEST = 5.0e6, 0.3, 1000.0, 0.8  # of the deck
-# Core time of a grain for a step [s] by aspect ratio, with everything measured, N = 2000, dense flow
-GRAIN_STEP = {0.33: 1.25e-6, 0.5: 1.5e-6, 0.67: 1.3e-6, 1: 0.65e-6, 1.5: 1.45e-6, 2: 1.75e-6, 3: 2.05e-6}
+START_STEPS = 3000  # that push the random start apart
+# Core time of a grain for a step [s] by aspect ratio, N = 2000, dense flow of mu = 0.4; and for a strain of 1 [s]: what
+# is done at strains and not at steps, neighbour lists and measuring everything
+GRAIN_STEP = {
+    0.33: 0.44e-6,
+    0.5: 0.40e-6,
+    0.67: 0.36e-6,
+    0.83: 0.29e-6,
+    1: 0.19e-6,
+    1.2: 0.30e-6,
+    1.5: 0.36e-6,
+    2: 0.49e-6,
+    3: 0.55e-6,
+}
+GRAIN_STRAIN = 1.5e-3
 # The same over that of N = 2000, by grains of a rank: grains and springs of larger systems are fetched from memory
 GROWTH = {2000: 1.0, 16000: 1.3, 128000: 2.2, 1024000: 2.6}
 # Of several ranks: time for grains of neighbouring ranks over that for a rank's own, times the cube root of the number
@@ -70,17 +83,18 @@ def steps_per_strain(alpha, inertial):
     return 1 / (rate * 0.15 * min(hertz, rayleigh))
 
 
-def step_seconds(alpha, grains, ranks=1):
+def step_seconds(alpha, inertial, grains, ranks=1):
     """Wall time of a step [s]: that of a rank's grains, and with several ranks of their neighbours on others, by the
     surface of its share of the box."""
     share = grains / ranks
-    own = between(GRAIN_STEP, alpha) * between(GROWTH, share) * share
+    grain = between(GRAIN_STEP, alpha) + GRAIN_STRAIN / steps_per_strain(alpha, inertial)
+    own = grain * between(GROWTH, share) * share
     return own * (1 + SURFACE / share ** (1 / 3)) + LATENCY if ranks > 1 else own
 
 
 def seconds_of(alpha, inertial, grains, strain, ranks=1, speed=1.0):
     """Wall time of a run [s]."""
-    return step_seconds(alpha, grains, ranks) * steps_per_strain(alpha, inertial) * strain / speed
+    return step_seconds(alpha, inertial, grains, ranks) * steps_per_strain(alpha, inertial) * strain / speed
 
 
 def memory_of(grains, ranks=1):

@@ -1,22 +1,28 @@
 """Runs examples/simple_shear, or takes up what an earlier attempt left in the output folder: one that was killed, or
 one that ended at a smaller strain. Screen output goes to screen.txt there, one attempt after the other, the variables
-to variables.txt, and what each attempt that ended cost to cost.txt. Ends with an error, and the reason that the run
-gave, if the run failed."""
+to variables.txt, what each attempt cost to cost.txt, and where it came from to attempts.jsonl. Ends with an error, and
+the reason that the run gave, if the run failed; failed.txt has the reason, too. With --hours the run is stopped at the
+end of the last part that fits, with exit status 3 unless it is at its end."""
 import argparse
 import fcntl
 import os
 from pathlib import Path
-import subprocess
+import sys
 import time
 
 from grainscope.errors import InputError, warn
 from grainscope.open_mpi import session
 from grainscope.program import find_program
 from grainscope.progress import duration, followed
+from grainscope.study.part_clock import PartClock
+from grainscope.study.program_process import ProgramProcess
+from grainscope.study.provenance import note_attempt
 
 DECK = Path(__file__).resolve().parents[3] / "examples" / "simple_shear" / "in.simple_shear"
 NONE_WHOLE = "ERROR: read_restart: '"
-STOPPED = 3
+STOPPED = 3  # also the exit status of a run whose time is over
+RESTARTS = ("even.restart", "odd.restart")  # of the ends of parts
+FAILED = "failed.txt"
 MAY_CHANGE = ("strain", "steady")
 COLUMNS = 11  # of the deck's thermo output: step, strain, time left ...
 COST = "# from[step] to[step] ranks wall[s] cpu[s] memory[B]\n"
@@ -91,23 +97,40 @@ def time_of(path):
     return path.stat().st_mtime_ns if path.exists() else None
 
 
-def write_cost(arguments, wall, usage):
-    """Adds the attempt that ended to cost.txt: the cpu time of all ranks, and the memory of the largest."""
-    steps, begun = last_row(arguments.out / "parameters.txt")[-2:]
+def begun_at(out):
+    """The step at which the last attempt began, and that at which it is to end."""
+    row = last_row(out / "parameters.txt")
+    return int(row[-1]), int(row[-2])
+
+
+def step_reached(out, begun):
+    """The last step of the tables of the attempt that began at this step."""
+    row = last_row((out / f"from_{begun}" if begun else out) / "series.txt")
+    return int(row[0]) if row and row[0].isdigit() else begun
+
+
+def write_cost(arguments, wall, usage, ended):
+    """Adds an attempt to cost.txt: the cpu time of all ranks, and the memory of the largest."""
+    begun, end = begun_at(arguments.out)
+    reached = end if ended else step_reached(arguments.out, begun)
+    if not ended and reached == end:  # strain_reached takes such a row for the run's end
+        return
     path = arguments.out / "cost.txt"
-    header = COST if begun == "0" or not path.exists() else ""
-    with path.open("w" if begun == "0" else "a") as table:
+    header = COST if begun == 0 or not path.exists() else ""
+    with path.open("w" if begun == 0 else "a") as table:
         cpu = usage.ru_utime + usage.ru_stime
-        table.write(f"{header}{begun} {steps} {arguments.ranks} {wall:.2f} {cpu:.2f} {1024 * usage.ru_maxrss}\n")
+        table.write(f"{header}{begun} {reached} {arguments.ranks} {wall:.2f} {cpu:.2f} {1024 * usage.ru_maxrss}\n")
 
 
-def lock(out):
-    """A file that is locked for as long as this process, or the run that it begins, is there. Waits for an earlier
+def lock(out, may_wait):
+    """A file that is locked for as long as this process, or the run that it begins, is there. May wait for an earlier
     attempt that still runs, as one does whose Snakemake was killed."""
     file = (out / "lock").open("w")
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
+        if not may_wait:
+            raise InputError("another attempt writes to this folder") from None
         warn(f"{out}: another attempt writes to this folder, waiting for its end")
         fcntl.flock(file, fcntl.LOCK_EX)
     return file
@@ -122,33 +145,28 @@ def how_far(screen):
     return f"strain {float(rows[-1][1]):.2f}, {duration(float(rows[-1][2]))} left" if rows else "begins"
 
 
-def attempt(arguments, resume, locked):
+def attempt(arguments, resume, locked, clock):
     """Exit status of one attempt, and what it printed. A run that a signal ends is content with itself, but writes no
     final.restart."""
-    screen, final = arguments.out / "screen.txt", arguments.out / "final.restart"
-    earlier = time_of(final)
+    out = arguments.out
+    screen, final, parameters = out / "screen.txt", out / "final.restart", out / "parameters.txt"
+    earlier, earlier_parameters = time_of(final), time_of(parameters)
+    note_attempt(out, arguments.binary, arguments.ranks, arguments.variables)
     begin = time.monotonic()
     with screen.open("ab") as output:
         end_of_earlier = output.tell()
-        with session(note=arguments.out / "session.txt") as environment:
-            run = subprocess.Popen(
-                command(arguments, resume),
-                stdin=subprocess.DEVNULL,
-                stdout=output,
-                stderr=subprocess.STDOUT,
-                pass_fds=[locked.fileno()],
-                env=environment,
-            )
-            with followed(lambda: f"{arguments.out}: {how_far(screen)}"):
-                _, status, usage = os.wait4(run.pid, 0)
-            run.returncode = os.waitstatus_to_exitcode(status)
-    if run.returncode == 0 and time_of(final) == earlier:
+        with session(note=out / "session.txt") as environment:
+            run = ProgramProcess(command(arguments, resume), stdout=output, pass_fds=[locked.fileno()], env=environment)
+            with followed(lambda: f"{out}: {how_far(screen)}"):
+                code, usage = run.wait(lambda: clock.must_end([time_of(out / name) for name in RESTARTS]))
+    ended = code == 0 and time_of(final) != earlier
+    if time_of(parameters) != earlier_parameters:
+        write_cost(arguments, time.monotonic() - begin, usage, ended)
+    if not ended and (code == 0 or run.asked_to_end):
         return STOPPED, "it was stopped by a signal before its end"
-    if run.returncode == 0:
-        write_cost(arguments, time.monotonic() - begin, usage)
     with screen.open("rb") as text:
         text.seek(end_of_earlier)
-        return run.returncode, text.read().decode(errors="replace")
+        return code, text.read().decode(errors="replace")
 
 
 def variable(text):
@@ -156,6 +174,16 @@ def variable(text):
     if not (name and equals and value):
         raise argparse.ArgumentTypeError(f"a variable must be name=value, got '{text}'")
     return name, value
+
+
+def positive(text):
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"must be a number above 0, got '{text}'")
+    return value
 
 
 def add_arguments(parser):
@@ -167,6 +195,9 @@ def add_arguments(parser):
         "--binary", help="the program (default: grainscope of this source tree, beside the installed tools, or on PATH)"
     )
     parser.add_argument("--ranks", type=int, default=1, help="MPI ranks (default: 1, without mpirun)")
+    parser.add_argument(
+        "--hours", type=positive, help="wall time: stop at the end of the last part that fits (default: no end)"
+    )
 
 
 def run(arguments):
@@ -177,9 +208,11 @@ def run(arguments):
 
 
 def begin_or_go_on(arguments):
+    clock = PartClock(arguments.hours and 3600 * arguments.hours)
     arguments.binary = arguments.binary or str(find_program())
     arguments.out.mkdir(parents=True, exist_ok=True)
-    locked = lock(arguments.out)
+    locked = lock(arguments.out, may_wait=arguments.hours is None)
+    (arguments.out / FAILED).unlink(missing_ok=True)
     files = list(arguments.out.glob("*.restart"))
     if files:
         check_variables(arguments)
@@ -188,11 +221,18 @@ def begin_or_go_on(arguments):
             print(f"{arguments.out}: ended at strain {reached:g} before, nothing to do")
             return
     write_variables(arguments)
-    status, output = attempt(arguments, bool(files), locked)
+    status, output = attempt(arguments, bool(files), locked, clock)
     if status and len(files) == 1 and NONE_WHOLE in output:
         warn(f"{arguments.out}: the first restart file was not whole yet, starting again")
-        status, output = attempt(arguments, False, locked)
+        status, output = attempt(arguments, False, locked, clock)
+    if status == STOPPED and clock.ended:
+        print(f"{arguments.out}: out of time at {how_far(arguments.out / 'screen.txt')}; the same command goes on")
+        sys.exit(STOPPED)
+    if status == STOPPED:
+        raise InputError(output)
     if status:
         reason = [line for line in output.splitlines() if line.startswith("ERROR")] or output.splitlines()[-1:]
         how = f"killed by signal {-status}" if status < 0 else f"exit status {status}"
-        raise InputError(f"{how}: {' '.join(reason)}")
+        failure = f"{how}: {' '.join(reason)}"
+        (arguments.out / FAILED).write_text(f"{failure}\n")
+        raise InputError(failure)

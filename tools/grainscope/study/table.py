@@ -1,7 +1,8 @@
 """Collects runs of examples/simple_shear into tables: table.csv has a row for each run, the files in curves/ their
-profiles, and columns.csv tells the unit and meaning of every column. The figures, the fits and the comparison of a
-study are made from these alone."""
+profiles, and columns.csv tells the unit, meaning and source of every column. The figures, the fits and the comparison
+of a study are made from these alone."""
 import csv
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -10,12 +11,14 @@ from grainscope.errors import InputError, warn
 from grainscope.progress import progress
 from grainscope.shear.measures import ALWAYS, CURVES, MEASURED, SERIES, SteadyRun, steady_run
 from grainscope.shear.output import read_run
+from grainscope.study.sources import OF_COLUMN, OF_CURVE, STUDY
 from grainscope.tables import read_rows
 
 LONGEST = 40  # points of a curve that are kept, up to twice as many
 TOLERANCE = 0.1  # of the inertial number reached, over its target; runs beyond it are flagged
 PARAMETERS = {
     "run": ("", "name of the run"),
+    "state": ("", "ended, or not run: planned, but not among the runs of these tables"),
     "alpha": ("-", "aspect ratio c/a"),
     "mu": ("-", "coefficient of friction"),
     "I": ("-", "inertial number of the target pressure"),
@@ -27,6 +30,8 @@ PARAMETERS = {
     "d_eq": ("m", "diameter of the sphere of the nominal volume"),
     "flagged": ("-", f"1 where I_reached is off I by more than {100 * TOLERANCE:g} %, else 0"),
 }
+WORDS = ("run", "state")  # columns that hold no numbers
+ENDED, NOT_RUN = "ended", "not run"
 COST = {
     "steps": ("-", "time steps, without the 3000 that push the random start apart"),
     "grain_step": ("s", "core time of one grain for one step, of the attempts that ended"),
@@ -58,6 +63,7 @@ def row_of(run, steady, start):
     reached = steady["I_reached"][0]
     row = {
         "run": run.name,
+        "state": ENDED,
         **{name: run.parameters[name] for name in ("alpha", "mu", "I", "N", "seed", "e", "strain", "d_eq")},
     }
     row["steady"] = run["strain"][run.steady(start)][0] if start is None else start
@@ -75,12 +81,17 @@ def header():
             yield f"{name}_error", unit, "its standard error"
 
 
+COLUMNS = ["file", "column", "unit", "meaning", "source"]
+
+
 def all_headers():
-    """File, name, unit and meaning of every column."""
-    yield from (("table.csv", *column) for column in header())
+    """COLUMNS of every column of every table."""
+    for name, unit, meaning in header():
+        yield "table.csv", name, unit, meaning, OF_COLUMN[name.removesuffix("_error")]
     for curve, columns in CURVES.items():
-        yield f"curves/{curve}.csv", "run", "", "name of the run"
-        yield from ((f"curves/{curve}.csv", name, unit, meaning) for name, (unit, meaning) in columns.items())
+        file = f"curves/{curve}.csv"
+        yield file, "run", "", "name of the run", STUDY
+        yield from ((file, name, unit, meaning, OF_CURVE[curve]) for name, (unit, meaning) in columns.items())
 
 
 def text(value):
@@ -94,8 +105,34 @@ def write_csv(path, names, rows):
         table.writerows(rows)
 
 
-def write_tables(runs, output):
-    """Writes all files for (run, start of its averages) pairs."""
+@dataclass
+class Coverage:
+    """How many of the planned runs the tables hold."""
+
+    ended: int
+    planned: int
+
+    @property
+    def partial(self):
+        return self.ended < self.planned
+
+    def __str__(self):
+        return f"{'partial: ' * self.partial}{self.ended} of {self.planned} points"
+
+
+def missing_rows(plan, found):
+    """Rows of the planned runs of plan.csv that are not among those found."""
+    for row in read_csv(plan) if plan else []:
+        if row.get("run") is None:
+            raise InputError(f"{plan}: must have a column 'run', has {', '.join(row)}")
+        if row["run"] not in found:
+            known = {name: float(row[name]) for name in PARAMETERS if name not in WORDS and row.get(name)}
+            yield {"run": row["run"], "state": NOT_RUN, **known}
+
+
+def write_tables(runs, output, plan=None):
+    """Writes all files for (run, start of its averages) pairs; with the plan.csv of the study also a row for each
+    planned run that is not among them."""
     rows, curves = [], {name: [] for name in CURVES}
     for run, start in progress(runs, "runs"):
         steady = steady_run(run, start)
@@ -110,10 +147,11 @@ def write_tables(runs, output):
                 f"{row['run']}: the inertial number is {row['I_reached']:.4g}, more than {100 * TOLERANCE:g} % off its "
                 "target"
             )
+    rows += missing_rows(plan, {row["run"] for row in rows})
     names = [name for name, _, _ in header()]
     (output / "curves").mkdir(parents=True, exist_ok=True)
     write_csv(output / "table.csv", names, [[text(row.get(name, "")) for name in names] for row in rows])
-    write_csv(output / "columns.csv", ["file", "column", "unit", "meaning"], all_headers())
+    write_csv(output / "columns.csv", COLUMNS, all_headers())
     for curve, points in curves.items():
         write_csv(output / "curves" / f"{curve}.csv", ["run", *CURVES[curve]], points)
 
@@ -142,8 +180,10 @@ def steady_runs(folder):
     """The rows of table.csv, with their curves."""
     curves = read_curves(folder / "curves")
     for row in read_csv(folder / "table.csv"):
-        values = {name: float(value) for name, value in row.items() if name != "run" and value}
-        parameters = {name: values[name] for name in PARAMETERS if name != "run"} | {
+        if row.get("state") == NOT_RUN:
+            continue
+        values = {name: float(value) for name, value in row.items() if name not in WORDS and value}
+        parameters = {name: values[name] for name in PARAMETERS if name not in WORDS} | {
             name: values[name] for name in COST if name in values
         }
         means = {name: (values[name], values[f"{name}_error"]) for name in MEANS if name in values}
@@ -160,6 +200,12 @@ def read_study(folder):
     if not runs:
         raise InputError(f"{folder / 'table.csv'}: it holds no run")
     return runs
+
+
+def coverage(folder):
+    """The Coverage of a folder's tables."""
+    states = [row.get("state") or ENDED for row in read_csv(Path(folder) / "table.csv")]
+    return Coverage(states.count(ENDED), len(states))
 
 
 def mean_curve(runs, name, column):
@@ -223,12 +269,15 @@ def study_arguments(parser):
 def add_arguments(parser):
     parser.add_argument(
         "run",
-        nargs="+",
+        nargs="*",
         help="output folder of a run, or folder:strain with the strain from which averages are taken "
         "(default: 6, or 4 below I = 0.01, at most half the run)",
     )
     parser.add_argument(
         "--output", default=".", type=Path, metavar="FOLDER", help="where the tables go (default: here)"
+    )
+    parser.add_argument(
+        "--plan", type=Path, metavar="FILE", help="plan.csv of the study: planned runs that are missing are named"
     )
 
 
@@ -242,5 +291,7 @@ def folder_and_start(word):
 
 
 def run(arguments):
+    if not arguments.run:
+        raise InputError("run must be at least one folder, got none: no run of the study has ended")
     pairs = map(folder_and_start, arguments.run)
-    write_tables([(read_run(folder), start) for folder, start in pairs], arguments.output)
+    write_tables([(read_run(folder), start) for folder, start in pairs], arguments.output, arguments.plan)
