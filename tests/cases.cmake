@@ -526,7 +526,7 @@ add_cases(gran/insitu-first-evaluation cases/first_evaluation.py LABEL case
   friction-of-a-plane friction-of-a-mesh)
 add_cases(gran/insitu-first-evaluation cases/first_evaluation.py LABEL case
   STYLES gran/insitu run/guard contact/local contact/grain dissipation stress/contact RANKS 1 2 CASES
-  as-the-host packings beside-a-mesh-moved-before beside-a-mesh-moved-after)
+  as-the-host packings beside-a-mesh-moved-before beside-a-mesh-moved-after when-a-motion-ends)
 add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case
   STYLES contact/local dissipation gran/insitu CASES
   sjkr sjkr2 sjkr-reduces-friction sjkr-no-history sjkr-limit-force neutral neutral-slippery neutral-two-types)

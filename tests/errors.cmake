@@ -136,7 +136,7 @@ add_cases(run/guard-messages errors/messages.py LABEL error STYLES run/guard CAS
 add_cases(stress/contact-messages errors/messages.py LABEL error
   STYLES stress/contact contact/grain contact/local velocity/memory CASES
   beyond-the-end of-another-kind index-that-is-none name-that-is-none
-  variable-that-is-none misspelt-style)
+  names-of-files variable-that-is-none misspelt-style)
 add_cases(stress/contact-messages errors/messages.py LABEL error STYLES stress/contact RANKS 1 2 CASES
   only-the-wrong-one)
 if(NOT GRAINSCOPE_VTK)

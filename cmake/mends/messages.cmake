@@ -84,3 +84,15 @@ set(equal "      if (input->variable->equalstyle(ivariable)) kindflag = GLOBAL;"
 set(none "      if (ivariable < 0) error->all(FLERR,\"Variable name for fix ave/histo does not exist\");\n")
 mend(fix_ave_histo.cpp "${find}${equal}" "${find}${none}${equal}"
      "a variable that does not exist crashes fix ave/histo")
+
+# An index of ten digits or more becomes another one: `c_s[4294967297]` is c_s[1], and others lie outside the vector.
+mend_message(variable.cpp "\n  int index = atoi(start);" "\n  int index = grainscope::whole_index(start);"
+             "a long index in brackets is read as another index")
+# `vx[99999]` looks for a grain beyond the table of grains.
+mend(variable.cpp "\n  int index = atom->map(id);" "\n  int index = id <= atom->map_tag_max ? atom->map(id) : -1;"
+     "a variable with the ID of a grain that does not exist reads memory that is not its own")
+
+# print "${s_P}"
+mend_message(input.cpp "error->one(FLERR,\"Substitution for illegal variable\");"
+             "error->all(FLERR,grainscope::without_value(lmp,var).c_str());"
+             "the message about a variable in a command does not name it")

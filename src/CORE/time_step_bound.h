@@ -16,7 +16,8 @@ namespace grainscope {
 namespace time_step {
 
 constexpr double limit = 4.0;
-/** Below this share the contact network cannot reach `limit` (smallest over all packings of doc/stability.md: 0.47). */
+/** Below this share the contact network cannot reach `limit` (smallest over all packings of doc/stability_data.md:
+ *  0.47). */
 constexpr double harmless = 0.4;
 
 /** (dt^2 k + 2 dt gamma_n)/m_eff of one contact [-], k the tangent stiffness. */

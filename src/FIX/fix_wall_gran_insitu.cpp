@@ -205,8 +205,7 @@ void FixWallGranInsitu::init() {
   impl_->contacts.reset(new ContactReader(impl_->pair->observer()));
   impl_->contacts->set_law(law);
   impl_->takes_part = impl_->pair->observer().add_wall();
-  restart_global = impl_->pair->evaluation_memory() && is_mesh_wall() && is_moving();
-  if (restart_global && !impl_->kept) impl_->velocities.keep(meshes());
+  restart_global = keeps_velocities() && (is_moving() || !impl_->velocities.empty());
   std::vector<grainscope::Wall> before;
   for (int k = 0; k < modify->nfix && modify->fix[k] != this; k++)
     if (FixWallGranInsitu *wall = dynamic_cast<FixWallGranInsitu *>(modify->fix[k])) wall->add_to(before);
@@ -244,6 +243,8 @@ void FixWallGranInsitu::setup(int vflag) {
   const std::shared_ptr<grainscope::EvaluationMemory> memory = impl_->pair ? impl_->pair->evaluation_memory() : nullptr;
   if (memory && memory->repeats()) {
     memory->swap();
+    grainscope::MeshVelocities now(lmp);  // a mesh that no longer moves is at rest after this evaluation
+    now.keep(meshes());
     impl_->velocities.restore(meshes());
     {
       const grainscope::KeptWallHistory kept(*this, fix_history_primitive_, atom->nlocal);
@@ -251,13 +252,24 @@ void FixWallGranInsitu::setup(int vflag) {
       FixWallGran::setup(vflag);
       impl_->time_level.set_repeats(false);
     }
+    now.restore(meshes());
     memory->swap();
   } else {
-    if (restart_global) impl_->velocities.keep(meshes());
+    if (keeps_velocities()) impl_->velocities.keep(meshes());
     FixWallGran::setup(vflag);
   }
-  impl_->kept = restart_global;  // a fix that moves a mesh and is set up later sets its velocity to zero
+  impl_->kept = keeps_velocities();  // a fix that moves a mesh and is set up later sets its velocity to zero
 }
+
+/** Before the next command, which may end the motion of a mesh. */
+void FixWallGranInsitu::post_run() {
+  FixWallGran::post_run();
+  if (impl_->kept || !keeps_velocities()) return;
+  impl_->velocities.keep(meshes());
+  impl_->kept = true;
+}
+
+bool FixWallGranInsitu::keeps_velocities() { return is_mesh_wall() && impl_->pair && impl_->pair->evaluation_memory(); }
 
 void FixWallGranInsitu::post_force(int vflag) {
   impl_->kept = false;

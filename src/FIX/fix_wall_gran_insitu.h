@@ -44,6 +44,7 @@ class FixWallGranInsitu : public FixWallGran, public grainscope::WallContactsOwn
   void init() override;
   void setup(int vflag) override;
   void post_force(int vflag) override;
+  void post_run() override;
   void write_restart(FILE *file) override;
   void restart(char *buffer) override;
   int add_history_value(std::string name, std::string newtonflag) override;
@@ -63,6 +64,7 @@ class FixWallGranInsitu : public FixWallGran, public grainscope::WallContactsOwn
   grainscope::ContactLaw law_of_models();
 
   std::vector<TriMesh *> meshes();
+  bool keeps_velocities();
   void require_across_plane();
 };
 

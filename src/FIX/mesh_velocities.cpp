@@ -58,6 +58,7 @@ void MeshVelocities::restore(const std::vector<TriMesh *> &meshes) const {
     for (int i = 0; v && i < meshes[k]->sizeLocal() + meshes[k]->sizeGhost(); i++) {
       const auto found = of.find({static_cast<int>(k), meshes[k]->id(i)});
       if (found != of.end()) std::copy(found->second, found->second + 9, v[i][0]);
+      else std::fill_n(v[i][0], 9, 0.0);
     }
   }
 }

@@ -19,12 +19,14 @@ class MeshVelocities : private LAMMPS_NS::Pointers {
 
   /** Forgets what was kept and keeps those of `meshes`. Collective. */
   void keep(const std::vector<LAMMPS_NS::TriMesh *> &meshes);
-  /** Gives them back to the triangles that are on this rank now, ghosts included. Same meshes in the same order. */
+  /** Gives them back to the triangles that are on this rank now, ghosts included; those that had none get zero. Same
+   *  meshes in the same order. */
   void restore(const std::vector<LAMMPS_NS::TriMesh *> &meshes) const;
 
   /** In restart files: `width` numbers for each triangle. */
   static constexpr int width = 11;  // number of the mesh, ID of the triangle, velocities of its three nodes
   const std::vector<double> &numbers() const { return numbers_; }
+  bool empty() const { return numbers_.empty(); }
   void set_numbers(const double *numbers, std::size_t n) { numbers_.assign(numbers, numbers + n); }
 
  private:

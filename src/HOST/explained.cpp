@@ -12,6 +12,7 @@
 #include "variable.h"
 #include <algorithm>
 #include <cctype>
+#include <climits>
 #include <cstdlib>
 #include <cstring>
 #include <map>
@@ -52,7 +53,7 @@ std::vector<Reference> references_in(const std::string &text) {
     while (in_name(end)) end++;
     Reference one{"", text.substr(at + 2, end - at - 2), text[at], {}};
     while (end < text.size() && text[end] == '[') {
-      one.indices.push_back(std::atoi(text.c_str() + end + 1));
+      one.indices.push_back(whole_index(text.c_str() + end + 1));
       end = std::min(text.find(']', end), text.size() - 1) + 1;
     }
     one.text = text.substr(at, end - at);
@@ -142,10 +143,26 @@ std::string describe_missing_variable(const std::string &name, const LAMMPS_NS::
          (defined_by.empty() ? "" : (nearest.empty() ? ": " : " ") + defined_by);
 }
 
+/** Whether a word of a command begins with a reference, and is not the name of a file as c_run.txt. */
+bool is_reference(const std::string &word) {
+  const std::vector<Reference> found = references_in(word);
+  return !found.empty() && word.rfind(found[0].text, 0) == 0 && (word == found[0].text || !found[0].indices.empty());
+}
+
+/** The formula, or the words of the command that are references or texts with some. */
+std::string with_references(const Input &input) {
+  if (formula) return formula;
+  std::string text;
+  for (int k = 0; k < input.narg; k++) {
+    const std::string word = input.arg[k];
+    if (word.find_first_of(" (") != std::string::npos || is_reference(word)) text += " " + word;
+  }
+  return text;
+}
+
 /** What the references of the formula or command may give; if some of them cannot be right, only these. */
 std::string about_outputs(LAMMPS *lmp) {
-  std::string text = formula ? formula : "";
-  for (int k = 0; !formula && k < lmp->input->narg; k++) text += std::string(" ") + lmp->input->arg[k];
+  const std::string text = with_references(*lmp->input);
   const LAMMPS_NS::Modify &modify = *lmp->modify;
   std::vector<Description> all;
   for (const Reference &r : references_in(text)) {
@@ -214,8 +231,19 @@ std::string explained(LAMMPS *lmp, const char *message) {
   return text + about_style(lmp, text);
 }
 
+std::string without_value(LAMMPS *lmp, const char *name) {
+  const std::string message = "Substitution for illegal variable; ";
+  if (lmp->input->variable->find(const_cast<char *>(name)) < 0)
+    return message + describe_missing_variable(name, *lmp->modify);
+  return message + "variable '" + name + "' has no value here";
+}
+
 FormulaUnderway::FormulaUnderway(const char *text) : outer_(formula) { formula = text; }
 FormulaUnderway::~FormulaUnderway() { formula = outer_; }
+
+int whole_index(const char *digits) {
+  return static_cast<int>(std::min(std::strtol(digits, nullptr, 10), static_cast<long>(INT_MAX)));
+}
 
 int index_in_brackets(LAMMPS *lmp, const char *brackets) {
   const char *digits = brackets + 1, *end = digits + std::strspn(digits, "0123456789");

@@ -50,6 +50,12 @@ class FormulaUnderway {
 /** The index in "[3]"; an error unless it is one whole number from 1 up. */
 int index_in_brackets(LAMMPS_NS::LAMMPS *lmp, const char *brackets);
 
+/** The number that `digits` begins with; the largest int in place of a larger one. */
+int whole_index(const char *digits);
+
+/** The error of a command with ${name}, where it has no value. */
+std::string without_value(LAMMPS_NS::LAMMPS *lmp, const char *name);
+
 }
 
 #endif

@@ -69,9 +69,13 @@ def same_in_both(ranks):
 
 
 def tracked():
-    """Files of the source tree, without what was built or run in it."""
-    done = subprocess.run(["git", "-C", SOURCE, "ls-files"], capture_output=True, text=True, check=True)
-    return [line for line in done.stdout.splitlines() if (SOURCE / line).is_file()]
+    """Files of the source tree, without what was built or run in it; also of one that is no git clone."""
+    done = subprocess.run(["git", "-C", SOURCE, "ls-files"], capture_output=True, text=True)
+    if done.returncode == 0:
+        return [line for line in done.stdout.splitlines() if (SOURCE / line).is_file()]
+    not_ours = {".git", "build", "out", "__pycache__"}
+    files = [file.relative_to(SOURCE) for file in SOURCE.rglob("*") if file.is_file()]
+    return [str(file) for file in files if not not_ours & set(file.parts)]
 
 
 def admitted_by_docker():

@@ -123,6 +123,30 @@ def beside_a_moving_mesh(order):
     return case
 
 
+def when_a_motion_ends(ranks):
+    """A mesh whose motion ended is at rest: as one that is moved on by nothing, to the last bit. Only the first
+    evaluation, which repeats the last one, has the velocities of the motion."""
+
+    def grains_after(*end):
+        deck = on_a_wall(0.5, "mesh", "setup neutral")
+        mesh, wall = deck.body[:2]
+        move = "fix move all move/mesh mesh floor linear 2.0 0 0"
+        measures = ["compute loss all dissipation mode instantaneous", *thermo(1, *AT_WALLS)]
+        deck.body = [mesh, move, wall, *measures, "run 5", "run 5", "unfix move", *end]
+        deck.body += [*dump_grains(deck.packing, 1), "run 0", "run 20", "run 20"]
+        result = run_in_folder_with_floor(deck, ranks)
+        _, moved, repeated, *later = result.thermo()
+        require(moved[AT_WALLS[1]][-1] > 0.0, "nothing slides on the mesh: nothing is proved")
+        for name in AT_WALLS:
+            require_close(repeated[name][0], moved[name][-1], REPEATED, name)
+            require_close(later[1][name][0], later[0][name][-1], REPEATED, name)
+        return result.dump("grains.dump")
+
+    ended = grains_after()
+    still = grains_after("fix still all move/mesh mesh floor linear 0 0 0")
+    require_same_snapshots(ended, still, "against a mesh that is moved by nothing")
+
+
 def after_a_change(ranks):
     """Springs are loaded, and the velocities are others: nothing that is remembered holds."""
     deck = passing(extra="setup neutral", material=Material(friction=(0.5,)))
@@ -224,6 +248,7 @@ CASES = {
     "repeated-row": repeated_row,
     "beside-a-mesh-moved-before": beside_a_moving_mesh("move first"),
     "beside-a-mesh-moved-after": beside_a_moving_mesh("wall first"),
+    "when-a-motion-ends": when_a_motion_ends,
     "after-a-change": after_a_change,
     "below-the-limit": below_the_limit,
     "packings": packings,

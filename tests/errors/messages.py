@@ -307,6 +307,9 @@ def index_that_is_none(ranks):
     for name in ("thermo", "print"):
         for bad in ("[*]", "[0]", "[-1]", "[2x]", "[1.5]"):
             require_refused(lines_with(PLACES[name], f"c_stress{bad}"), ranks, f"c_stress{bad}: {STRESS}")
+        for bad in ("[4294967297]", "[4294967290]", "[99999999999999999999]"):  # 1 and -6 as an int, and no int
+            deck = lines_with(PLACES[name], f"c_stress{bad}")
+            require_refused(deck, ranks, "out-of-range", f"c_stress{bad}: {STRESS}")
     places = [("c_stress", place) for place in (PLACES["ave-correlate"], PLACES["ave-histo"], SLICE)]
     places += [("c_grain", place) for place in GRAIN_PLACES.values()]
     places += [("c_rows", place) for place in LOCAL_PLACES.values()]
@@ -329,6 +332,13 @@ def name_that_is_none(ranks):
     require("did you mean" not in result.output, "a guess from nowhere")
 
 
+def names_of_files(ranks):
+    """They are not taken for outputs, whatever they begin with."""
+    for file in ("c_run.txt", "v_run.dump", "f_run-2.txt"):
+        result = require_refused(lines_with((f"dump d all local 1 {file} {{}}",), "c_stress"), ranks, STRESS)
+        require("there is no" not in result.output, "the file is described")
+
+
 PAGE = "'outputs stress' defines variables for all its outputs (doc/compute_stress_contact.md)"
 
 
@@ -342,6 +352,12 @@ def variable_that_is_none(ranks):
     for name in ("thermo", "print", "ave-time"):
         place = ("outputs stress", *PLACES[name])
         require_refused(lines_with(place, "v_stress_mu_ef"), ranks, f"{misspelt} {PAGE} (")
+    for text in ('print "P = ${}"', 'if "${} > 1" then "print large"', "velocity all set ${} 0 0"):
+        deck = lines_with((text.replace("{}", "{stress_P}"),), "")
+        words = f"v_stress_P: there is no variable 'stress_P': {PAGE} ("
+        require_refused(deck, ranks, "Substitution for illegal variable; ", words)
+    deck = lines_with(("variable all atom vx", 'print "${all}"'), "")
+    require_refused(deck, ranks, "Substitution for illegal variable; variable 'all' has no value here (")
     deck = lines_with(PLACES["print"], "v_quite_another")
     require_refused(deck, ranks, "v_quite_another: there is no variable 'quite_another' (")
 
@@ -398,6 +414,7 @@ CASES = {
     "only-the-wrong-one": only_the_wrong_one,
     "index-that-is-none": index_that_is_none,
     "name-that-is-none": name_that_is_none,
+    "names-of-files": names_of_files,
     "variable-that-is-none": variable_that_is_none,
     "misspelt-style": misspelt_style,
     "dumps-that-need-vtk": dumps_that_need_vtk,
