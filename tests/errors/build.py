@@ -128,7 +128,7 @@ def mended_where_needed(ranks):
     set_mends(copy, "0.0", "0.0")
     output, build = configured(copy)
     staged = stage_of(build) / "domain.cpp"
-    require("domain.cpp: prd_lamda of 0 loses atoms of triclinic boxes" in output, output)
+    require("domain.cpp: prd_lamda is 0, which loses atoms of triclinic boxes" in output, output)
     require(not staged.is_symlink(), "the mended file is still a link")
     text = staged.read_text(errors="replace")
     require(LAMDA.format("1.0") in text and HALF_LAMDA.format("0.5") in text, "domain.cpp was not mended")
