@@ -25,7 +25,8 @@ install(PROGRAMS tools/grainscope-tools DESTINATION ${CMAKE_INSTALL_BINDIR})
 
 # Beside each other as in the source tree, since their links and tools/ go from one to another.
 set(share ${CMAKE_INSTALL_DATADIR}/grainscope)
-install(FILES README.md ARCHITECTURE.md CONTRIBUTING.md CHANGELOG.md CITATION.cff .zenodo.json LICENSE DESTINATION ${share})
+install(FILES README.md ARCHITECTURE.md CONTRIBUTING.md CHANGELOG.md CITATION.cff .zenodo.json LICENSE
+        DESTINATION ${share})
 install(DIRECTORY doc DESTINATION ${share})
 install(DIRECTORY examples tools DESTINATION ${share} USE_SOURCE_PERMISSIONS
         PATTERN __pycache__ EXCLUDE PATTERN out EXCLUDE)
