@@ -1,4 +1,4 @@
-# A Debian package of what is installed: cpack --config <build folder>/CPackConfig.cmake
+# A Debian package of what is installed: cpack --config <build folder>/CPackConfig.cmake. Needs dpkg-dev and file.
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "The grainscope developers <developers@grainscope.invalid>" CACHE STRING
