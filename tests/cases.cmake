@@ -706,7 +706,7 @@ add_cases(documentation-browser cases/browser.py LABEL case STYLES documentation
   pages-fit search-finds)
 add_cases(documentation-commonmark cases/commonmark.py LABEL case STYLES documentation LONG_RANKS 1 CASES
   blocks-of-pages)
-add_cases(suite-style cases/style.py LABEL case STYLES suite style CASES clang-format black flake8 citation)
+add_cases(suite-style cases/style.py LABEL case STYLES suite style CASES clang-format black flake8 imports citation)
 add_cases(suite-style cases/style.py LABEL long STYLES suite style CASES clang-tidy)
 
 # Two dimensions: discs, whatever the box's depth is

@@ -7,7 +7,15 @@ import numpy as np
 from dt_tools import HERE, column, rows_of
 
 sys.path.insert(0, str(HERE.parents[1] / "tools"))
-from figure_style import Line2D, log_scale, plt, save, shape_colour, shape_handle, shape_marker  # noqa: E402
+from grainscope.figures.style import (
+    Line2D,
+    log_scale,
+    plt,
+    save,
+    shape_colour,
+    shape_handle,
+    shape_marker,
+)  # noqa: E402
 
 ALPHAS, RULE = ("3", "1.5", "1", "0.33"), 0.15
 TITLES = {"1e-5": r"a  packings under $10^{-5} E$", "1e-3": r"b  packings under $10^{-3} E$"}

@@ -7,7 +7,7 @@ import numpy as np
 from dt_tools import HERE, column, rows_of
 
 sys.path.insert(0, str(HERE.parents[1] / "tools"))
-from figure_style import RUN_COLOURS, Line2D, log_scale, plt, save  # noqa: E402
+from grainscope.figures.style import RUN_COLOURS, Line2D, log_scale, plt, save  # noqa: E402
 
 GRAINS = list(zip(("3", "0.33", "0.1"), RUN_COLOURS, "osD"))  # alpha, colour, marker
 TURN = r"$\omega\,\Delta t$"

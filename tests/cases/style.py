@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Format and faults of the source files, by the tools and options that CONTRIBUTING.md names: what they would change is
 printed, with the command that mends it."""
+import ast
 from concurrent.futures import ThreadPoolExecutor
 import difflib
 import json
@@ -9,6 +10,7 @@ from pathlib import Path
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 
 from case import main, require
@@ -93,6 +95,34 @@ def flake8(ranks):
     require(code == 0, f"to be mended by hand:\n{first_lines(shown + complaint)}")
 
 
+# Packages of others, which a script may lack until it is installed; all else that is imported must be in the tree.
+OTHERS = set(
+    "numpy scipy matplotlib pandas yaml PIL snakemake mkdocs markdown markdown_it selenium paraview vtkmodules".split()
+)
+
+
+def imports(ranks):
+    """Modules of the project are where they are imported from, also those of scripts that no test runs."""
+    shared = [SOURCE / folder for folder in ("tools", "tests", "tests/tools", "tests/cases", "scripts/site")]
+    missing, seen = [], 0
+    for file in python_files():
+        path = SOURCE / file
+        for node in ast.walk(ast.parse(path.read_text())):
+            names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+            if isinstance(node, ast.ImportFrom) and node.level == 0:
+                names = [node.module]
+            for name in names:
+                if name.split(".")[0] in sys.stdlib_module_names | OTHERS:
+                    continue
+                seen += 1
+                part = Path(*name.split("."))
+                places = [folder / part for folder in (path.parent, *shared)]
+                if not any(place.with_suffix(".py").exists() or place.is_dir() for place in places):
+                    missing.append(f"{file}: {name}")
+    require(seen > 100, f"only {seen} imports were looked at")
+    require(not missing, "no such module: " + "; ".join(missing))
+
+
 def clang_tidy(ranks):
     """Kernels and styles, as they are compiled; headers through the files that include them."""
     commands = (BUILD / "compile_commands.json").read_text().replace(" -fno-canonical-system-headers", "")  # gcc's
@@ -129,6 +159,7 @@ main(
         "clang-format": clang_format,
         "black": black,
         "flake8": flake8,
+        "imports": imports,
         "clang-tidy": clang_tidy,
         "citation": citation,
     }
