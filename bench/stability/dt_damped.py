@@ -10,9 +10,7 @@ Stages, each of which leaves rows in a csv file beside this script and goes on w
   flow    of the packings sheared at I = 0.1: the ledger, and the warning of the time step
   chart   of all of them: doc/images/stability_damped.png
 """
-import argparse
 import math
-import pathlib
 import re
 import sys
 
@@ -22,7 +20,7 @@ import dt_damped_chart
 from dt_map import LEDGER, grows
 from dt_network import Network
 from dt_pairs import Pairs
-from dt_tools import Runner, Table, rayleigh_time, rows_of
+from dt_tools import Table, rayleigh_time, rows_of, run_stages
 
 ALPHAS = (0.33, 1.0, 1.5, 3.0)
 PRESSURES = ("1e-5", "1e-3")  # over the smallest semi-axis ratio and Young's modulus
@@ -132,16 +130,5 @@ def chart(_):
     dt_damped_chart.draw()
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("binary", type=pathlib.Path, help="the grainscope binary")
-    parser.add_argument("stages", nargs="*", default=["theory", "growth", "pairs", "flow", "chart"])
-    parser.add_argument("--work", type=pathlib.Path, default=pathlib.Path("dt_map.work"), help="folder of packings")
-    arguments = parser.parse_args()
-    runner = Runner(arguments.binary, arguments.work)
-    for stage in arguments.stages:
-        getattr(sys.modules[__name__], stage)(runner)
-
-
 if __name__ == "__main__":
-    main()
+    run_stages(sys.modules[__name__], ("theory", "growth", "pairs", "flow", "chart"), "folder of packings")

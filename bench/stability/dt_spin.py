@@ -10,16 +10,14 @@ Stages, each of which leaves rows in a csv file beside this script and goes on w
   free   tumbling in free flight for 100,000 steps, against the closed form
   chart  doc/images/stability_spin.png
 """
-import argparse
 import math
-import pathlib
 import sys
 
 import numpy as np
 
 import dt_spin_chart
 from dt_pairs import Pairs
-from dt_tools import DENSITY, SHEAR_MODULUS, Runner, Table, axes_of, hertz_time, rayleigh_time, read_dump, unit
+from dt_tools import DENSITY, SHEAR_MODULUS, Table, axes_of, hertz_time, rayleigh_time, read_dump, run_stages, unit
 
 ALPHAS = (0.1, 0.33, 3.0)
 TURNS = ("0.001", "0.003", "0.01", "0.03", "0.1", "0.3", "1")  # rad per step
@@ -288,16 +286,5 @@ def chart(_):
     dt_spin_chart.draw()
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("binary", type=pathlib.Path, help="the grainscope binary")
-    parser.add_argument("stages", nargs="*", default=["hits", "lists", "law", "free", "chart"])
-    parser.add_argument("--work", type=pathlib.Path, default=pathlib.Path("dt_map.work"), help="scratch folder")
-    arguments = parser.parse_args()
-    runner = Runner(arguments.binary, arguments.work)
-    for stage in arguments.stages:
-        getattr(sys.modules[__name__], stage)(runner)
-
-
 if __name__ == "__main__":
-    main()
+    run_stages(sys.modules[__name__], ("hits", "lists", "law", "free", "chart"), "scratch folder")

@@ -1,6 +1,7 @@
 """What dt_map.py and limits.py share: the material, tables that grow, runs of the decks of this folder and what they
 dump."""
 
+import argparse
 import csv
 import math
 import os
@@ -130,3 +131,17 @@ def rows_of(name, **wanted):
 
 def column(rows, name):
     return np.array([float(row[name]) for row in rows])
+
+
+def run_stages(script, stages, about_folder):
+    """The command line of a script whose stages are functions of a Runner."""
+    parser = argparse.ArgumentParser(description=script.__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("binary", type=pathlib.Path, help="the grainscope binary")
+    parser.add_argument("stages", nargs="*", default=list(stages), help=f"of {', '.join(stages)} (default: all)")
+    parser.add_argument("--work", type=pathlib.Path, default=pathlib.Path("dt_map.work"), help=about_folder)
+    arguments = parser.parse_args()
+    runner = Runner(arguments.binary, arguments.work)
+    for stage in arguments.stages:
+        if stage not in stages:
+            parser.error(f"stages must be of {', '.join(stages)}, got '{stage}'")
+        getattr(script, stage)(runner)

@@ -9,7 +9,7 @@ import numpy as np
 from grainscope.errors import warn
 from grainscope.figures.paper import draw_figures
 from grainscope.figures.style import RUN_COLOURS
-from grainscope.shear.output import read_run
+from grainscope.shear.output import add_run_arguments, read_run
 
 NORMAL, FRICTION, INPUT = "#4477AA", "#EE9966", "#222222"
 PANELS = [
@@ -118,15 +118,8 @@ def draw_over_strain(runs, start, output):
 
 
 def add_arguments(parser):
-    parser.add_argument("run", nargs="+", help="output folder of a run (it holds series.txt and parameters.txt)")
+    add_run_arguments(parser)
     parser.add_argument("--output", default=".", metavar="FOLDER", help="where the pictures go (default: here)")
-    parser.add_argument(
-        "--from",
-        dest="start",
-        type=float,
-        metavar="STRAIN",
-        help="where the steady state starts (default: 6, or 4 below I = 0.01, at most half the run)",
-    )
 
 
 def run(arguments):

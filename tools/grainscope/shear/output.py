@@ -116,3 +116,15 @@ def read_run(folder):
     parameters = read_parameters(folder)
     last = Columns(parameters.path, ((name, values[-1]) for name, values in parameters.items()))
     return Run(folder.resolve().name, last, columns, units, folder)
+
+
+def add_run_arguments(parser):
+    """What every command about finished runs takes."""
+    parser.add_argument("run", nargs="+", help="output folder of a run (it holds series.txt and parameters.txt)")
+    parser.add_argument(
+        "--from",
+        dest="start",
+        type=float,
+        metavar="STRAIN",
+        help="where the steady state starts (default: 6, or 4 below I = 0.01, at most half the run)",
+    )

@@ -4,7 +4,7 @@ import numpy as np
 
 from grainscope.means import mean_and_error, text_of
 from grainscope.shear.measures import steady_run
-from grainscope.shear.output import read_run
+from grainscope.shear.output import add_run_arguments, read_run
 
 # Column, title, factor
 ROWS = [
@@ -80,14 +80,7 @@ def add_arguments(parser):
         "Powers are over rate x target pressure x volume. The inertial number is that of the mean pressure. Errors: "
         "one standard deviation, by blocking."
     )
-    parser.add_argument("run", nargs="+", help="output folder of a run (it holds series.txt and parameters.txt)")
-    parser.add_argument(
-        "--from",
-        dest="start",
-        type=float,
-        metavar="STRAIN",
-        help="where the steady state starts (default: 6, or 4 below I = 0.01, at most half the run)",
-    )
+    add_run_arguments(parser)
 
 
 def run(arguments):
