@@ -1,11 +1,16 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
 """How the time step shifts steady means: the tables of doc/accuracy_data.md and their figures, from steady.csv,
-onset.csv and, for energies and times, results.csv. Runs nothing."""
+onset.csv and, for energies and times, results.csv. Runs nothing.
+
+    steady_chart.py            # prints the tables, draws the figures
+    steady_chart.py --write    # and puts the tables in the place of those of the page
+"""
 import argparse
 import csv
 import math
 import pathlib
+import re
 
 import numpy as np
 
@@ -29,6 +34,7 @@ from chart import (
 )
 from steady import QUANTITIES, RESULTS, SERIES, SHARE, of_series, read_results
 
+PAGE = ROOT / "doc" / "accuracy_data.md"
 LABELS = dict(zip(QUANTITIES, (r"$\mu_{eff}$", r"$\phi$", "$Z$", r"$P_n$", r"$P_t$")))
 LINES = {0.0: ":", 0.4: "-", 10.0: "--"}
 POWERS = ("P_n", "P_t")
@@ -109,8 +115,8 @@ def kinds(flows):
             yield f"I = {inertial:g}" + ("" if mu is None else f", mu_p = {mu:g}"), found
 
 
-def print_shifts(flows):
-    table(
+def table_of_shifts(flows):
+    return (
         "Shift of each mean at 0.15 T_R, %: the curve through all steps",
         ["alpha", "mu_p", "I", "strain, all steps", *QUANTITIES, "chi^2 per degree of freedom"],
         [
@@ -122,7 +128,7 @@ def print_shifts(flows):
     )
 
 
-def print_kinds(flows):
+def table_of_kinds(flows):
     rows = []
     for fraction in CHARTED:
         for name, found in kinds(flows):
@@ -131,10 +137,10 @@ def print_kinds(flows):
                 there = [one for one in found if q in one.curves]
                 cells.append(percent(*pooled(there, q, fraction)) if there else "")
             rows.append([f"{fraction:g}", name, *cells])
-    table("Shift by kind of flow, %", ["dt / T_R", "flows", *QUANTITIES], rows)
+    return ("Shift by kind of flow, %", ["dt / T_R", "flows", *QUANTITIES], rows)
 
 
-def print_means(flows):
+def table_of_means(flows):
     rows = []
     for one in flows:
         for number, (fraction, blocks) in enumerate(one.blocks.items()):
@@ -144,16 +150,16 @@ def print_means(flows):
                 mean = one.means[q][number] if q in one.means else None
                 cells.append(f"{mean.value:.5f} ± {mean.error:.5f}" if mean else "")
             rows.append(cells)
-    table("Means", ["alpha", "mu_p", "I", "dt / T_R", "strain", *QUANTITIES], rows)
+    return ("Means", ["alpha", "mu_p", "I", "dt / T_R", "strain", *QUANTITIES], rows)
 
 
-def print_energy(results):
+def table_of_energy(results):
     rows = []
     for fraction, name in results.steps("account", mu=0.4, I=0.1):
         times = [relative_time(results, alpha, name) for alpha in ALPHAS]
         errors = [f"{100 * energy_error(results, alpha, name):.1g}" for alpha in ALPHAS]
         rows.append([f"{fraction:g}", f"{np.mean(times):.2f}", *errors])
-    table(
+    return (
         "Energy error, |G_dt| over D_n + D_t, %",
         ["dt / T_R", "time", *(f"alpha = {alpha:g}" for alpha in ALPHAS)],
         rows,
@@ -181,7 +187,7 @@ def read_onset():
         return [{name: value if name == "quantity" else float(value) for name, value in row.items()} for row in rows]
 
 
-def print_onset(onset):
+def table_of_onset(onset):
     """Differences in the first row, in the five after it and in the last four."""
     rows = []
     flows = dict.fromkeys((row["alpha"], row["mu"]) for row in onset)
@@ -196,7 +202,7 @@ def print_onset(onset):
                     error = math.sqrt(sum(row["error"] ** 2 for row in values[part])) / len(values[part])
                     cells.append("" if quantity == "P_t" and mu == 0 else percent(mean, error))
             rows.append(cells)
-    table(
+    return (
         "Runs of 0.3 T_R against those of 0.01 from the same states, %, in units of T_R since the start",
         ["alpha", "mu_p", "state by"]
         + [f"{q}, {t}" for q in ("sigma_xy", "P_n", "P_t") for t in ("0-6", "6-36", "36-60")],
@@ -319,20 +325,42 @@ def draw_cost(results, flows, path):
     save(figure, path)
 
 
+def with_tables(page, tables):
+    """The page with the rows of the tables that have the same heads."""
+    for title, columns, rows in tables:
+        head = "| " + " | ".join(columns) + " |\n" + "|---" * len(columns) + "|\n"
+        before, found, after = page.partition(head)
+        if not found:
+            raise SystemExit(
+                f"steady_chart.py: {PAGE.name} has no table '{title}', with the head {head.splitlines()[0]}"
+            )
+        lines = "".join("| " + " | ".join(row) + " |\n" for row in rows)
+        page = before + head + lines + re.sub(r"\A(\|.*\n)*", "", after)
+    return page
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--images", type=pathlib.Path, default=ROOT / "doc" / "images", help="folder of the figures")
-    images = parser.parse_args().images
+    parser.add_argument("--write", action="store_true", help=f"put the tables into {PAGE.relative_to(ROOT)}")
+    arguments = parser.parse_args()
+    images = arguments.images
     results, rows, onset = Results(HERE / "results.csv"), read_results(), read_onset()
     if not rows:
         raise SystemExit(f"steady_chart.py: {RESULTS} has no rows; steady.py makes them")
     flows = [one for series in SERIES if (one := FlowMeans(rows, series)).curves]
-    print_shifts(flows)
-    print_kinds(flows)
-    print_onset(onset)
-    print_means(flows)
-    print_energy(results)
+    tables = [
+        table_of_shifts(flows),
+        table_of_kinds(flows),
+        table_of_onset(onset),
+        table_of_means(flows),
+        table_of_energy(results),
+    ]
+    for one in tables:
+        table(*one)
     print_scatter(rows, flows)
+    if arguments.write:
+        PAGE.write_text(with_tables(PAGE.read_text(), tables))
     draw_steps(results, flows, images / "accuracy_step.png")
     draw_cost(results, flows, images / "accuracy_cost.png")
     draw_onset(onset, images / "accuracy_onset.png")
