@@ -29,7 +29,7 @@ COLUMNS = ("alpha", "mu", "I", "fraction", "seed", "block", "strain", *QUANTITIE
 SOLID = 4 / 3 * math.pi * 500 * np.mean(np.linspace(0.8, 1.2, 15) ** 3)  # volume of the grains over alpha
 
 # Strain that is wanted of each step over that of the flow, in the order in which steps are begun with.
-SHARE = {0.15: 0.75, 0.6: 1.5, 0.3: 1.0, 0.05: 0.25, 0.4: 0.6, 0.1: 0.3}
+SHARE = {0.15: 0.75, 0.6: 1.5, 0.3: 1.0, 0.4: 0.6, 0.05: 0.25, 0.1: 0.3}
 
 
 class Series:

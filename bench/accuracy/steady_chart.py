@@ -109,10 +109,10 @@ def pooled(flows, quantity, fraction):
 
 def kinds(flows):
     """Flows that are told together."""
-    for inertial, mu in ((0.1, 0.0), (0.1, 0.4), (0.1, 10.0), (0.01, None)):
-        found = [one for one in flows if one.flow.I == inertial and mu in (None, one.flow.mu)]
+    for inertial, mu in ((0.1, 0.0), (0.1, 0.4), (0.1, 10.0), (0.01, 0.4), (0.01, 10.0)):
+        found = [one for one in flows if (one.flow.I, one.flow.mu) == (inertial, mu)]
         if found:
-            yield f"I = {inertial:g}" + ("" if mu is None else f", mu_p = {mu:g}"), found
+            yield f"I = {inertial:g}, mu_p = {mu:g}", found
 
 
 def table_of_shifts(flows):
