@@ -348,7 +348,7 @@ add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} gran/
   restart-synchronized-spheres)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} gran/insitu RANKS 2 LONG_RANKS 4 CASES
   same-synchronized-spheres same-synchronized-spheroids)
-add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} gran/insitu setup/memory RANKS 1 2 CASES
+add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} gran/insitu setup/memory CASES
   restart-synchronized-spheroids)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS 1 2 CASES flip restart-continues)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS 1 2 LONG_RANKS 4 CASES
