@@ -69,7 +69,8 @@ add_cases(stress/contact+dissipation-lanes cases/lane_measures.py LABEL case
   spheroid-1.5-without-friction spheroid-1.5-limit-force)
 add_cases(stress/contact-range cases/ranges.py LABEL case STYLES stress/contact RANKS 1 LONG_RANKS 2 CASES kappa)
 add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation CASES
-  history-undamped no-history frictionless slippery limit-force)
+  history-undamped no-history frictionless slippery limit-force synchronized synchronized-no-history
+  synchronized-two-types)
 add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation RANKS 1 2 CASES
   history)
 add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation
@@ -318,9 +319,11 @@ add_cases(contact/solver-counts cases/contact_solver.py LABEL case STYLES contac
 # energy/ledger
 set(ledger energy/ledger ledger/record dissipation)
 add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} CASES
-  sheared-frictionless no-history polydisperse drift-kept)
+  sheared-frictionless no-history polydisperse drift-kept synchronized-damped synchronized-no-history
+  synchronized-open-and-close synchronized-under-pressure-control)
 add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} LONG_RANKS 1 CASES sheared-slippery)
-add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} RANKS 1 2 CASES sheared)
+add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} RANKS 1 2 CASES sheared
+  synchronized)
 add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} RANKS 1 2 LONG_RANKS 4 CASES
   three-rates)
 add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} RANKS 1 LONG_RANKS 2 CASES
@@ -335,6 +338,18 @@ add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} CASES
   sheared-1-mu-10 pressed-1.5-mu-0 pressed-1.5-mu-10 energy-of-hertz energy-of-hooke energy-with-curvature
   restart-before-the-first-step asked-within-a-step overlap-of-nothing lists reopening-spheres reopening-stale-springs
   reopening-spheroids step-mode-is-the-trapezium superquadric)
+add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} gran/insitu CASES
+  two-spheres-default-synchronized two-superquadric-synchronized two-spheres-synchronized two-long-1.5-synchronized
+  two-flat-synchronized hooke-synchronized no-history-synchronized damped-synchronized superquadric-synchronized
+  lanes-synchronized-spheres lanes-synchronized-round lanes-synchronized-spheroids undisturbed-synchronized-spheres
+  undisturbed-synchronized-superquadrics restart-synchronized-superquadrics)
+add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} gran/insitu RANKS 1 LONG_RANKS 2 4 CASES
+  sheared-synchronized pressed-spheres-synchronized types-synchronized undisturbed-synchronized-spheroids
+  restart-synchronized-spheres)
+add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} gran/insitu RANKS 2 LONG_RANKS 4 CASES
+  same-synchronized-spheres same-synchronized-spheroids)
+add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} gran/insitu setup/memory CASES
+  restart-synchronized-spheroids)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS 1 2 CASES flip restart-continues)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS 1 2 LONG_RANKS 4 CASES
   restart-in-a-box-of-three-rates)
@@ -345,12 +360,13 @@ add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} LONG_RANKS 2 4 CASES same-spheres)
 add_cases(energy/ledger-walls cases/ledger_walls.py LABEL case STYLES ${ledger} wall/gran CASES
   bounce-plane bounce-plane-spheres bounce-long bounce-hooke bounce-no-history bounce-damped bounce-rolling shear moving
-  pulls frozen restarted-neutral)
+  pulls frozen restarted-neutral bounce-synchronized-spheres bounce-synchronized-long bounce-synchronized-superquadric
+  bounce-synchronized-no-history plate-synchronized restarted-synchronized-neutral)
 add_cases(energy/ledger-walls cases/ledger_walls.py LABEL case STYLES ${ledger} wall/gran RANKS 1 LONG_RANKS 2 4 CASES
   seen-from-outside bounce-mesh plate conveyor drum hopper-spheres drops-out between-runs in-a-box-that-shears
-  other-laws drained)
+  other-laws drained drum-synchronized drum-synchronized-walls drum-synchronized-grains hopper-synchronized)
 add_cases(energy/ledger-walls cases/ledger_walls.py LABEL case STYLES ${ledger} wall/gran RANKS 1 2 LONG_RANKS 4 CASES
-  hopper-spheroids torn-apart rained restarted in-a-box-that-stretches)
+  hopper-spheroids torn-apart rained restarted in-a-box-that-stretches restarted-synchronized)
 set(ledger_flows ${ledger} wall/gran wall/contact)
 add_cases(energy/ledger-flows cases/ledger_flows.py LABEL case STYLES ${ledger_flows} RANKS 1 LONG_RANKS 2 4 CASES
   small-silo small-drum)

@@ -161,10 +161,9 @@ add_cases(superquadric-data-file-refused errors/data_files.py LABEL error STYLES
 add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu CASES
   superquadrics-with-the-surface-of-spheres boxy-grains-without-a-surface wall-without-a-surface
   superquadrics-without-a-surface-under-gran synchronized-cohesion synchronized-rolling synchronized-without-friction
-  synchronized-surface synchronized-normal synchronized-ledger synchronized-under-gran synchronized-restart
-  restart-of-other-columns)
+  synchronized-surface synchronized-normal synchronized-under-gran synchronized-restart restart-of-other-columns)
 add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu wall/gran CASES
-  synchronized-wall synchronized-wall-misspelt synchronized-wall-with-ledger)
+  synchronized-wall synchronized-wall-misspelt)
 add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu RANKS 1 2 CASES
   superquadrics-without-a-surface)
 add_cases(displacement/shear-faces cases/moving_faces.py LABEL error STYLES displacement/shear CASES

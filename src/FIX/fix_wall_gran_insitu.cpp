@@ -192,10 +192,8 @@ void FixWallGranInsitu::init() {
   if (impl_->pair->keeps_past() && impl_->past_column < 0)
     grainscope::end_run(lmp, who() + "must be defined after 'pair_style gran/insitu ... ledger on', which keeps more "
                                      "numbers for each contact, got it defined before");
-  if (impl_->pair->keeps_past() && impl_->level)
-    grainscope::end_run(lmp, who() + "'time_level synchronized' needs pair_style gran/insitu with 'ledger off', got "
-                                     "'ledger on'");
   if (impl_->pair->keeps_past()) law.past_column = impl_->past_column;
+  law.synchronized = impl_->level != nullptr;
   if (law.tangential == TangentialLaw::spring) law.spring_column = impl_->column_of("shearx");
   if (law.tangential == TangentialLaw::viscous || law.tangential == TangentialLaw::spring) {
     force->registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);

@@ -156,8 +156,6 @@ void PairGranInsitu::synchronize() {
   if (!why.empty())
     error->all(FLERR,
                ("pair_style gran/insitu: 'time_level synchronized' " + why + ", got '" + impl_->models + "'").c_str());
-  if (impl_->ledger)
-    error->all(FLERR, "pair_style gran/insitu: 'time_level synchronized' needs 'ledger off', got 'ledger on'");
   const bool points = !contact_match("surface", "default");
   grainscope::TimeLevel::Columns columns;
   if (law.tangential == TangentialLaw::spring) columns.spring = column_of("shearx");
@@ -217,6 +215,7 @@ void PairGranInsitu::init_granular() {
   ContactLaw law = law_of_models();
   law.exponent = stressStrainExponent();
   law.past_column = impl_->past_column;
+  law.synchronized = impl_->level.synchronized();
   if (law.tangential == TangentialLaw::spring) law.spring_column = column_of("shearx");
   const int place = contact_match("surface", "ellipsoid") ? grainscope::EllipsoidSurface::lambda + 1 : 0;
   impl_->lane_law.connect(impl_->models, law.spring_column == place);

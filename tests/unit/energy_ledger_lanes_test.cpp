@@ -142,6 +142,8 @@ std::vector<RandomContacts> cases() {
           RandomContacts(TangentialLaw::spring, 5.0, true, 1.0),
           RandomContacts(TangentialLaw::spring, 0.4, false, 1.3),
           RandomContacts(TangentialLaw::viscous),
+          RandomContacts(TangentialLaw::spring, 5.0).synchronized(),
+          RandomContacts(TangentialLaw::viscous).synchronized(),
           RandomContacts(TangentialLaw::none)};
 }
 
@@ -186,7 +188,7 @@ TEST(energy_ledger_lanes, contacts_side_by_side_are_those_one_by_one) {
       }
       damped += lanes.here.totals()[EnergyLedger::D_damp] != 0.0;
     }
-  EXPECT_EQ(damped, 2 * 4);  // all but those without friction, which slide
+  EXPECT_EQ(damped, 2 * 6);  // all but those without friction, which slide
 }
 
 /** More grains on the rank, or fewer, than in the evaluation before: what was for ghosts is nobody's. */
@@ -273,7 +275,7 @@ TEST(energy_ledger_lanes, grains_side_by_side_are_those_one_by_one) {
 /** Of contacts that touch: what their history holds is taken if it is of the evaluation before, and what they are now
  *  is left there. */
 TEST(energy_ledger_lanes, the_past_is_taken_from_the_history_and_renewed) {
-  RandomContacts random(TangentialLaw::spring);
+  RandomContacts random = RandomContacts(TangentialLaw::spring).synchronized();
   const double half = 0.5 * DT;
   double history[LANES][9];
   random.many(
@@ -305,12 +307,12 @@ TEST(energy_ledger_lanes, the_past_is_taken_from_the_history_and_renewed) {
           }
           const double elastic = f.kn[k] * f.overlap[k];
           double moved = 0.0;
-          for (int l = 0; l < 3; l++) moved += f.after[l][k] * f.tangential_velocity[l][k];
+          for (int l = 0; l < 3; l++) moved += f.after[l][k] * f.tangential_at_force[l][k];
           EXPECT_EQ(is[0], 42.5);
           EXPECT_EQ(is[1], f.overlap[k]);
           EXPECT_EQ(is[2], elastic);
           EXPECT_EQ(is[3], f.kt[k]);
-          EXPECT_EQ(is[4], -half * elastic * f.normal_velocity[k]);
+          EXPECT_EQ(is[4], -half * elastic * f.normal_at_force[k]);
           EXPECT_EQ(is[5], half * f.kt[k] * moved);
         }
       },
