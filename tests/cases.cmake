@@ -694,7 +694,7 @@ add_cases(tools-render-scene cases/tools_render_scene.py LABEL case STYLES tools
 add_cases(tools-render-scene cases/tools_render_scene.py LABEL case STYLES tools contact/local
   RANKS 1 LONG_RANKS 2 CASES chains-of-a-run)
 add_cases(tools-render-film cases/tools_render_film.py LABEL case STYLES tools CASES
-  gif progress one-step walls-that-move missing-programs refusals scene-file)
+  gif progress one-view-at-a-time same-look one-step walls-that-move missing-programs refusals scene-file)
 add_cases(tools-render-film cases/tools_render_film.py LABEL case STYLES tools LONG_RANKS 1 CASES mp4)
 add_cases(tools-render-page cases/tools_render_page.py LABEL case STYLES tools contact/local CASES commands gallery)
 
