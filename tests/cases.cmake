@@ -229,17 +229,21 @@ add_cases(press/strain-runs cases/stress_path_runs.py LABEL case STYLES press/st
 add_cases(press/strain-runs cases/stress_path_runs.py LABEL case STYLES press/strain packing stress/contact
   LONG_RANKS 1 CASES critical-dense-and-loose critical-pressure-and-volume)
 
+# Fixes that wait for a step whose number is changed
+add_cases(stress/contact+field/write-renumbered cases/renumbered.py LABEL case STYLES stress/contact field/write RANKS 1
+  LONG_RANKS 2 CASES begun-again not-set-up higher)
+
 # press/wall
 add_cases(press/wall-analytic cases/press_wall_analytic.py LABEL case STYLES press/wall RANKS 1 LONG_RANKS 2 CASES
   automatic-gain-gives-way automatic-gain-of-hooke from-below-along-x along-y clipped clipped-by-maxrate starts-softly
-  two-dimensions in-cgs)
+  two-dimensions in-cgs follows-behind follows-with-a-base-of-hooke base-with-a-given-gain base-at-rest)
 add_cases(press/wall-analytic cases/press_wall_analytic.py LABEL case STYLES press/wall RANKS 1 2 CASES
-  automatic-gain-presses given-gain)
+  automatic-gain-presses given-gain follows-with-a-base)
 add_cases(press/wall-bed cases/press_wall.py LABEL case STYLES press/wall RANKS 1 2 LONG_RANKS 4 CASES
   holds-spheres restarted restarted-neutral)
 add_cases(press/wall-bed cases/press_wall.py LABEL case STYLES press/wall RANKS 1 LONG_RANKS 2 CASES
   holds-spheroids holds-hooke stable-every-step stable-rarely stable-bouncing stable-damped
-  target-follows-a-variable counts-time group)
+  target-follows-a-variable counts-time group sinking smaller-plates)
 add_cases(press/wall-bed cases/press_wall.py LABEL case STYLES press/wall RANKS 2 LONG_RANKS 4 CASES same-on-ranks)
 add_cases(press/wall-bed cases/press_wall.py LABEL case STYLES press/wall energy/ledger RANKS 1 LONG_RANKS 2 CASES
   energy)
@@ -610,7 +614,7 @@ add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall
   balance mesh-stress drum)
 add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall/gran RANKS 1 2 CASES impacts)
 add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall/gran CASES
-  couple weight rows-by-name power-of-a-plane losses areas impacts-resumed)
+  couple weight rows-by-name power-of-a-plane losses areas bounded impacts-resumed)
 add_cases(wall/triangle cases/wall_triangle.py LABEL case STYLES wall/triangle wall/contact RANKS 1 2 LONG_RANKS 4
   CASES rows wear)
 
@@ -710,7 +714,7 @@ add_cases(tools-render-scene cases/tools_render_scene.py LABEL case STYLES tools
 add_cases(tools-render-scene cases/tools_render_scene.py LABEL case STYLES tools contact/local
   RANKS 1 LONG_RANKS 2 CASES chains-of-a-run)
 add_cases(tools-render-film cases/tools_render_film.py LABEL case STYLES tools CASES
-  gif progress one-step walls-that-move missing-programs refusals scene-file)
+  gif progress one-view-at-a-time same-look one-step walls-that-move missing-programs refusals scene-file)
 add_cases(tools-render-film cases/tools_render_film.py LABEL case STYLES tools LONG_RANKS 1 CASES mp4)
 add_cases(tools-render-page cases/tools_render_page.py LABEL case STYLES tools contact/local CASES commands gallery)
 

@@ -178,13 +178,24 @@ add_cases(layering+velocity/correlation-not-finite errors/not_finite.py LABEL er
   contact-surface-ellipsoid contact-force packing)
 
 # Restart files of other versions
-set(states run/guard setup/memory grain/record ledger/record press/strain press/wall)
+set(states run/guard setup/memory grain/record ledger/record press/strain press/wall wall/gran)
 foreach(style IN LISTS states)
   add_cases(read_restart errors/restart_versions.py LABEL error STYLES read_restart ${style} CASES
     ${style}-version ${style}-size ${style}-without-a-version)
 endforeach()
 add_cases(read_restart errors/restart_versions.py LABEL error STYLES read_restart ${states} RANKS 1 2 CASES
   same-file-is-read former-seal not-by-an-input-script)
+
+# Restart files with walls: other models and settings, other IDs
+foreach(kind primitive mesh)
+  add_cases(wall/gran-restart errors/restart_walls.py LABEL error STYLES wall/gran read_restart CASES
+    ${kind}-other-models ${kind}-other-time-level ${kind}-without-the-time-level ${kind}-without-the-ledger
+    ${kind}-of-liggghts ${kind}-of-another-id)
+endforeach()
+add_cases(wall/gran-restart errors/restart_walls.py LABEL error STYLES wall/gran read_restart RANKS 2 CASES
+  primitive-other-models mesh-of-another-id)
+add_cases(read_restart errors/restart_walls.py LABEL error
+  STYLES read_restart press/strain displacement/shear energy/ledger RANKS 1 2 CASES state-of-another-id)
 
 # Outputs have names
 add_cases(outputs-refused errors/outputs.py LABEL error STYLES outputs CASES

@@ -193,6 +193,7 @@ void PairGranInsitu::init_style() {
         {{"ledger", "on", "off", ContactReader::past_columns, impl_->ledger},
          {"time_level", "synchronized", "host",
           contact_match("surface", "default") ? 0 : grainscope::TimeLevel::kept_columns, impl_->level.kept() >= 0}});
+  impl_->checks.warn_of_lost_states();
   impl_->renumbered = atom->natoms < impl_->grains && !grainscope::contacts_know_their_grains(lmp);
   if (impl_->renumbered && comm->me == 0)
     error->warning(FLERR, "grains got new IDs, and LIGGGHTS keeps tangential springs by ID: some springs now belong to "

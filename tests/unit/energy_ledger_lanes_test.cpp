@@ -231,6 +231,51 @@ TEST(energy_ledger_lanes, ghosts_of_the_step_before_are_no_grains) {
   }
 }
 
+/** A grain that leaves the group between two steps and comes back after the next: its work has no force from before. */
+TEST(energy_ledger_lanes, a_grain_that_comes_again_brings_no_force_from_before) {
+  for (bool side_by_side : {false, true}) {
+    RandomContacts random(TangentialLaw::spring);
+    RandomGrains grains(OWN, Shapes::spheres, random);
+    EnergyLedger long_ago, since;  // one was there before the grain left
+    const auto evaluate = [&](std::initializer_list<EnergyLedger *> ledgers) {
+      int mask[ALL];
+      for (int i = 0; i < ALL; i++) mask[i] = grains.members(MEMBER).mask[i % OWN];
+      for (EnergyLedger *ledger : ledgers) ledger->begin_evaluation(OWN);
+      random.many([](const ContactLanes &) {},
+                  [&](const Contact &c) {
+                    for (EnergyLedger *ledger : ledgers) ledger->add({&c, 1}, {mask, MEMBER, nullptr}, DT, true);
+                  });
+      for (EnergyLedger *ledger : ledgers) ledger->end_evaluation();
+    };
+    const auto start = [&](EnergyLedger &ledger) {
+      ledger.begin_start_of_step(LedgerFrame());
+      grains.start(ledger, MEMBER, side_by_side);
+      ledger.book_start(DT);
+    };
+    const auto end = [&](EnergyLedger &ledger) {
+      ledger.begin_end_of_step();
+      grains.end(ledger, MEMBER, side_by_side);
+      ledger.book_step(DT);
+    };
+    for (EnergyLedger *ledger : {&long_ago, &since}) ledger->set_laws(random.law());
+    evaluate({&long_ago});
+    grains.mark(1, MEMBER);
+    start(long_ago);
+    evaluate({&long_ago, &since});
+    end(long_ago);
+    grains.mark(1, MEMBER);
+    std::vector<double> booked[2];
+    for (EnergyLedger *ledger : {&long_ago, &since}) start(*ledger);
+    const EnergyLedger::Entries before[] = {long_ago.totals(), since.totals()};
+    evaluate({&long_ago, &since});
+    for (EnergyLedger *ledger : {&long_ago, &since}) end(*ledger);
+    const EnergyLedger::Entries after[] = {long_ago.totals(), since.totals()};
+    for (int k = 0; k < 2 * EnergyLedger::entries; k++)
+      booked[k % 2].push_back(after[k % 2][k / 2] - before[k % 2][k / 2]);
+    expect_near(booked[0], booked[1]);
+  }
+}
+
 TEST(energy_ledger_lanes, grains_side_by_side_are_those_one_by_one) {
   for (Shapes shapes : {Shapes::spheres, Shapes::discs, Shapes::spheroids, Shapes::mixed})
     for (int n : {1, 4, 5, 8, 9, 31})
