@@ -36,7 +36,6 @@ SPHEROIDS = {"gran": ("superquadric", "nve/superquadric"), "gran/insitu": ("elli
 PARTS = {
     "walls": ["FixWallGran::post_force"],
     "their meshes": ["FixNeighlistMesh::pre_force", "FixMoveMesh::initial_integrate"],
-    "neighbour lists": ["Neighbor::build"],
 }
 
 
