@@ -423,7 +423,7 @@ add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL CASES
 add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL RANKS 1 2 CASES grains-lost)
 add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 CASES
   box-turned-orthogonal grains-deleted clear-starts-afresh-with-ellipsoids pair-style-twice
-  time-step-changed-in-mid-run box-scaled)
+  time-step-changed-in-mid-run box-scaled groups-changed-without-set-up)
 add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 4 CASES
   grains-inserted clear-starts-afresh steps-renumbered)
 add_cases(every-style-rank-sweep cases/rank_sweep.py LABEL case STYLES ALL RANKS 8 CASES spheroids-through-a-flip)
