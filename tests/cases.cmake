@@ -145,6 +145,8 @@ add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran stres
 add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran energy/ledger RANKS 1 2 CASES
   ledger-asked-before-walls)
 add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran gran/insitu RANKS 1 2 CASES unseen-walls)
+add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran contact/local CASES
+  without-coefficients-on-a-plane without-coefficients-on-a-mesh)
 
 # fluctuation, layering, velocity/correlation, displacement/shear, velocity/memory
 set(motion_measures fluctuation layering velocity/correlation)
