@@ -99,7 +99,7 @@ add_cases(contact/solver-refused errors/ellipsoid.py LABEL error STYLES contact/
   solver-of-a-group)
 add_cases(energy/ledger-refused errors/ledger.py LABEL error STYLES energy/ledger ledger/record dissipation CASES
   dissipation-ledger-off needs-gran-insitu cohesion rolling other-integrator box-without-flow box-of-some-grains
-  record-taken record-gone record-by-hand pre-no-at-first time-step-changed)
+  grains-that-grow record-taken record-gone record-by-hand pre-no-at-first time-step-changed)
 add_cases(energy/ledger-refused errors/ledger.py LABEL error STYLES energy/ledger ledger/record RANKS 1 2 CASES
   loose-grains restart-without)
 add_cases(energy/ledger-refused errors/ledger.py LABEL error STYLES energy/ledger ledger/record
