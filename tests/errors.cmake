@@ -162,7 +162,7 @@ add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu CASE
   superquadrics-with-the-surface-of-spheres boxy-grains-without-a-surface wall-without-a-surface
   superquadrics-without-a-surface-under-gran synchronized-cohesion synchronized-rolling synchronized-without-friction
   synchronized-surface synchronized-normal synchronized-ledger synchronized-under-gran synchronized-restart
-  restart-of-other-columns)
+  restart-of-other-columns units)
 add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu wall/gran CASES
   synchronized-wall synchronized-wall-misspelt synchronized-wall-with-ledger)
 add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu RANKS 1 2 CASES

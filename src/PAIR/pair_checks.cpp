@@ -10,8 +10,10 @@
 #include "domain.h"
 #include "error.h"
 #include "fix.h"
+#include "force.h"
 #include "modify.h"
 #include "neighbor.h"
+#include "update.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -54,6 +56,11 @@ void PairChecks::require_same_columns_in_restart(int wanted, std::initializer_li
                                    : " " + with + ". Use " + with))
                           .c_str());
   }
+}
+
+void PairChecks::require_consistent_units() const {
+  if (force->nktv2p != 1.0)
+    Arguments(lmp, "pair_style gran/insitu").fail("units", "consistent: si, cgs, lj or micro", update->unit_style);
 }
 
 void PairChecks::warn_of_stale_springs() {

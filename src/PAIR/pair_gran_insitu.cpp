@@ -202,6 +202,7 @@ void PairGranInsitu::add_past_columns() {
 }
 
 void PairGranInsitu::init_style() {
+  impl_->checks.require_consistent_units();
   impl_->run = {update->firststep, update->laststep};
   impl_->observer.remove_all();
   impl_->observer.begin_run();
