@@ -146,6 +146,8 @@ add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran stres
 add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran energy/ledger RANKS 1 2 CASES
   ledger-asked-before-walls)
 add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran gran/insitu RANKS 1 2 CASES unseen-walls)
+add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran contact/local CASES
+  without-coefficients-on-a-plane without-coefficients-on-a-mesh)
 
 # fluctuation, layering, velocity/correlation, displacement/shear, velocity/memory
 set(motion_measures fluctuation layering velocity/correlation)
@@ -443,7 +445,7 @@ add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL CASES
 add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL RANKS 1 2 CASES grains-lost)
 add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 CASES
   box-turned-orthogonal grains-deleted clear-starts-afresh-with-ellipsoids pair-style-twice
-  time-step-changed-in-mid-run box-scaled)
+  time-step-changed-in-mid-run box-scaled groups-changed-without-set-up)
 add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 4 CASES
   grains-inserted clear-starts-afresh steps-renumbered)
 add_cases(every-style-rank-sweep cases/rank_sweep.py LABEL case STYLES ALL RANKS 8 CASES spheroids-through-a-flip)

@@ -99,7 +99,7 @@ add_cases(contact/solver-refused errors/ellipsoid.py LABEL error STYLES contact/
   solver-of-a-group)
 add_cases(energy/ledger-refused errors/ledger.py LABEL error STYLES energy/ledger ledger/record dissipation CASES
   dissipation-ledger-off needs-gran-insitu cohesion rolling other-integrator box-without-flow box-of-some-grains
-  record-taken record-gone record-by-hand pre-no-at-first time-step-changed)
+  grains-that-grow record-taken record-gone record-by-hand pre-no-at-first time-step-changed)
 add_cases(energy/ledger-refused errors/ledger.py LABEL error STYLES energy/ledger ledger/record RANKS 1 2 CASES
   loose-grains restart-without)
 add_cases(energy/ledger-refused errors/ledger.py LABEL error STYLES energy/ledger ledger/record
@@ -161,7 +161,8 @@ add_cases(superquadric-data-file-refused errors/data_files.py LABEL error STYLES
 add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu CASES
   superquadrics-with-the-surface-of-spheres boxy-grains-without-a-surface wall-without-a-surface
   superquadrics-without-a-surface-under-gran synchronized-cohesion synchronized-rolling synchronized-without-friction
-  synchronized-surface synchronized-normal synchronized-under-gran synchronized-restart restart-of-other-columns)
+  synchronized-surface synchronized-normal synchronized-under-gran synchronized-restart restart-of-other-columns
+  units)
 add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu wall/gran CASES
   synchronized-wall synchronized-wall-misspelt)
 add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu RANKS 1 2 CASES

@@ -120,6 +120,11 @@ void ContactReader::renew_past(const Surfaces &s, const Friction &friction, Cont
   write_past(s, c);
 }
 
+/** thornton_ning has no dashpot, and gives neither k_n nor gamma_n. */
+static bool gives_coefficients(const ContactLaw &law) {
+  return law.elastic || law.models.find("thornton_ning") == std::string::npos;
+}
+
 /** `limitForce` sets a negative total to exactly 0: the damping part is then what cancels the elastic one. */
 inline double ContactReader::normal_damping(const Surfaces &s) const {
   const double damping = -s.gamman * s.vn, elastic = s.kn * s.deltan;
@@ -133,14 +138,15 @@ inline Vector3d ContactReader::contact_point(const Surfaces &s) const {
 
 inline void ContactReader::read_motion(const Surfaces &s, const Friction &friction, Contact &c) const {
   ContactMotion &m = kept(c.motion);
+  const bool known = gives_coefficients(law_);
   m.point = contact_point(s);
   m.arm = m.point - Map<const Vector3d>(observer_.positions()[s.i]);
   m.normal_velocity = s.vn;
   m.tangential_velocity = Vector3d(s.vtr1, s.vtr2, s.vtr3);
-  m.normal_damping = normal_damping(s);
-  m.normal_stiffness = s.kn;
+  m.normal_damping = known ? normal_damping(s) : 0.0;
+  m.normal_stiffness = known ? s.kn : 0.0;
   m.tangential_stiffness = s.kt;
-  m.damping_coefficient = s.gamman;
+  m.damping_coefficient = known ? s.gamman : 0.0;
   m.tangential_damping = friction.damping;
   m.damped = !friction.cut && friction.damping > 0.0;
 }

@@ -12,8 +12,10 @@
 #include "domain.h"
 #include "error.h"
 #include "fix.h"
+#include "force.h"
 #include "modify.h"
 #include "neighbor.h"
+#include "update.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -79,6 +81,11 @@ void PairChecks::warn_of_lost_states() {
       if (comm->me == 0) error->warning(FLERR, message.c_str());
     }
   }
+}
+
+void PairChecks::require_consistent_units() const {
+  if (force->nktv2p != 1.0)
+    Arguments(lmp, "pair_style gran/insitu").fail("units", "consistent: si, cgs, lj or micro", update->unit_style);
 }
 
 void PairChecks::warn_of_stale_springs() {

@@ -96,6 +96,10 @@ def continued_with_as_many_columns(ranks):
 
 
 CASES = {
+    "units": refusal(
+        lambda: deck(units="electron"),
+        "pair_style gran/insitu: 'units' must be consistent: si, cgs, lj or micro, got 'electron'",
+    ),
     "superquadrics-without-a-surface": refusal(
         lambda: spheroids(" surface superquadric", "", rolling="cdt", extra="tangential_damping off"),
         f"pair_style gran/insitu: {BOUNDING}; got surface 'default'. Write 'pair_style gran/insitu {MODEL} "
