@@ -26,6 +26,7 @@ C_STATE = outputs("packing").of("state")
 C_STRESS = outputs("stress/contact").of("stress")
 C_SURFACE = outputs("contact/surface").of("surface")
 F_PRESS = outputs("press/strain").of("press")
+KAPPAS = [outputs("stress/contact").of(name)["kappa"] for name in ("filled", "known")]
 
 SPHERES, SPHEROIDS = dense_packing(atom_style="sphere"), dense_packing(1.5)
 LOOSE = replace(dense_packing(atom_style="sphere", overlap=-0.15), triclinic=False)
@@ -301,7 +302,6 @@ def groups_changed_without_set_up(ranks):
         "compute forces chosen contact/force": C_FORCES["N_c"],
         "compute surface chosen contact/surface": C_SURFACE["N"],
     }
-    kappas = [outputs("stress/contact").of(name)["kappa"] for name in ("filled", "known")]
     body = [
         "group chosen id 1:9",
         "group filled id 999999",  # nobody: the smallest modulus of no grain is 0
@@ -311,7 +311,7 @@ def groups_changed_without_set_up(ranks):
         *asked,
         "compute rows all contact/local id",
         *dump_local("rows", 2, 2, "rows"),
-        *thermo(2, "step", *asked.values(), *kappas),
+        *thermo(2, "step", *asked.values(), *KAPPAS),
         "run 4",
         "group chosen id 1:70",
         "group filled id 1:70",
@@ -325,8 +325,8 @@ def groups_changed_without_set_up(ranks):
         for name in asked.values():
             expected = 70.0 if name == C_SURFACE["N"] else contacts
             require_equal(table[name][at], expected, f"step {step}, {name}")
-        require(table[kappas[1]][at] > 0.0, "no stiffness number to compare with")
-        require_equal(table[kappas[0]][at], table[kappas[1]][at], f"step {step}, kappa")
+        require(table[KAPPAS[1]][at] > 0.0, "no stiffness number to compare with")
+        require_equal(table[KAPPAS[0]][at], table[KAPPAS[1]][at], f"step {step}, kappa")
 
 
 CASES = {
