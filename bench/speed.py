@@ -10,6 +10,7 @@ the spheres (alpha = 1) run in LAMMPS too, with contacts as stiff and as damped 
 """
 import argparse
 from dataclasses import dataclass
+import functools
 import math
 import os
 import pathlib
@@ -190,11 +191,10 @@ class Bench:
             str(word) for name, value in values.items() for word in ("-var", name, value)
         ]
 
-    def run(self, packing, count, case, ranks, steps, reach):
+    def run(self, deck, ranks, steps):
+        """The last run of a deck, which has so many steps."""
         launch = [] if ranks == 1 else ["mpirun", "--oversubscribe", "-np", str(ranks)]
-        output, memory, share = self.execute(
-            [*launch, *self.deck(packing, count, case, max(20, steps // 5), steps, reach)]
-        )
+        output, memory, share = self.execute([*launch, *deck])
         output = output[output.rindex("Loop time of") :]
         scale = (share if ranks == 1 else 1.0) / steps
 
@@ -212,21 +212,25 @@ class Bench:
             memory,
         )
 
-    def count(self, packing, count, case, steps, reach):
-        """Instructions per step, of steps that follow as many others."""
+    def count(self, deck_of, steps):
+        """Instructions per step, of steps that follow as many others: of deck_of(steps) less those of deck_of(0)."""
 
         def collected(steps_after):
             valgrind = [
                 "valgrind",
                 "--tool=callgrind",
-                "--callgrind-out-file=callgrind.out",
+                f"--callgrind-out-file={self.profile(steps_after)}",
                 "--collect-atstart=no",
                 "--toggle-collect=LAMMPS_NS::Verlet::run(int)",
             ]
-            output, _, _ = self.execute([*valgrind, *self.deck(packing, count, case, steps, steps_after, reach)])
+            output, _, _ = self.execute([*valgrind, *deck_of(steps_after)])
             return int(re.search(r"Collected : (\d+)", output)[1])
 
         return (collected(steps) - collected(0)) / steps
+
+    def profile(self, steps):
+        """Of callgrind, when so many steps were counted."""
+        return self.folder / f"callgrind.{steps}"
 
 
 def steps_for(count):
@@ -250,7 +254,8 @@ def take_time(bench, arguments):
                 results = {run: [] for run in runs}
                 for _ in range(arguments.repeats):
                     for run in runs:
-                        results[run].append(bench.run(packing, count, run[1], ranks, steps, run[0]))
+                        deck = bench.deck(packing, count, run[1], max(20, steps // 5), steps, run[0])
+                        results[run].append(bench.run(deck, ranks, steps))
                 if ranks > 1:
                     results = {run: [min(result, key=lambda one: one.step)] for run, result in results.items()}
                 for (reach, case), result in results.items():
@@ -274,7 +279,9 @@ def count_instructions(bench, arguments):
         for count in arguments.grains:
             first = None
             for case in cases_for(arguments, alpha):
-                number = bench.count(packing, count, case, arguments.steps or 20, arguments.skin[0])
+                steps = arguments.steps or 20
+                deck_of = functools.partial(bench.deck, packing, count, case, steps, reach=arguments.skin[0])
+                number = bench.count(deck_of, steps)
                 first = first or number
                 print(f"| {alpha:g} | {count:,} | {case} | {number:.4g} | {first / number:.2f} |", flush=True)
 

@@ -99,7 +99,7 @@ add_cases(contact/solver-refused errors/ellipsoid.py LABEL error STYLES contact/
   solver-of-a-group)
 add_cases(energy/ledger-refused errors/ledger.py LABEL error STYLES energy/ledger ledger/record dissipation CASES
   dissipation-ledger-off needs-gran-insitu cohesion rolling other-integrator box-without-flow box-of-some-grains
-  record-taken record-gone record-by-hand pre-no-at-first time-step-changed)
+  grains-that-grow record-taken record-gone record-by-hand pre-no-at-first time-step-changed)
 add_cases(energy/ledger-refused errors/ledger.py LABEL error STYLES energy/ledger ledger/record RANKS 1 2 CASES
   loose-grains restart-without)
 add_cases(energy/ledger-refused errors/ledger.py LABEL error STYLES energy/ledger ledger/record
@@ -161,10 +161,10 @@ add_cases(superquadric-data-file-refused errors/data_files.py LABEL error STYLES
 add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu CASES
   superquadrics-with-the-surface-of-spheres boxy-grains-without-a-surface wall-without-a-surface
   superquadrics-without-a-surface-under-gran synchronized-cohesion synchronized-rolling synchronized-without-friction
-  synchronized-surface synchronized-normal synchronized-ledger synchronized-under-gran synchronized-restart
-  restart-of-other-columns)
+  synchronized-surface synchronized-normal synchronized-under-gran synchronized-restart restart-of-other-columns
+  units)
 add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu wall/gran CASES
-  synchronized-wall synchronized-wall-misspelt synchronized-wall-with-ledger)
+  synchronized-wall synchronized-wall-misspelt)
 add_cases(gran/insitu-refused errors/pair.py LABEL error STYLES gran/insitu RANKS 1 2 CASES
   superquadrics-without-a-surface)
 add_cases(displacement/shear-faces cases/moving_faces.py LABEL error STYLES displacement/shear CASES
@@ -179,13 +179,24 @@ add_cases(layering+velocity/correlation-not-finite errors/not_finite.py LABEL er
   contact-surface-ellipsoid contact-force packing)
 
 # Restart files of other versions
-set(states run/guard setup/memory grain/record ledger/record press/strain press/wall)
+set(states run/guard setup/memory grain/record ledger/record press/strain press/wall wall/gran)
 foreach(style IN LISTS states)
   add_cases(read_restart errors/restart_versions.py LABEL error STYLES read_restart ${style} CASES
     ${style}-version ${style}-size ${style}-without-a-version)
 endforeach()
 add_cases(read_restart errors/restart_versions.py LABEL error STYLES read_restart ${states} RANKS 1 2 CASES
   same-file-is-read former-seal not-by-an-input-script)
+
+# Restart files with walls: other models and settings, other IDs
+foreach(kind primitive mesh)
+  add_cases(wall/gran-restart errors/restart_walls.py LABEL error STYLES wall/gran read_restart CASES
+    ${kind}-other-models ${kind}-other-time-level ${kind}-without-the-time-level ${kind}-without-the-ledger
+    ${kind}-of-liggghts ${kind}-of-another-id)
+endforeach()
+add_cases(wall/gran-restart errors/restart_walls.py LABEL error STYLES wall/gran read_restart RANKS 2 CASES
+  primitive-other-models mesh-of-another-id)
+add_cases(read_restart errors/restart_walls.py LABEL error
+  STYLES read_restart press/strain displacement/shear energy/ledger RANKS 1 2 CASES state-of-another-id)
 
 # Outputs have names
 add_cases(outputs-refused errors/outputs.py LABEL error STYLES outputs CASES

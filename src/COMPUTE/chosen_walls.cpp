@@ -3,6 +3,7 @@
 #include "arguments.h"
 #include "box_state.h"
 #include "nearest_name.h"
+#include "wall_reach.h"
 #include "fix_mesh_surface.h"
 #include "tri_mesh.h"
 #include <Eigen/Geometry>
@@ -100,7 +101,7 @@ double primitive_area(const std::vector<std::string> &wall, const BoxState &box,
     why = reason;
     return 0.0;
   };
-  if (wall[0].compare(1, std::string::npos, "plane") == 0) {
+  if (is_plane(wall)) {
     if (!fixed[u] || !fixed[v]) return unknown("the box is shrink-wrapped along it, boundary s or m");
     if (box.edges(axis, u) != 0.0 || box.edges(axis, v) != 0.0)
       return unknown("it is not parallel to a face of the box");

@@ -6,6 +6,7 @@
 #include "contact_sums.h"
 #include "ellipsoid_bands.h"
 #include "grain_shape.h"
+#include "neighbour_list_watch.h"
 #include "symmetry_axis.h"
 #include "atom.h"
 #include "domain.h"
@@ -142,7 +143,7 @@ struct ComputeContactSurface::Impl {
   Vector3d proportions = Vector3d::Zero();
   std::vector<double> unit_areas;          // of its bands
   double grains = 0.0, mean_square = 0.0;  // of the group: number, mean of (semi-axis along the axis)^2
-  bigint build = -1;                       // the neighbour list that the four above are of
+  grainscope::NeighbourListWatch watch;    // of the grains that the four above are of
 
   SurfaceSums &sums() { return contacts.mine(); }
 };
@@ -181,7 +182,7 @@ void ComputeContactSurface::init() {
   ContactCompute::init();
   require_known_losses();
   require_one_shape();
-  impl_->build = -1;
+  impl_->watch = grainscope::NeighbourListWatch();
 }
 
 /** Ellipsoids of one shape, of any size. Collective. */
@@ -230,10 +231,9 @@ void ComputeContactSurface::require_one_shape() {
   for (double area : impl_->unit_areas) impl_->sums().unit_area += area;
 }
 
-/** What depends on the grains in the group; grains come and go with neighbour lists only. Collective. */
+/** What depends on the grains in the group, which come and go with neighbour lists and between runs. Collective. */
 void ComputeContactSurface::measure_grains() {
-  if (impl_->build == neighbor->lastcall) return;
-  impl_->build = neighbor->lastcall;
+  if (!impl_->watch.renewed(*neighbor, *update)) return;
   require_one_shape();
   double sums[2] = {0.0, 0.0};
   for (int i = 0; i < atom->nlocal; i++) {

@@ -6,6 +6,7 @@
 #include "contact_observer.h"
 #include "contact_sums.h"
 #include "fluctuations.h"
+#include "neighbour_list_watch.h"
 #include "stress_lanes.h"
 #include "symmetric_tensor.h"
 #include "atom.h"
@@ -73,6 +74,7 @@ grainscope::Outputs declared(const grainscope::TypePairs *pairs) {
 struct ComputeStressContact::Impl {
   grainscope::ContactSums<StressSums, grainscope::Branches, grainscope::StressLanes> sums;
   std::unique_ptr<grainscope::TypePairSums<StressSums, grainscope::Branches>> of_types;  // of 'rows types'
+  grainscope::NeighbourListWatch watch;  // of the grains that stiffness_ is of
 };
 
 ComputeStressContact::ComputeStressContact(LAMMPS *lmp, int &iarg, int narg, char **arg)
@@ -98,7 +100,7 @@ ComputeStressContact::~ComputeStressContact() {}
 
 void ComputeStressContact::init() {
   ContactCompute::init();
-  stiffness_of_build_ = -1;
+  impl_->watch = grainscope::NeighbourListWatch();
   if (!knows_sliding() && comm->me == 0)
     error->warning(FLERR,
                    "compute stress/contact: sliding is known for 'tangential' off, no_history and history only; "
@@ -184,10 +186,9 @@ void ComputeStressContact::answer() {
   *out++ = all.sliding() * per_contact;
   *out++ = all.overlaps() * per_contact;
   *out++ = largest_overlap;
-  if (stiffness_of_build_ != neighbor->lastcall) {  // grains come and go with neighbour lists only
+  if (impl_->watch.renewed(*neighbor, *update)) {
     const double depth = box.dimension == 2 ? mean_diameter() : 1.0;
     stiffness_ = flattest_shape() * std::pow(softest_modulus() * depth, 2.0 / 3.0);
-    stiffness_of_build_ = neighbor->lastcall;
   }
   const bool is_whole = scope_.type_pair().any();  // the pressure of some contacts tells nothing of the grains
   const double kappa = is_whole ? stiffness_ * std::pow(per_pressure, 2.0 / 3.0) : 0.0;

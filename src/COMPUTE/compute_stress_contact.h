@@ -34,8 +34,7 @@ class ComputeStressContact : public grainscope::ContactCompute, public grainscop
   struct Impl;
   std::unique_ptr<Impl> impl_;
   grainscope::RangeWarning soft_;
-  double stiffness_ = 0.0;  // kappa P^(2/3), as of the neighbour list built at the step below
-  bigint stiffness_of_build_ = -1;
+  double stiffness_ = 0.0;  // kappa P^(2/3), as of the last neighbour list or the last change between two runs
 
   void answer() override;
   void put_rows(double unit);

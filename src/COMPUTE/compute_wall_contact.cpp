@@ -9,6 +9,7 @@
 #include "grain_shape.h"
 #include "requirements.h"
 #include "wall_contact_sums.h"
+#include "wall_reach.h"
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
@@ -226,6 +227,7 @@ void ComputeWallContact::warn_of_unknown_areas() {
     const grainscope::Wall &wall = impl_->walls->walls()[row];
     std::string why;
     if (!wall.mesh || domain->dimension == 2) impl_->area_of(row, grainscope::BoxState(lmp), world, why);
+    if (why.empty()) warn_of_walls_across(wall, impl_->given_areas[row]);
     if (why.empty()) continue;
     impl_->warned = true;
     if (comm->me == 0)
@@ -233,6 +235,20 @@ void ComputeWallContact::warn_of_unknown_areas() {
                              "): area and tractions are 0. Give it by 'area " + wall.name + " A'")
                                 .c_str());
   }
+}
+
+/** Grains may press on a part of a wall that reaches across the box. Collective. */
+void ComputeWallContact::warn_of_walls_across(const grainscope::Wall &wall, double given) {
+  const std::string bounds =
+      wall.mesh || given > 0.0 ? "" : grainscope::walls_that_bound(wall, grainscope::BoxState(lmp), lmp);
+  if (bounds.empty()) return;
+  impl_->warned = true;
+  if (comm->me == 0)
+    error->warning(FLERR, (name_ + " " + id + ": the area of wall '" + wall.name +
+                           "' is all of it that lies in the box, but it meets inside the box: " + bounds +
+                           ". If grains touch a part of it only, p and tau are too small: give that part by 'area " +
+                           wall.name + " A'")
+                              .c_str());
 }
 
 bool ComputeWallContact::wants_contacts() {

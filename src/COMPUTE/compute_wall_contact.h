@@ -12,6 +12,10 @@ ComputeStyle(wall/contact,ComputeWallContact)
 #include "outputs.h"
 #include <memory>
 
+namespace grainscope {
+struct Wall;
+}
+
 namespace LAMMPS_NS {
 
 /** Contacts of the group with walls, a row for each wall and the sum of the rows: contacts, force and torque on the
@@ -35,6 +39,7 @@ class ComputeWallContact : public grainscope::ContactCompute, public grainscope:
   void answer() override;
   void require_losses() const;
   void warn_of_unknown_areas();
+  void warn_of_walls_across(const grainscope::Wall &wall, double given);
 };
 
 }

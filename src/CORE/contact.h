@@ -51,9 +51,16 @@ struct ContactMotion {
   bool damped = false;                // tangential damping acts: the spring was not cut
 };
 
+/** Of i relative to its partner, at the contact point. */
+struct ContactVelocity {
+  double normal = 0.0;  // along the normal, < 0 approaching
+  Eigen::Vector3d tangential = Eigen::Vector3d::Zero();
+};
+
 /** The tangential spring s; its force on i is -k_t s. */
 struct ContactSpring {
-  Eigen::Vector3d before = Eigen::Vector3d::Zero();  // of the evaluation
+  // of the evaluation, turned to its normal with `time_level synchronized`
+  Eigen::Vector3d before = Eigen::Vector3d::Zero();
   Eigen::Vector3d after = Eigen::Vector3d::Zero();
   Eigen::Vector3d cut = Eigen::Vector3d::Zero();  // what the friction limit cut from it
 };
@@ -98,7 +105,13 @@ struct Contact {
   // Only with `ledger on`, and not when sinks take contacts side by side: GroupForces and PastLanes hold it then
   std::optional<ContactPast> past;      // of contacts that touched in the previous evaluation
   std::optional<ContactSpring> spring;  // of a law that has one
+  // With `time_level synchronized`: the velocity at x_n, where forces act. The law takes that of the middle of the step.
+  std::optional<ContactVelocity> at_force;
 
+  /** The velocity that forces work with. */
+  ContactVelocity working_velocity() const {
+    return at_force ? *at_force : ContactVelocity{motion->normal_velocity, motion->tangential_velocity};
+  }
   bool with_wall() const { return std::holds_alternative<PartnerWall>(partner); }
   /** Of a contact with a wall. */
   const PartnerWall &wall() const { return std::get<PartnerWall>(partner); }

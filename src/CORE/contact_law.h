@@ -28,6 +28,7 @@ struct ContactLaw {
   const double *const *friction = nullptr;  // mu_p of each pair of types; null without friction
   int spring_column = -1;                   // first of three in the contact history, of TangentialLaw::spring
   int past_column = -1;                     // first of those that hold a ContactPast, or -1
+  bool synchronized = false;                // `time_level synchronized`
 
   bool keeps_past() const { return past_column >= 0; }
   /** Contacts resist tangential motion elastically; assumed of unknown models too. */

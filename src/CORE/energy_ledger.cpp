@@ -156,12 +156,13 @@ template <EnergyLedger::Partner partner>
 GRAINSCOPE_INLINE void EnergyLedger::add_contact(const Law &law, const Contact &c, double dt, bool springs_move) {
   Contacts &sums = now_.contacts[partner];
   const ContactMotion &m = *c.motion;
+  const ContactVelocity u = c.working_velocity();
   const double elastic_force = m.normal_stiffness * c.overlap;
   const Vector3d arm_j = m.arm + c.branch;
   double *const of_i = wrenches_of(c.i), *of_j = nullptr;
   const PartnerGrain *const other = partner == grains ? std::get_if<PartnerGrain>(&c.partner) : nullptr;
   if (other && !other->ghost) of_j = wrenches_of(other->index);
-  const Unit normal(c, c.normal, arm_j, m.normal_velocity);
+  const Unit normal(c, c.normal, arm_j, u.normal);
   add_part<partner>(elastic, elastic_force, normal, c, of_i, of_j);
   add_part<partner>(damping, m.normal_damping, normal, c, of_i, of_j);
   if (law.viscous) {
@@ -171,11 +172,10 @@ GRAINSCOPE_INLINE void EnergyLedger::add_contact(const Law &law, const Contact &
     if (m.damped) {
       const Vector3d viscous_force = -m.tangential_damping * m.tangential_velocity;
       force -= viscous_force;
-      add_part<partner>(viscous, 1.0, Unit(c, viscous_force, arm_j, viscous_force.dot(m.tangential_velocity)), c, of_i,
-                        of_j);
+      add_part<partner>(viscous, 1.0, Unit(c, viscous_force, arm_j, viscous_force.dot(u.tangential)), c, of_i, of_j);
     }
-    add_part<partner>(law.spring ? spring : sliding, 1.0, Unit(c, force, arm_j, force.dot(m.tangential_velocity)), c,
-                      of_i, of_j);
+    add_part<partner>(law.spring ? spring : sliding, 1.0, Unit(c, force, arm_j, force.dot(u.tangential)), c, of_i,
+                      of_j);
   }
   if (law.rolling) {
     Unit unit(c, Vector3d::Zero(), arm_j, c.rolling->torque.dot(c.rolling->spin));
@@ -186,7 +186,7 @@ GRAINSCOPE_INLINE void EnergyLedger::add_contact(const Law &law, const Contact &
   if (law.spring) sums.spring_energy += 0.5 * c.weight * m.tangential_stiffness * c.spring->after.squaredNorm();
   if (!springs_move) return;
   if (c.past) add_past(sums, law, c, elastic_force);
-  else sums.new_elastic -= 0.5 * dt * c.weight * elastic_force * m.normal_velocity;
+  else sums.new_elastic -= 0.5 * dt * c.weight * elastic_force * u.normal;
   if (law.spring) add_spring(sums, c);
 }
 

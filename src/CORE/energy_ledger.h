@@ -33,7 +33,8 @@ struct LedgerFrame : AffineFlow {
  *    D_t = (k0 s0 + k1 s1)/2 . cut          G_k = -(k1 - k0)/2 s0.s1          (k_t follows the overlap,
  *      the spring does not)
  *    G_p: the rest of the spring's work, (k0 s0.u0 + k1 s1.u1) dt/2 = dU_t + D_t + G_k + G_p: the spring is turned into
- *      the contact plane
+ *      the contact plane. With `time_level synchronized` s0 is the spring after it was turned, and u is still the
+ *      velocity at x_n (Contact::at_force): the rest is then the difference between u and the velocity of the spring
  *    G_open: the spring of a contact that opens, with the work of its last half step
  *    G_n: work of the elastic normal force that follows neither the overlap d nor the stiffness:
  *      -(F0 n0.u0 + F1 n1.u1) dt/2 - (F0 + F1)/2 (d1 - d0) - (dU_n/dk)_mean dk

@@ -73,7 +73,7 @@ struct EnergyLedger::LaneArms {
 GRAINSCOPE_INLINE void EnergyLedger::add_normal(const ContactLanes &c, const LaneArms &arms, const Lanes *sizes) {
   const Lanes *const n = c.forces.normal;
   Lanes moments[power_moments], torque[3], rows[LANES];
-  arms.moments(n, c.forces.normal_velocity, moments);
+  arms.moments(n, c.forces.working_normal(), moments);
   for (int part = elastic; part <= damping; part++)
     for (int k = 0; k < power_moments; k++) lanes_.sums[part][k] += sizes[part] * moments[k];
   constexpr int at[2] = {8 * lane_slot(elastic), 8 * lane_slot(damping)};
@@ -98,7 +98,7 @@ GRAINSCOPE_INLINE void EnergyLedger::add_normal(const ContactLanes &c, const Lan
 GRAINSCOPE_INLINE void EnergyLedger::add_tangential(Part part, int slot, const ContactLanes &c, const LaneArms &arms,
                                                     const Lanes *f) {
   Lanes moments[power_moments], torque[3], rows[LANES];
-  arms.moments(f, dot(f, c.forces.tangential_velocity), moments);
+  arms.moments(f, dot(f, c.forces.working_tangential()), moments);
   for (int k = 0; k < power_moments; k++) lanes_.sums[part][k] += moments[k];
   const int at = 8 * slot;
   filled_[slot] = true;
@@ -176,7 +176,7 @@ void EnergyLedger::add(const ContactLanes &c, const Members &members) {
   }
   const Lanes force = arms.weight * sizes[elastic];
   lanes_.normal_energy += force * f.overlap * law_.energy_factor;
-  lanes_.new_elastic -= pick(c.past->known, Lanes{}, 0.5 * c.dt * force * f.normal_velocity);
+  lanes_.new_elastic -= pick(c.past->known, Lanes{}, 0.5 * c.dt * force * f.working_normal());
   add_past(c, arms.weight, sizes[elastic]);
   if (law_.spring) add_spring(c, arms.weight);
 }

@@ -42,6 +42,13 @@ struct GroupForces {
   // The contact point, for Contacts; the spring (Friction), for the ledger.
   bool points = true, springs = true;
   Lanes point[3], before[3], uncut[3], after[3];
+  // With `time_level synchronized`, for the ledger (Contact::at_force).
+  bool synchronized = false;
+  Lanes normal_at_force, tangential_at_force[3];
+
+  /** The velocity that forces work with. */
+  const Lanes &working_normal() const { return synchronized ? normal_at_force : normal_velocity; }
+  const Lanes *working_tangential() const { return synchronized ? tangential_at_force : tangential_velocity; }
 };
 
 struct PackedGrains {

@@ -176,6 +176,12 @@ GRAINSCOPE_INLINE void store_kept(const PairGroup &group, LaneMask touching, int
     if (touching[k]) group.history[k][first + 8] = kept[8][k];
 }
 
+/** The velocity of the approach, if the law then takes another one. */
+GRAINSCOPE_INLINE void keep_at_force(LaneMask touching, const Approach<Lanes> &a, GroupForces &kept) {
+  kept.normal_at_force = pick(touching, a.normal_velocity, Lanes{});
+  for (int k = 0; k < 3; k++) kept.tangential_at_force[k] = pick(touching, a.tangential_velocity[k], Lanes{});
+}
+
 /** Enters the velocity of the surfaces against each other into the approach. */
 GRAINSCOPE_INLINE void enter_velocity(const Lanes *v, Approach<Lanes> &a) {
   a.normal_velocity = v[0] * a.normal[0] + v[1] * a.normal[1] + v[2] * a.normal[2];
@@ -210,6 +216,7 @@ GRAINSCOPE_INLINE void push(const PackedGrains &grains, const PairGroup &group, 
   add_wrenches(group, g.touching, force, torque_i, torque_j, grains.own, grains.forces);
   if (kept) {
     kept->weight = weight_of(grains, group, g.touching);
+    kept->synchronized = half != nullptr;
     keep_forces(g.touching, a, n, f, c.friction, limit, force, place, before, *kept);
   }
   if (law.law->tangential == PairLaw::Tangential::history) {
@@ -248,6 +255,15 @@ GRAINSCOPE_INLINE void push_ellipsoids_of(const PackedGrains &grains, const Pair
     arm_j[k] = place.point[k] - xj[k];
   }
   Lanes v[3], half[3];
+  const bool at_force = synchronized && kept && kept->springs;
+  if (!synchronized || at_force) {
+    Lanes turn_i[3], turn_j[3];
+    outer(s.spin[0], place.arm, turn_i);
+    outer(s.spin[1], arm_j, turn_j);
+    for (int k = 0; k < 3; k++) v[k] = s.velocity[0][k] - s.velocity[1][k] + turn_i[k] - turn_j[k];
+    enter_velocity(v, a);
+  }
+  if (at_force) keep_at_force(g.touching, a, *kept);
   if (synchronized) {
     Lanes remembered[half_step::kept_numbers];
     Moment<Lanes> now;
@@ -259,13 +275,8 @@ GRAINSCOPE_INLINE void push_ellipsoids_of(const PackedGrains &grains, const Pair
     load_kept(group, law.law->kept, remembered);
     half_step::of_kept(now, false, motion_of(s), law.law->dt, remembered, half, v);
     store_kept(group, g.touching, law.law->kept, remembered);
-  } else {
-    Lanes turn_i[3], turn_j[3];
-    outer(s.spin[0], place.arm, turn_i);
-    outer(s.spin[1], arm_j, turn_j);
-    for (int k = 0; k < 3; k++) v[k] = s.velocity[0][k] - s.velocity[1][k] + turn_i[k] - turn_j[k];
+    enter_velocity(v, a);
   }
-  enter_velocity(v, a);
   const Lanes *const turned = synchronized ? half : nullptr;
 
   if (round) {
@@ -301,16 +312,19 @@ GRAINSCOPE_INLINE void push_spheres_of(const PackedGrains &grains, const PairGro
     w[k] = (lever_i * s.spin[0][k] + lever_j * s.spin[1][k]) * inverse;
     place.set(xi, k, xi[k] - lever_i * a.normal[k]);
   }
+  const bool at_force = synchronized && kept && kept->springs;
+  if (!synchronized || at_force) {
+    a.normal_velocity = v[0] * a.normal[0] + v[1] * a.normal[1] + v[2] * a.normal[2];
+    for (int k = 0; k < 3; k++) {
+      const int l = (k + 1) % 3, m = (k + 2) % 3;
+      const Lanes along = a.normal_velocity * a.normal[k];
+      a.tangential_velocity[k] = (v[k] - along) - (d[m] * w[l] - d[l] * w[m]);
+    }
+  }
+  if (at_force) keep_at_force(g.touching, a, *kept);
   if (synchronized) {
     half_step::of_spheres(a.normal, d, radius_i, radius_j, motion_of(s), law.law->dt, half_normal, v);
     enter_velocity(v, a);
-  } else {
-    a.normal_velocity = v[0] * a.normal[0] + v[1] * a.normal[1] + v[2] * a.normal[2];
-  }
-  for (int k = 0; k < 3 && !synchronized; k++) {
-    const int l = (k + 1) % 3, m = (k + 2) % 3;
-    const Lanes along = a.normal_velocity * a.normal[k];
-    a.tangential_velocity[k] = (v[k] - along) - (d[m] * w[l] - d[l] * w[m]);
   }
   const Lanes lever[2] = {lever_i, lever_j};
   push<SpringAlone>(grains, group, g, law, a, place, nullptr, LeverTorques{a.normal, lever},

@@ -33,8 +33,8 @@ void renew_past(const PairGroup &group, const LaneMask &touching, const GroupFor
 
   const Lanes elastic_force = f.kn * f.overlap;
   const Lanes now[4] = {columns.stamp + Lanes{}, f.overlap, elastic_force, f.kt};
-  const Lanes elastic_work = -columns.half_step * elastic_force * f.normal_velocity,
-              spring_work = columns.half_step * f.kt * dot(f.after, f.tangential_velocity);
+  const Lanes elastic_work = -columns.half_step * elastic_force * f.working_normal(),
+              spring_work = columns.half_step * f.kt * dot(f.after, f.working_tangential());
   Lanes rows[LANES];
   transpose(now, rows);
   for (int k = 0; k < LANES; k++) {

@@ -30,10 +30,12 @@ std::vector<char> pack(std::uint32_t version, const void *state, std::size_t siz
   return block;
 }
 
+/** Byte by byte: a state without a mark may be shorter than one. */
+bool is_one(const char *block) { return std::mismatch(mark, mark + sizeof mark, block).first == mark + sizeof mark; }
+
 std::string what_differs(const char *block, std::uint32_t version, std::size_t size) {
   const std::string reads = "and this program reads version " + std::to_string(version);
-  // Byte by byte: a state without a mark may be shorter than one.
-  if (std::mismatch(mark, mark + sizeof mark, block).first != mark + sizeof mark)
+  if (!is_one(block))
     return "the restart file holds its state without a version, as earlier versions of grainscope wrote it, " + reads;
   const Header header = header_of(block);
   if (header.version != version)

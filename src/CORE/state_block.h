@@ -21,6 +21,9 @@ struct Header {
 std::vector<char> pack(std::uint32_t version, const void *state, std::size_t size, const void *tail,
                        std::size_t tail_size);
 
+/** Whether it has the mark of such a block. */
+bool is_one(const char *block);
+
 /** "" when `block` begins with a struct of this version and size; else what it holds instead. */
 std::string what_differs(const char *block, std::uint32_t version, std::size_t size);
 

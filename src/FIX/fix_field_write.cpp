@@ -89,9 +89,9 @@ void FixFieldWrite::init() {
   modify->addstep_compute_all(next_);
 }
 
-void FixFieldWrite::reset_timestep(bigint now) {
-  taken_ = 0;
-  next_ = next_sample(now);
+void FixFieldWrite::reset_timestep(bigint) {
+  begin_window();
+  modify->addstep_compute_all(next_);
 }
 
 /** The first samples may be of the step that the run begins with. */

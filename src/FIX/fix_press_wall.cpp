@@ -34,8 +34,8 @@ const double part_of_a_grain = 0.01;  // what a plate may move between two input
 
 /** In restart files. The window is summed over ranks, so that any number of them may continue. */
 struct SavedPlate {
-  static constexpr std::uint32_t version = 1;
-  double toward, travel, velocity, averaged_pressure, inputs, clipped;
+  static constexpr std::uint32_t version = 2;
+  double toward, travel, velocity, base, averaged_pressure, inputs, clipped;
   double window_steps, window_force, window_stiffness, window_damping;
   double every, interval, passed, next;  // how inputs are counted, and how far
 };
@@ -67,7 +67,7 @@ struct FixPressWall::Impl {
   PlateResponse window;     // the same since the last input, over the area
   double window_steps = 0.0;
   double density = 0.0;  // the largest of the grains, 0 without any
-  double target = 0.0, travel = 0.0, velocity = 0.0, averaged_pressure = 0.0, inputs = 0.0, clipped = 0.0;
+  double target = 0.0, travel = 0.0, velocity = 0.0, base = 0.0, averaged_pressure = 0.0, inputs = 0.0, clipped = 0.0;
   grainscope::ClippingWatch clipping{name};
   bigint pressure_step = -1;
   double pressure = 0.0;
@@ -147,6 +147,7 @@ void FixPressWall::setup_pre_force(int) {
 void FixPressWall::setup(int) {
   Impl &my = *impl_;
   my.requirements.require_known_stiffness();
+  my.requirements.warn_of_smaller_plate();
   my.mesh.locate();
   my.toward = my.requirements.side_of_grains(my.toward, groupbit);
   know_grains();
@@ -238,12 +239,15 @@ void FixPressWall::take_input() {
   my.window = PlateResponse();
   my.window_steps = 0.0;
 
-  const double interval = time_between_inputs(),
-               resistance = (mean.damping + mean.stiffness * interval) * force->nktv2p;
+  const double interval = time_between_inputs(), elastic = mean.stiffness * interval,
+               resistance = mean.damping + elastic, unit = force->nktv2p;
   grainscope::PressureControl control = my.settings.control;
   if (!my.settings.max_rate_given)
     control.max_rate = grainscope::soft_rate(my.target / force->nktv2p, my.density * force->mvv2e);
-  const auto input = control.input(my.averaged_pressure - my.target, resistance, 1.0, interval);
+  const double error = my.averaged_pressure - my.target;
+  const auto input = my.settings.base
+                         ? control.input_with_base(error, resistance * unit, elastic * unit, 1.0, interval, my.base)
+                         : control.input(error, resistance * unit, 1.0, interval);
   my.velocity = -my.toward * input.velocity;
   my.inputs += 1.0;
   if (input.clipped) my.clipped += 1.0;
@@ -273,10 +277,10 @@ void FixPressWall::write_restart(FILE *file) {
   if (comm->me != 0) return;
   // as a continued run will have it: the run that goes on stays equal to it, bit by bit
   my.window = {sums[0], sums[1], sums[2]};
-  grainscope::write_state(file,
-                          SavedPlate{my.toward, my.travel, my.velocity, my.averaged_pressure, my.inputs, my.clipped,
-                                     my.window_steps, sums[0], sums[1], sums[2], static_cast<double>(my.settings.every),
-                                     my.settings.interval, my.intervals.passed(), my.intervals.next()});
+  grainscope::write_state(file, SavedPlate{my.toward, my.travel, my.velocity, my.base, my.averaged_pressure, my.inputs,
+                                           my.clipped, my.window_steps, sums[0], sums[1], sums[2],
+                                           static_cast<double>(my.settings.every), my.settings.interval,
+                                           my.intervals.passed(), my.intervals.next()});
 }
 
 void FixPressWall::restart(char *buffer) {
@@ -285,6 +289,7 @@ void FixPressWall::restart(char *buffer) {
   if (my.settings.toward == 0.0) my.toward = saved.toward;
   my.travel = saved.travel;
   my.velocity = saved.velocity;
+  if (my.settings.base) my.base = saved.base;
   my.averaged_pressure = saved.averaged_pressure;
   my.inputs = saved.inputs;
   my.clipped = saved.clipped;

@@ -9,6 +9,7 @@
 #include "model_names.h"
 #include "observed_wall.h"
 #include "pair_gran_insitu.h"
+#include "restart_data.h"
 #include "restart_state.h"
 #include "taken_setting.h"
 #include "atom.h"
@@ -29,6 +30,7 @@
 using namespace LAMMPS_NS;
 using grainscope::ContactLaw;
 using grainscope::ContactReader;
+using grainscope::RestartData;
 using grainscope::TangentialLaw;
 using LIGGGHTS::IContactHistorySetup;
 using LIGGGHTS::Walls::Factory;
@@ -88,11 +90,16 @@ std::string words_of(int narg, char **arg) {
 
 const double rounding = 1e-9;  // of a unit normal
 
-/** In restart files, before the velocities of the meshes. */
+/** In restart files, before the names of the columns of the contact history and the velocities of the meshes. */
 struct SavedWall {
-  static constexpr std::uint32_t version = 1;
+  static constexpr std::uint32_t version = 2;
+  double letters;  // of the names
   double numbers;  // of MeshVelocities
 };
+
+/** What to do when a restart file has other columns. */
+const char same_words[] =
+    ": use the contact models, the 'time_level', and the 'ledger' of the pair style that it was written with";
 
 }
 
@@ -107,6 +114,7 @@ struct FixWallGranInsitu::Impl : grainscope::WallContacts {
   std::unique_ptr<ContactReader> contacts;
   std::shared_ptr<void> takes_part;       // in the evaluations of the pair style
   grainscope::MeshVelocities velocities;  // with `setup neutral`
+  bool keeps_velocities = false;          // of meshes that move or have moved
   bool kept = false;                      // they are of the last evaluation already, or of a restart file
 
   int column_of(const std::string &name) const {
@@ -129,6 +137,7 @@ FixWallGranInsitu::FixWallGranInsitu(LAMMPS *lmp, int narg, char **arg)
 
 FixWallGranInsitu::FixWallGranInsitu(LAMMPS *lmp, Words words)
     : FixWallGran(take_over(lmp), words.all.size(), words.all.data()), impl_(new Impl(lmp)) {
+  restart_global = 1;
   impl_->words = words_of(words.all.size(), words.all.data());
   const std::unique_ptr<Deferred> deferred(dynamic_cast<Deferred *>(impl));
   impl = nullptr;  // until there is another: making it may end the run
@@ -183,7 +192,7 @@ void FixWallGranInsitu::init() {
   FixWallGran::init();
   impl_->contacts.reset();
   impl_->takes_part.reset();
-  restart_global = 0;
+  impl_->keeps_velocities = false;
   impl_->pair = dynamic_cast<PairGranInsitu *>(force->pair);
   if (!impl_->pair) return;
   if (domain->dimension == 2) require_across_plane();
@@ -192,10 +201,8 @@ void FixWallGranInsitu::init() {
   if (impl_->pair->keeps_past() && impl_->past_column < 0)
     grainscope::end_run(lmp, who() + "must be defined after 'pair_style gran/insitu ... ledger on', which keeps more "
                                      "numbers for each contact, got it defined before");
-  if (impl_->pair->keeps_past() && impl_->level)
-    grainscope::end_run(lmp, who() + "'time_level synchronized' needs pair_style gran/insitu with 'ledger off', got "
-                                     "'ledger on'");
   if (impl_->pair->keeps_past()) law.past_column = impl_->past_column;
+  law.synchronized = impl_->level != nullptr;
   if (law.tangential == TangentialLaw::spring) law.spring_column = impl_->column_of("shearx");
   if (law.tangential == TangentialLaw::viscous || law.tangential == TangentialLaw::spring) {
     force->registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
@@ -205,7 +212,7 @@ void FixWallGranInsitu::init() {
   impl_->contacts.reset(new ContactReader(impl_->pair->observer()));
   impl_->contacts->set_law(law);
   impl_->takes_part = impl_->pair->observer().add_wall();
-  restart_global = keeps_velocities() && (is_moving() || !impl_->velocities.empty());
+  impl_->keeps_velocities = keeps_velocities() && (is_moving() || !impl_->velocities.empty());
   std::vector<grainscope::Wall> before;
   for (int k = 0; k < modify->nfix && modify->fix[k] != this; k++)
     if (FixWallGranInsitu *wall = dynamic_cast<FixWallGranInsitu *>(modify->fix[k])) wall->add_to(before);
@@ -282,23 +289,55 @@ void FixWallGranInsitu::post_force(int vflag) {
   observer.end();
 }
 
+std::string FixWallGranInsitu::column_names() const {
+  std::string names;
+  for (const std::string &name : impl_->columns) names += (names.empty() ? "" : " ") + name;
+  return names;
+}
+
 void FixWallGranInsitu::write_restart(FILE *file) {
-  if (!impl_->kept) impl_->velocities.keep(meshes());
+  if (impl_->keeps_velocities && !impl_->kept) impl_->velocities.keep(meshes());
+  if (comm->me != 0) return;
+  const std::string names = column_names();
   const std::vector<double> &numbers = impl_->velocities.numbers();
-  const SavedWall saved{static_cast<double>(numbers.size())};
-  if (comm->me == 0) grainscope::write_state(file, saved, numbers.data(), numbers.size() * sizeof(double));
+  const SavedWall saved{static_cast<double>(names.size()), static_cast<double>(numbers.size())};
+  std::vector<char> tail(names.begin(), names.end());
+  const char *const first = reinterpret_cast<const char *>(numbers.data());
+  tail.insert(tail.end(), first, first + numbers.size() * sizeof(double));
+  grainscope::write_state(file, saved, tail.data(), tail.size());
+}
+
+/** Files of LIGGGHTS have no state of this fix, only how many numbers they hold for each contact. */
+void FixWallGranInsitu::post_create_pre_restart() {
+  if (RestartData::of(modify, id)) return;
+  std::vector<std::string> histories;
+  if (!is_mesh_wall()) histories.push_back("history_" + std::string(id));
+  for (int k = 0; k < n_meshes(); k++) histories.push_back("tracker_" + std::string(mesh_list()[k]->id));
+  for (const std::string &history : histories) {
+    const char *const state = RestartData::of(modify, history);
+    const int found = state ? grainscope::whole_count(RestartData::first_number(state), 1e6) : dnum();
+    if (found != dnum())
+      grainscope::end_run(lmp, who() + "the restart file holds " + std::to_string(found) +
+                                   " numbers for each contact with this wall, this fix has " + std::to_string(dnum()) +
+                                   same_words);
+  }
 }
 
 void FixWallGranInsitu::restart(char *buffer) {
   const SavedWall saved = grainscope::read_state<SavedWall>(lmp, *this, style, buffer);
-  const long long n = grainscope::whole_count(saved.numbers, 1e9);
-  if (n < 0 || n % grainscope::MeshVelocities::width != 0)
-    error->all(FLERR, ("fix " + std::string(id) +
-                       " (wall/gran): the restart file must hold a whole number of mesh velocities, got " +
-                       std::to_string(saved.numbers))
-                          .c_str());
+  const long long letters = grainscope::whole_count(saved.letters, 1e6),
+                  n = grainscope::whole_count(saved.numbers, 1e9);
+  if (letters < 0 || n < 0 || n % grainscope::MeshVelocities::width != 0)
+    grainscope::end_run(lmp, who() + "the restart file must hold a whole number of mesh velocities, got " +
+                                 std::to_string(saved.numbers));
+  const char *const tail = grainscope::state_block::tail(buffer);
+  const std::string written(tail, letters), names = column_names();
+  if (written != names)
+    grainscope::end_run(lmp, who() + "the restart file holds the numbers '" + written +
+                                 "' for each contact with this wall, this fix has '" + names + "'" + same_words);
+  if (n == 0) return;
   std::vector<double> numbers(static_cast<std::size_t>(n));
-  memcpy(numbers.data(), grainscope::state_block::tail(buffer), numbers.size() * sizeof(double));
+  memcpy(numbers.data(), tail + letters, numbers.size() * sizeof(double));
   impl_->velocities.set_numbers(numbers.data(), numbers.size());
   impl_->kept = true;
 }

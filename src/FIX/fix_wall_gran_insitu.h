@@ -41,6 +41,7 @@ class FixWallGranInsitu : public FixWallGran, public grainscope::WallContactsOwn
  public:
   FixWallGranInsitu(class LAMMPS *lmp, int narg, char **arg);
   ~FixWallGranInsitu() override;
+  void post_create_pre_restart() override;
   void init() override;
   void setup(int vflag) override;
   void post_force(int vflag) override;
@@ -61,6 +62,7 @@ class FixWallGranInsitu : public FixWallGran, public grainscope::WallContactsOwn
   FixWallGranInsitu(class LAMMPS *lmp, Words words);
   void synchronize();
   std::string who() const;
+  std::string column_names() const;
   grainscope::ContactLaw law_of_models();
 
   std::vector<TriMesh *> meshes();

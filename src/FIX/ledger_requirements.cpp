@@ -7,6 +7,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix.h"
+#include "fix_adapt.h"
 #include "group.h"
 #include "modify.h"
 #include <cstdlib>
@@ -68,6 +69,10 @@ LedgerRequirements::Movers LedgerRequirements::require_moved_by_verlet() const {
   Movers movers;
   for (int k = 0; k < modify->nfix; k++) {
     const Fix *fix = modify->fix[k];
+    const auto *adapt = dynamic_cast<const LAMMPS_NS::FixAdapt *>(fix);
+    if (adapt && adapt->diamflag && shares_grains(fix->groupbit))
+      fail(std::string("needs grains whose diameters do not change within a run, got fix ") + fix->id + " of style " +
+           fix->style + " with 'diameter'");
     if (one_of(fix->style, {"nve/sphere", "nve/superquadric", "nve/spheroid"})) {
       movers.moved |= fix->groupbit;
     } else if (!strcmp(fix->style, "freeze")) {

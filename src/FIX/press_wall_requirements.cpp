@@ -5,9 +5,11 @@
 #include "contact_law.h"
 #include "press_wall_settings.h"
 #include "pressed_mesh.h"
-#include "fix_wall_gran_insitu.h"
+#include "wall_reach.h"
 #include "atom.h"
+#include "comm.h"
 #include "domain.h"
+#include "error.h"
 #include "neighbor.h"
 #include "update.h"
 #include <algorithm>
@@ -20,6 +22,7 @@ namespace grainscope {
 namespace {
 
 const char *const who = "fix press/wall";
+const double hardly_smaller = 0.99;
 const int last_that_stands = 1;  // of the host's numbers for the boundaries p f s m
 
 }
@@ -40,14 +43,37 @@ void PressWallRequirements::require_area() const {
   }
 }
 
+void PressWallRequirements::warn_of_smaller_plate() {
+  if (settings_.area > 0.0 || warned_) return;
+  const BoxState box(lmp);
+  const std::vector<Wall> walls = walls_of(lmp);
+  for (std::size_t n = 0; n < walls.size(); n++) {
+    if (!mesh_.has(n)) continue;
+    const WallReach plate = WallReach::of(walls[n], world).in(box);
+    double share = 1.0;
+    for (int k = 0; k < box.dimension; k++)
+      if (k != settings_.axis) share *= (plate.high[k] - plate.low[k]) / box.edges(k, k);
+    const std::string bounds = walls_that_bound(walls[n], box, lmp);
+    if (share > hardly_smaller && bounds.empty()) continue;
+    warned_ = true;
+    const std::string message =
+        std::string(who) + ": 'area box' divides by the cross-section of the box, but the plate '" + walls[n].name +
+        "' " +
+        (share > hardly_smaller ? "meets inside the box: " + bounds : "spans " + Arguments::text(share) + " of it") +
+        ". If grains touch a smaller area the pressure on it is larger than the target: give that area by 'area A'";
+    if (comm->me == 0) error->warning(FLERR, message.c_str());
+  }
+}
+
 void PressWallRequirements::require_known_stiffness() const {
-  if (!settings_.control.automatic) return;
+  if (!settings_.control.automatic && !settings_.base) return;
   const std::vector<Wall> walls = walls_of(lmp);
   for (std::size_t k = 0; k < walls.size(); k++)
     if (mesh_.has(k) && walls[k].law && !walls[k].law->knows_stiffness())
-      Arguments(lmp, who).fail(std::string("'gain auto' works with the normal models ") + ContactLaw::elastic_models() +
-                               " only: give a number, or change the models of wall '" + walls[k].name + "', got '" +
-                               walls[k].law->models + "'");
+      Arguments(lmp, who).fail(
+          (settings_.base ? "'base yes'" : "'gain auto'") + std::string(" works with the normal models ") +
+          ContactLaw::elastic_models() + " only: " + (settings_.base ? "leave it out" : "give a number") +
+          ", or change the models of wall '" + walls[k].name + "', got '" + walls[k].law->models + "'");
 }
 
 double PressWallRequirements::side_of_grains(double toward, int groupbit) const {

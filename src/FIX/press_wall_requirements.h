@@ -17,6 +17,9 @@ class PressWallRequirements : private LAMMPS_NS::Pointers {
 
   /** The area of the box has no meaning if its faces are shrink-wrapped or lean. */
   void require_area() const;
+  /** A warning, once, if the plate, or the part of it between other walls, is smaller than the cross-section of the box
+   *  by which `area box` divides. Collective. */
+  void warn_of_smaller_plate();
   /** The normal models of walls, where they decide the gain; when all of them are initialised. */
   void require_known_stiffness() const;
   /** The side of the plate on which the grains of the group are, 1 or -1 along the axis: the plate is pushed toward it.
@@ -29,6 +32,7 @@ class PressWallRequirements : private LAMMPS_NS::Pointers {
  private:
   const PressWallSettings &settings_;
   const PressedMesh &mesh_;
+  bool warned_ = false;
 };
 
 }

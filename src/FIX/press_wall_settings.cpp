@@ -23,7 +23,7 @@ PressWallSettings::PressWallSettings(LAMMPS_NS::LAMMPS *lmp, int narg, char **ar
   std::set<std::string> given;
   while (!arguments.done()) {
     const std::string keyword = arguments.keyword(
-        {"mesh", "axis", "target", "area", "every/time", "every/step", "toward", "gain", "limit", "maxrate"});
+        {"mesh", "axis", "target", "area", "every/time", "every/step", "toward", "gain", "base", "limit", "maxrate"});
     if (!given.insert(keyword.compare(0, 5, "every") == 0 ? "every" : keyword).second)
       arguments.fail("'every/time' and 'every/step' exclude each other, got a second one: '" + keyword + "'");
     read(arguments, keyword);
@@ -60,7 +60,8 @@ void PressWallSettings::read(Arguments &arguments, const std::string &keyword) {
     control.automatic = word == "auto";
     if (!control.automatic && (!Arguments::is_number(word, control.gain) || control.gain < 0.0))
       arguments.fail("gain", requirement, word);
-  } else if (keyword == "limit") control.limit = arguments.number(keyword, "a distance > 0", positive);
+  } else if (keyword == "base") base = arguments.yes_or_no(keyword);
+  else if (keyword == "limit") control.limit = arguments.number(keyword, "a distance > 0", positive);
   else control.max_rate = arguments.number(keyword, "a velocity > 0", positive);
 }
 

@@ -23,6 +23,7 @@ struct PressWallSettings {
   Every every = Every::step;
   double interval = 0.0;  // time or steps between two inputs
   PressureControl control;
+  bool base = false;  // the plate has a velocity besides what the error gives
   bool limit_given = false, max_rate_given = false;
 
   /** Reads all words from arg[3] on; every mistake is an error. */

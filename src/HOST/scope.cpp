@@ -134,11 +134,11 @@ void Scope::warn_of_whole_box() {
   if (warned_ || (may_be_filled && !has_gravity_or_walls(*modify))) return;
   warned_ = true;
   if (comm->me == 0)
-    error->warning(FLERR, (style_ +
-                           ": stresses are divided by the volume of the whole box, and grains may not fill a box that "
-                           "is not periodic or has walls or gravity: give 'region ID' or 'volume V' of the part that "
-                           "they fill, or 'volume auto' if the box is meant")
-                              .c_str());
+    error->warning(
+        FLERR, (style_ + ": stresses and densities (not Z and numbers) are divided by the volume of the whole box, and "
+                         "grains may not fill a box that is not periodic or has walls or gravity: give 'region ID' "
+                         "or 'volume V' of the part that they fill, or 'volume auto' if the box is meant")
+                   .c_str());
 }
 
 double Scope::volume_now(const BoxState &box) const {

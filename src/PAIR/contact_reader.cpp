@@ -93,20 +93,36 @@ void ContactReader::read_past(const Surfaces &s, Contact &c) const {
 void ContactReader::write_past(const Surfaces &s, const Contact &c) const {
   double *at = s.contact_history + law_.past_column;
   const ContactMotion &m = *c.motion;
+  const ContactVelocity u = c.working_velocity();
   const double half = 0.5 * observer_.time_step(), elastic_force = m.normal_stiffness * c.overlap;
   at[0] = observer_.stamp();
   at[1] = c.overlap;
   at[2] = elastic_force;
   at[3] = m.tangential_stiffness;
-  at[4] = -half * elastic_force * m.normal_velocity;
-  at[5] = c.spring ? half * m.tangential_stiffness * c.spring->after.dot(m.tangential_velocity) : 0.0;
+  at[4] = -half * elastic_force * u.normal;
+  at[5] = c.spring ? half * m.tangential_stiffness * c.spring->after.dot(u.tangential) : 0.0;
+}
+
+/** Of the surfaces, by the arms at which forces act. */
+ContactVelocity ContactReader::velocity_at_force(const Surfaces &s, const Contact &c) const {
+  const Vector3d &arm = c.motion->arm;
+  Vector3d u = Map<const Vector3d>(s.v_i) - Map<const Vector3d>(s.v_j) + Map<const Vector3d>(s.omega_i).cross(arm);
+  if (!s.is_wall) u -= Map<const Vector3d>(s.omega_j).cross(arm + c.branch);
+  const double normal = u.dot(c.normal);
+  return {normal, u - normal * c.normal};
 }
 
 void ContactReader::renew_past(const Surfaces &s, const Friction &friction, Contact &c) const {
   if (!law_.keeps_past()) return;
   read_past(s, c);
   if (law_.tangential == TangentialLaw::spring) read_spring(s, friction, c);
+  if (law_.synchronized) kept(c.at_force) = velocity_at_force(s, c);
   write_past(s, c);
+}
+
+/** thornton_ning has no dashpot, and gives neither k_n nor gamma_n. */
+static bool gives_coefficients(const ContactLaw &law) {
+  return law.elastic || law.models.find("thornton_ning") == std::string::npos;
 }
 
 /** `limitForce` sets a negative total to exactly 0: the damping part is then what cancels the elastic one. */
@@ -122,14 +138,15 @@ inline Vector3d ContactReader::contact_point(const Surfaces &s) const {
 
 inline void ContactReader::read_motion(const Surfaces &s, const Friction &friction, Contact &c) const {
   ContactMotion &m = kept(c.motion);
+  const bool known = gives_coefficients(law_);
   m.point = contact_point(s);
   m.arm = m.point - Map<const Vector3d>(observer_.positions()[s.i]);
   m.normal_velocity = s.vn;
   m.tangential_velocity = Vector3d(s.vtr1, s.vtr2, s.vtr3);
-  m.normal_damping = normal_damping(s);
-  m.normal_stiffness = s.kn;
+  m.normal_damping = known ? normal_damping(s) : 0.0;
+  m.normal_stiffness = known ? s.kn : 0.0;
   m.tangential_stiffness = s.kt;
-  m.damping_coefficient = s.gamman;
+  m.damping_coefficient = known ? s.gamman : 0.0;
   m.tangential_damping = friction.damping;
   m.damped = !friction.cut && friction.damping > 0.0;
 }
@@ -227,6 +244,7 @@ void ContactReader::after(const PairGroup &group, const GroupGeometry &g, const 
   read(s, force, friction, c);
   c.past.reset();
   c.spring.reset();
+  c.at_force.reset();
 }
 
 void ContactReader::after_wall(const Surfaces &s, const Forces &force_on_i, const PartnerWall &wall) {

@@ -81,6 +81,7 @@ class ContactReader {
   void read_motion(const Surfaces &s, const Friction &friction, Contact &c) const;
   void read_spring(const Surfaces &s, const Friction &friction, Contact &c) const;
   void read_rolling(const Surfaces &s, const Forces &force_on_i, Contact &c) const;
+  ContactVelocity velocity_at_force(const Surfaces &s, const Contact &c) const;
   void read_past(const Surfaces &s, Contact &c) const;
   void write_past(const Surfaces &s, const Contact &c) const;
   void renew_past(const Surfaces &s, const Friction &friction, Contact &c) const;

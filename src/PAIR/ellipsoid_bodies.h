@@ -3,10 +3,9 @@
 #define GRAINSCOPE_ELLIPSOID_BODIES_H
 
 #include "ellipsoid_contact.h"
+#include "neighbour_list_watch.h"
 #include "pair_group.h"
-#include "neighbor.h"
 #include "pointers.h"
-#include "update.h"
 #include <string>
 #include <vector>
 
@@ -20,21 +19,6 @@ struct SolverCounts {
   double steps = 0.0;       // Newton steps
   double most_steps = 0.0;  // in one pair
   double fallbacks = 0.0;   // contacts whose answer is not the regular one
-};
-
-/** Reports whether neighbour lists, or grains between two runs, have changed since the last call. The same on all
- *  ranks. */
-class NeighbourListWatch {
- public:
-  bool renewed(const LAMMPS_NS::Neighbor &neighbor, const LAMMPS_NS::Update &update) {
-    if (neighbor.ago != 0 && built_ == neighbor.lastcall && run_ == update.firststep) return false;
-    built_ = neighbor.lastcall;
-    run_ = update.firststep;
-    return true;
-  }
-
- private:
-  LAMMPS_NS::bigint built_ = -1, run_ = -1;
 };
 
 /** Every owned and ghost grain as an ellipsoid: shapes are read once per neighbour list and run, orientations once per

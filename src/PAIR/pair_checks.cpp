@@ -2,6 +2,8 @@
 #include "pair_checks.h"
 #include "bin_index.h"
 #include "box_state.h"
+#include "restart_data.h"
+#include "state_block.h"
 #include "symmetry_axis.h"
 #include "two_dimensions.h"
 #include "wall_contacts_owner.h"
@@ -10,8 +12,10 @@
 #include "domain.h"
 #include "error.h"
 #include "fix.h"
+#include "force.h"
 #include "modify.h"
 #include "neighbor.h"
+#include "update.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -19,30 +23,30 @@
 
 namespace grainscope {
 
-using LAMMPS_NS::Modify;
-
 namespace {
 
 const double rounding = 1e-9;  // of positions that are equal, over the radius
 
-/** Access to what a restart file holds for fixes that are not defined yet, which is protected in LIGGGHTS. */
-struct RestartData : Modify {
-  static const char *of(Modify *modify, const char *id) {
-    for (int k = 0; k < modify->*(&RestartData::nfix_restart_global); k++)
-      if (!strcmp((modify->*(&RestartData::id_restart_global))[k], id))
-        return (modify->*(&RestartData::state_restart_global))[k];
-    return nullptr;
-  }
-};
+/** What contacts with a wall, or a style of ours, go on with after a restart, by what an input script calls it; "":
+ *  something else. `ours`: of a style that LIGGGHTS knows by the name of one of its own. */
+std::string continued(const std::string &id, const std::string &style, bool ours) {
+  const auto begins = [&id](const char *prefix) { return id.compare(0, strlen(prefix), prefix) == 0; };
+  const auto without = [&id](const char *ending) { return " '" + id.substr(0, id.size() - strlen(ending)) + "'"; };
+  if (style == "property/atom" && begins("history_")) return "springs at wall '" + id.substr(strlen("history_")) + "'";
+  if (style == "contacthistory/mesh") return "springs at wall '" + id.substr(strlen("tracker_")) + "'";
+  if (style == "grain/record") return "memory of compute" + without("_record");
+  if (style == "ledger/record") return "ledger of compute" + without("_ledger");
+  if (ours && style == "deform") return "state of fix press/strain '" + id + "'";
+  if (ours && style == "move/mesh") return "state of fix press/wall '" + id + "'";
+  return "";
+}
 
 }
 
 void PairChecks::require_same_columns_in_restart(int wanted, std::initializer_list<ColumnSetting> settings) const {
   const char *state = RestartData::of(modify, "contacthistory");
   if (!state) return;
-  double columns[2];  // the host writes the number of columns, and one more
-  memcpy(columns, state, sizeof columns);
-  const int found = static_cast<int>(whole_count(columns[0], 1e6));
+  const int found = static_cast<int>(whole_count(RestartData::first_number(state), 1e6));
   for (const ColumnSetting &setting : settings) {
     if (setting.columns == 0 || found != wanted + (setting.on ? -setting.columns : setting.columns)) continue;
     const std::string with = std::string("'") + setting.keyword + " " + setting.with + "'",
@@ -54,6 +58,34 @@ void PairChecks::require_same_columns_in_restart(int wanted, std::initializer_li
                                    : " " + with + ". Use " + with))
                           .c_str());
   }
+}
+
+void PairChecks::warn_of_lost_states() {
+  const std::vector<RestartData::Entry> saved = RestartData::all(modify);
+  if (saved.empty()) return;
+  const auto is_there = [this](const RestartData::Entry &entry) {
+    const int at = modify->find_fix(entry.id.c_str());
+    return at >= 0 && entry.style == modify->fix[at]->style;
+  };
+  for (int k = 0; k < modify->nfix; k++) {
+    const LAMMPS_NS::Fix &fix = *modify->fix[k];
+    // those of LIGGGHTS have no outputs
+    const std::string begins = continued(fix.id, fix.style, fix.scalar_flag),
+                      kind = begins.substr(0, begins.find('\''));
+    if (begins.empty() || fix.recent_restart) continue;
+    for (const RestartData::Entry &entry : saved) {
+      const std::string lost = continued(entry.id, entry.style, state_block::is_one(entry.state));
+      if (lost.empty() || lost.compare(0, kind.size(), kind) != 0 || is_there(entry)) continue;
+      const std::string message = "the restart file holds the " + lost + ", which is not in this run, and not the " +
+                                  begins + ": if one is to continue the other, give it the same ID";
+      if (comm->me == 0) error->warning(FLERR, message.c_str());
+    }
+  }
+}
+
+void PairChecks::require_consistent_units() const {
+  if (force->nktv2p != 1.0)
+    Arguments(lmp, "pair_style gran/insitu").fail("units", "consistent: si, cgs, lj or micro", update->unit_style);
 }
 
 void PairChecks::warn_of_stale_springs() {

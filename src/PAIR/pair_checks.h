@@ -23,9 +23,13 @@ class PairChecks : private LAMMPS_NS::Pointers {
   /** The restart file that is to be continued must hold `wanted` numbers per contact, those of `settings` among
    * them. */
   void require_same_columns_in_restart(int wanted, std::initializer_list<ColumnSetting> settings) const;
+  /** A warning of what the restart file holds for walls, fixes and computes that have another ID now. */
+  void warn_of_lost_states();
   /** The contact history is kept by grain ID: if two images of one grain are within reach of another grain it is
    *  ambiguous. */
   void require_box_large_enough() const;
+  /** Contact laws have no factors between pressures and forces. */
+  void require_consistent_units() const;
   /** With `dimension 2`: spheres in one plane across z, with no motion out of it. */
   void require_grains_in_plane() const;
   /** A warning, once, if spheres keep the tangential springs of contacts that have opened. */

@@ -29,6 +29,7 @@
 #include "update.h"
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 using namespace LAMMPS_NS;
 using grainscope::ContactLaw;
@@ -56,7 +57,22 @@ struct PairGranInsitu::Impl {
   bool neutral = false;
   std::weak_ptr<grainscope::EvaluationMemory> memory;
   std::string sphere_model;  // that is given grains which may be no spheres, or ""
-  bool sending_images = false;
+  /** To ghosts. */
+  enum class Sent { of_host, images, masks } sent = Sent::of_host;
+  void send(Sent what, PairGranInsitu &pair) {
+    sent = what;
+    pair.comm->forward_comm_pair(&pair);
+    sent = Sent::of_host;
+  }
+  std::pair<bigint, bigint> run{-1, -1};  // first and last step of the run that the masks of ghosts are known to fit
+  /** Groups may change before a run without set-up, `pre no`, and LIGGGHTS tells ghosts with the next neighbour list.
+   *  What is frozen stays as the contact loop knows it. */
+  void update_masks(PairGranInsitu &pair) {
+    const std::pair<bigint, bigint> now{pair.update->firststep, pair.update->laststep};
+    if (now == run) return;
+    run = now;
+    send(Sent::masks, pair);
+  }
   bigint grains = 0;        // in the last evaluation
   bool renumbered = false;  // since then
   bigint images_of_build = -1;
@@ -156,8 +172,6 @@ void PairGranInsitu::synchronize() {
   if (!why.empty())
     error->all(FLERR,
                ("pair_style gran/insitu: 'time_level synchronized' " + why + ", got '" + impl_->models + "'").c_str());
-  if (impl_->ledger)
-    error->all(FLERR, "pair_style gran/insitu: 'time_level synchronized' needs 'ledger off', got 'ledger on'");
   const bool points = !contact_match("surface", "default");
   grainscope::TimeLevel::Columns columns;
   if (law.tangential == TangentialLaw::spring) columns.spring = column_of("shearx");
@@ -186,6 +200,8 @@ void PairGranInsitu::add_past_columns() {
 }
 
 void PairGranInsitu::init_style() {
+  impl_->checks.require_consistent_units();
+  impl_->run = {update->firststep, update->laststep};
   impl_->observer.remove_all();
   impl_->observer.begin_run();
   impl_->images_of_build = -1;
@@ -195,6 +211,7 @@ void PairGranInsitu::init_style() {
         {{"ledger", "on", "off", ContactReader::past_columns, impl_->ledger},
          {"time_level", "synchronized", "host",
           contact_match("surface", "default") ? 0 : grainscope::TimeLevel::kept_columns, impl_->level.kept() >= 0}});
+  impl_->checks.warn_of_lost_states();
   impl_->renumbered = atom->natoms < impl_->grains && !grainscope::contacts_know_their_grains(lmp);
   if (impl_->renumbered && comm->me == 0)
     error->warning(FLERR, "grains got new IDs, and LIGGGHTS keeps tangential springs by ID: some springs now belong to "
@@ -217,6 +234,7 @@ void PairGranInsitu::init_granular() {
   ContactLaw law = law_of_models();
   law.exponent = stressStrainExponent();
   law.past_column = impl_->past_column;
+  law.synchronized = impl_->level.synchronized();
   if (law.tangential == TangentialLaw::spring) law.spring_column = column_of("shearx");
   const int place = contact_match("surface", "ellipsoid") ? grainscope::EllipsoidSurface::lambda + 1 : 0;
   impl_->lane_law.connect(impl_->models, law.spring_column == place);
@@ -261,6 +279,7 @@ void PairGranInsitu::compute(int eflag, int vflag) {
     impl_->checks.require_grains_in_plane();
     impl_->checks.warn_of_sphere_model(impl_->sphere_model);
   }
+  impl_->update_masks(*this);
   const std::shared_ptr<grainscope::EvaluationMemory> memory = evaluation_memory();
   const bool repeats = memory && update->setupflag && memory->repeats();
   if (repeats) {
@@ -318,20 +337,36 @@ void PairGranInsitu::update_image_shifts() {
   if (impl_->images_of_build == neighbor->lastcall) return;
   impl_->images_of_build = neighbor->lastcall;
   impl_->observer.image_shifts().assign(3 * (atom->nlocal + atom->nghost), 0.0);
-  impl_->sending_images = true;
-  comm->forward_comm_pair(this);
-  impl_->sending_images = false;
+  impl_->send(Impl::Sent::images, *this);
 }
 
 int PairGranInsitu::pack_comm(int n, int *list, double *buf, int pbc_flag, int *pbc) {
-  if (!impl_->sending_images) return PairGran::pack_comm(n, list, buf, pbc_flag, pbc);
-  for (int k = 0; k < n; k++)
-    for (int d = 0; d < 3; d++)
-      buf[3 * k + d] = impl_->observer.image_shifts()[3 * list[k] + d] + (pbc_flag ? pbc[d] : 0);
-  return 3;
+  switch (impl_->sent) {
+    case Impl::Sent::of_host: break;
+    case Impl::Sent::images:
+      for (int k = 0; k < n; k++)
+        for (int d = 0; d < 3; d++)
+          buf[3 * k + d] = impl_->observer.image_shifts()[3 * list[k] + d] + (pbc_flag ? pbc[d] : 0);
+      return 3;
+    case Impl::Sent::masks:
+      for (int k = 0; k < n; k++) buf[k] = atom->mask[list[k]];
+      return 1;
+  }
+  return PairGran::pack_comm(n, list, buf, pbc_flag, pbc);
 }
 
 void PairGranInsitu::unpack_comm(int n, int first, double *buf) {
-  if (!impl_->sending_images) return PairGran::unpack_comm(n, first, buf);
-  std::copy(buf, buf + 3 * n, impl_->observer.image_shifts().begin() + 3 * first);
+  switch (impl_->sent) {
+    case Impl::Sent::of_host: break;
+    case Impl::Sent::images: std::copy(buf, buf + 3 * n, impl_->observer.image_shifts().begin() + 3 * first); return;
+    case Impl::Sent::masks: {
+      const int frozen = freeze_group_bit();
+      for (int k = 0; k < n; k++) {
+        int &mask = atom->mask[first + k];
+        mask = (static_cast<int>(buf[k]) & ~frozen) | (mask & frozen);
+      }
+      return;
+    }
+  }
+  PairGran::unpack_comm(n, first, buf);
 }

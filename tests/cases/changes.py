@@ -18,11 +18,15 @@ from run import run
 from watch import Watched, grain_columns, moments_of, watched_deck
 
 C_C = outputs("stress/contact").of("c")
+C_FORCES = outputs("contact/force").of("forces")
 C_GRAIN = outputs("contact/grain").of("grain")
 C_LOSS = outputs("dissipation").of("loss")
 C_MOVED = outputs("displacement/shear").of("moved")
+C_STATE = outputs("packing").of("state")
 C_STRESS = outputs("stress/contact").of("stress")
+C_SURFACE = outputs("contact/surface").of("surface")
 F_PRESS = outputs("press/strain").of("press")
+KAPPAS = [outputs("stress/contact").of(name)["kappa"] for name in ("filled", "known")]
 
 SPHERES, SPHEROIDS = dense_packing(atom_style="sphere"), dense_packing(1.5)
 LOOSE = replace(dense_packing(atom_style="sphere", overlap=-0.15), triclinic=False)
@@ -289,7 +293,44 @@ def box_scaled(ranks):
     require_close(second["c_books"], 0.0 * second["c_books"], 1e-12, "relative residual of the ledger", 1.0)
 
 
+def groups_changed_without_set_up(ranks):
+    """A run that is not set up builds no neighbour list, and contacts across faces and ranks know the new members."""
+    asked = {
+        "compute stress chosen stress/contact": C_STRESS["N_c"],
+        "compute loss chosen dissipation": C_LOSS["N_c"],
+        "compute state chosen packing": C_STATE["N_c"],
+        "compute forces chosen contact/force": C_FORCES["N_c"],
+        "compute surface chosen contact/surface": C_SURFACE["N"],
+    }
+    body = [
+        "group chosen id 1:9",
+        "group filled id 999999",  # nobody: the smallest modulus of no grain is 0
+        "group known id 1:70",
+        "compute filled filled stress/contact",
+        "compute known known stress/contact",
+        *asked,
+        "compute rows all contact/local id",
+        *dump_local("rows", 2, 2, "rows"),
+        *thermo(2, "step", *asked.values(), *KAPPAS),
+        "run 4",
+        "group chosen id 1:70",
+        "group filled id 1:70",
+        "run 4 pre no",
+    ]
+    result = run(Deck(SPHEROIDS, body=body), ranks)
+    table, rows = result.thermo()[-1], dict(result.dump("rows.dump"))
+    for step in (6, 8):
+        i, j = (column.astype(int) for column in rows[step].values())
+        at, contacts = list(table["step"]).index(step), float(np.sum((i <= 70) & (j <= 70)))
+        for name in asked.values():
+            expected = 70.0 if name == C_SURFACE["N"] else contacts
+            require_equal(table[name][at], expected, f"step {step}, {name}")
+        require(table[KAPPAS[1]][at] > 0.0, "no stiffness number to compare with")
+        require_equal(table[KAPPAS[0]][at], table[KAPPAS[1]][at], f"step {step}, kappa")
+
+
 CASES = {
+    "groups-changed-without-set-up": groups_changed_without_set_up,
     "box-turned-orthogonal": still_right(
         SPHERES, ["undump rows", "undump grains", "change_box all ortho", *DUMPS], box_at_rest=False
     ),

@@ -145,6 +145,7 @@ def under_control(rate=0.03, rest="gain 2e-6 maxrate 10 limit 0.05", **choices):
 
 
 UNDAMPED = "tangential_damping off"
+LEVEL = "time_level synchronized"
 LOOSE = dict(packing=dense_packing(atom_style="sphere", minimum=60, speed=2.0, overlap=0.001))
 CASES = {
     "sheared": in_simple_shear(extra=UNDAMPED),
@@ -164,6 +165,13 @@ CASES = {
     "three-rates-and-shear": in_a_box_of_three_rates(
         tilt=0.3, extra=UNDAMPED, packing=tilted(dense_packing(atom_style="sphere", minimum=60, speed=0.8), 0.2)
     ),
+    "synchronized": in_simple_shear(extra=f"{LEVEL} {UNDAMPED}"),
+    "synchronized-damped": in_simple_shear(
+        extra=LEVEL, packing=dense_packing(atom_style="sphere", minimum=60, speed=0.8, sizes=(0.9, 1.0, 1.1))
+    ),
+    "synchronized-no-history": in_simple_shear(extra=LEVEL, tangential="no_history"),
+    "synchronized-open-and-close": in_simple_shear(extra=f"{LEVEL} {UNDAMPED}", **LOOSE),
+    "synchronized-under-pressure-control": under_control(extra=f"{LEVEL} {UNDAMPED}"),
     "drift-kept": under_control(rest="gain 2e-6 maxrate 10 limit 0.05 momentum no", extra=UNDAMPED),
 }
 

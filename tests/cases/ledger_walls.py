@@ -14,7 +14,20 @@ from case import main, require, require_close, require_equal, require_same_snaps
 from collisions import kinetic_energy
 from deck import POISSON, Deck, Material, dump_grains, dump_local, rayleigh_time, thermo
 from grainscope.columns import outputs
-from ledger import C_E, LEDGER, LOSSES, NAMES, TOTALS, UNDAMPED, account, require_balance, turnover, with_ledger
+from ledger import (
+    C_E,
+    LEDGER,
+    LEVEL,
+    LOSSES,
+    NAMES,
+    SYNCHRONIZED,
+    TOTALS,
+    UNDAMPED,
+    account,
+    require_balance,
+    turnover,
+    with_ledger,
+)
 from oracle.ledger import AXES, STORES
 from oracle.state import ROW_WIDTH, grains_of, rows_of
 from packing import Grain, Packing
@@ -190,11 +203,11 @@ def path_work(force, velocity, dt):
     return 0.5 * dt * (force[:-1] * start + force[1:] * velocity[1:]).sum()
 
 
-def plate(ranks):
+def plate(ranks, extra=UNDAMPED):
     """A ball on a plate that swings up and down. The plate's velocity is known, and its force is what the ball feels
     beside its weight: the work follows from both, step by step."""
     amplitude, period = 0.05, 0.6
-    deck = scene([ball(1.02, (0.0, 0.0, 0.0))], atom_style="sphere", timestep=1e-3)
+    deck = scene([ball(1.02, (0.0, 0.0, 0.0))], atom_style="sphere", timestep=1e-3, extra=extra)
     omega = 2.0 * math.pi / period
     motion = f"wiggle amplitude 0. 0. {amplitude} period {period}"
     deck = body(deck, [FALL, *mesh(deck, motion=motion)], 3000, every=1)
@@ -312,34 +325,38 @@ def spheroids(count, radius, height, random_seed=1, shape=(0.5, 0.5, 0.75), spee
     return grains
 
 
-def in_drum(ranks):
-    """Spheroids in a drum that turns."""
-    grains = [
-        replace(g, position=(g.position[0], 0.4 * (-1) ** k, g.position[2]))
-        for k, g in enumerate(spheroids(12, 2.6, -1.2, speed=0.2))
-    ]
-    grains = [g for k, g in enumerate(grains) if math.hypot(g.position[0], g.position[2]) < 2.6]
-    places, kept = set(), []
-    for g in grains:
-        key = (round(g.position[0], 6), round(g.position[2], 6))
-        if key not in places:
-            places.add(key)
-            kept.append(g)
-    deck = scene(kept, half=6.0, timestep=0.1 * rayleigh_time(0.5))
-    scenery = mesh(deck, "floor", "rotate origin 0. 0. 0. axis 0. 1. 0. period 4.0")
-    deck = body(deck, [FALL, *scenery], 6000, every=1000)
-    table = run_with(deck, ranks, [("floor", drum(3.5, 1.5))]).thermo()[0]
-    for row in range(len(table["step"])):
-        require_closes(account(table, row), f"step {table['step'][row]}")
-    a = account(table)
-    require(a["W_wall"] > 0.0 and a["D_n_w"] > 0.0 and a["D_t_w"] > 0.0 and a["D_n"] > a["D_n_w"], "nothing moves")
-    require_close(a["W_other"], 0.0, 1e-10, "W_other", turnover(a))
+def in_drum(pair=UNDAMPED, walls=UNDAMPED):
+    """Spheroids in a drum that turns; `walls`: the words of the wall."""
+
+    def case(ranks):
+        grains = [
+            replace(g, position=(g.position[0], 0.4 * (-1) ** k, g.position[2]))
+            for k, g in enumerate(spheroids(12, 2.6, -1.2, speed=0.2))
+        ]
+        grains = [g for k, g in enumerate(grains) if math.hypot(g.position[0], g.position[2]) < 2.6]
+        places, kept = set(), []
+        for g in grains:
+            key = (round(g.position[0], 6), round(g.position[2], 6))
+            if key not in places:
+                places.add(key)
+                kept.append(g)
+        deck = scene(kept, half=6.0, timestep=0.1 * rayleigh_time(0.5), extra=pair)
+        scenery = mesh(replace(deck, extra=walls), "floor", "rotate origin 0. 0. 0. axis 0. 1. 0. period 4.0")
+        deck = body(deck, [FALL, *scenery], 6000, every=1000)
+        table = run_with(deck, ranks, [("floor", drum(3.5, 1.5))]).thermo()[0]
+        for row in range(len(table["step"])):
+            require_closes(account(table, row), f"step {table['step'][row]}")
+        a = account(table)
+        require(a["W_wall"] > 0.0 and a["D_n_w"] > 0.0 and a["D_t_w"] > 0.0 and a["D_n"] > a["D_n_w"], "nothing moves")
+        require_close(a["W_other"], 0.0, 1e-10, "W_other", turnover(a))
+
+    return case
 
 
-def pour(ranks, surface="ellipsoid", style="superquadric", count=40, steps=8000):
+def pour(ranks, surface="ellipsoid", style="superquadric", count=40, steps=8000, extra=UNDAMPED):
     shape = (0.5, 0.5, 0.75) if style == "superquadric" else (0.5, 0.5, 0.5)
     grains = spheroids(count, 2.9, 1.0, shape=shape)
-    deck = scene(grains, half=6.0, atom_style=style, surface=surface, timestep=0.1 * rayleigh_time(0.5))
+    deck = scene(grains, half=6.0, atom_style=style, surface=surface, timestep=0.1 * rayleigh_time(0.5), extra=extra)
     deck.packing = replace(deck.packing, origin=(-6.0, -6.0, -3.0), edges=(12.0, 12.0, 18.0))
     scenery = [
         FALL,
@@ -350,11 +367,11 @@ def pour(ranks, surface="ellipsoid", style="superquadric", count=40, steps=8000)
     return body(deck, scenery, steps, every=50, columns=["atoms"])
 
 
-def hopper(style):
+def hopper(style, extra=UNDAMPED):
     """Grains run out of a hopper and leave the box: they take their energy with them."""
 
     def case(ranks):
-        deck = pour(ranks, style=style)
+        deck = pour(ranks, style=style, extra=extra)
         table = run_with(deck, ranks, [("funnel", funnel(3.2, 1.4))]).thermo()[0]
         left = table["atoms"][0] - table["atoms"][-1]
         require(left >= 5, f"only {left} grains left")
@@ -606,12 +623,12 @@ def other_laws(ranks):
     require_equal(a["D_damp"], a["D_damp_w"], "only a wall has tangential damping")
 
 
-def restarted(hole, *words):
+def restarted(hole, *words, extra=UNDAMPED):
     """A run that is split and restarted goes on to the last bit, also where grains leave, with springs on walls; with
     `setup neutral` it is the run that was never split."""
 
     def case(ranks):
-        deck = pour(ranks, count=16)
+        deck = pour(ranks, count=16, extra=extra)
         deck.extra = " ".join([deck.extra, *words])
         head, runs = deck.body[:-1], ["run 3000", "write_restart half.restart", "run 2000"]
         surfaces = [("funnel", funnel(3.2, hole))]
@@ -670,7 +687,18 @@ CASES = {
     "conveyor": dragged("conveyor"),
     "shear": dragged("shear"),
     "moving": dragged("moving"),
-    "drum": in_drum,
+    "drum": in_drum(),
+    "drum-synchronized": in_drum(SYNCHRONIZED, SYNCHRONIZED),
+    "drum-synchronized-walls": in_drum(UNDAMPED, SYNCHRONIZED),
+    "drum-synchronized-grains": in_drum(SYNCHRONIZED, UNDAMPED),
+    "bounce-synchronized-spheres": bounce("plane", style="sphere", surface="default", extra=SYNCHRONIZED),
+    "bounce-synchronized-long": bounce("mesh", (1.0, 1.0, 1.5), extra=SYNCHRONIZED),
+    "bounce-synchronized-superquadric": bounce("plane", (1.0, 1.0, 1.5), surface="superquadric", extra=SYNCHRONIZED),
+    "bounce-synchronized-no-history": bounce("mesh", tangential="no_history", extra=LEVEL),
+    "plate-synchronized": lambda ranks: plate(ranks, SYNCHRONIZED),
+    "hopper-synchronized": hopper("sphere", SYNCHRONIZED),
+    "restarted-synchronized": restarted(1.4, extra=SYNCHRONIZED),
+    "restarted-synchronized-neutral": restarted(0.3, "setup neutral", extra=SYNCHRONIZED),
     "hopper-spheroids": hopper("superquadric"),
     "hopper-spheres": hopper("sphere"),
     "drops-out": drops_out,

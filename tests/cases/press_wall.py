@@ -6,10 +6,11 @@ from dataclasses import replace
 import numpy as np
 
 from case import main, require, require_close, require_equal, require_same_snapshots
-from deck import Material, dump_grains, thermo
+from deck import Deck, Material, dump_grains, thermo
 from grainscope.columns import outputs
 from ledger import LEDGER, ROUNDING, TOTALS, UNDAMPED, account, require_closed, turnover
-from plates import bed, plated, press
+from packing import DENSITY
+from plates import bed, plate_of, plated, press, top_of
 from run import run
 
 F_PRESS = outputs("press/wall").of("press")
@@ -185,7 +186,57 @@ def others_do_not_count(ranks):
     require_close(table[NOW] * area(deck), few, 1e-12, "the force of the group", every.max())
 
 
+def sinking(ranks):
+    """A floor that is drawn away at a steady velocity takes the bed along, and the plate follows it: below its target
+    by V/k_p, with a base at it."""
+    packing, steps, target = bed(across=3, layers=2, speed=0.05), 4000, 2e4
+    speed = 0.01 * np.sqrt(target / DENSITY)
+    for base, low, high in ((" base no", -0.3, -0.03), (" base yes", -1e-6, 1e-6)):
+        deck = Deck(packing, boundary="p p m", material=SOFT)
+        plate = plate_of(packing)
+        deck.body = [
+            f"fix plate all mesh/surface file {plate} type 1",
+            f"fix ground all mesh/surface file {plate} type 1 move 0. 0. {-top_of(packing)!r}",
+            f"fix walls all wall/gran {deck.model()} mesh n_meshes 2 meshes plate ground",
+            press(target, "every/step 5" + base),
+            *thermo(5, *STATE),
+            f"run {steps}",
+            f"fix down all move/mesh mesh ground linear 0. 0. {-speed!r}",
+            f"run {steps}",
+        ]
+        rest, table = run(deck, ranks).thermo()
+        late = table["step"] > table["step"][0] + 0.75 * steps
+        error = table["f_press"][late].mean() / target - 1.0
+        print(f"{base}: at rest {rest['f_press'][-1] / target - 1.0:.1e}, sinking {error:.2e}")
+        require(low < error < high, f"{base}: the pressure is off by {error:.2e}")
+        require_close(table[VELOCITY][late].mean(), -speed, 1e-3, "velocity of the plate")
+
+
+def smaller_plates(ranks):
+    """A warning if `area box` is more than the plate, or what walls inside the box leave of it."""
+    packing = bed(across=3, layers=2)
+    edge = packing.edges[0]
+    for scale, side, area, words in (
+        (1.0, "", "box", None),
+        (0.5, "", "box", "but the plate 'plate' spans 0.25 of it."),
+        (0.5, "", "12.0", None),
+        (1.0, f"xplane {0.9 * edge!r}", "box", "but the plate 'plate' meets inside the box: side."),
+        (1.0, f"xplane {edge!r}", "box", None),
+    ):
+        deck = plated(packing, material=SOFT, boundary="f f f")
+        deck.body[1] = deck.body[1] + f" scale {scale!r} move 0. 0. {(1.0 - scale) * top_of(packing)!r}"
+        if side:
+            deck.body.append(deck.body[0].replace("fix floor", "fix side").replace("zplane 0.0", side))
+        deck.body += [press(2e4, area=area), "run 1", "run 1"]
+        output = " ".join(run(deck, ranks).output.split())
+        found = output.split("'area box' divides by the cross-section of the box, ")[1:]
+        require(len(found) == (words is not None), f"{scale} {side}: {len(found)} warnings")
+        require(not words or found[0].startswith(words), f"{scale} {side}: {found}")
+
+
 CASES = {
+    "sinking": sinking,
+    "smaller-plates": smaller_plates,
     "holds-spheres": holds("every/step 10"),
     "holds-spheroids": holds("every/step 10", "superquadric", surface="ellipsoid"),
     "holds-hooke": holds("every/step 10", normal="hooke"),

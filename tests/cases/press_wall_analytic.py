@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """fix press/wall on a plate whose pressure is known: a sphere that nobody integrates touches it. Their overlap is
 R - s, s the distance of the plate, which parts at V: F = 4/3 E* sqrt(R d) d - gamma_n V (Hertz). The controller's
-recursion is then followed by hand."""
+recursion is then followed by hand; also where the sphere is drawn away from the plate."""
 import math
 
 import numpy as np
@@ -45,25 +45,29 @@ class Contact:
         self.force = elastic - self.damping * speed
 
 
-def by_hand(law, target, gain, mass, dt, area, limit, max_rate):
-    """Distance, speed and averaged pressure after every step, and how many inputs were clipped. An input on the first
-    step, then every EVERY steps, from the mean since the last."""
-    distance, speed, pressure, clipped, window = GAP, 0.0, 0.0, 0, []
+def by_hand(law, target, gain, mass, dt, area, limit, max_rate, drawn, base):
+    """Distance, speed and averaged pressure after every step, how many inputs were clipped, and the last gain. An input
+    on the first step, then every EVERY steps, from the mean since the last. `drawn`: the speed of the sphere away from
+    the plate."""
+    distance, speed, pressure, clipped, window, steady = GAP, 0.0, 0.0, 0, [], 0.0
     history = [(distance, speed, pressure)]
     for step in range(1, STEPS + 1):
-        distance += speed * dt
-        window.append(Contact(law, distance, speed, mass))
+        distance += (speed + drawn) * dt
+        window.append(Contact(law, distance, speed + drawn, mass))
         if step == 1 or step % EVERY == 0:
             force, stiffness, damping = (
                 np.mean([getattr(c, name) for c in window]) for name in ("force", "tangent", "damping")
             )
             pressure, window = force / area, []
             kp = BETA * area / (damping + stiffness * EVERY * dt) if gain == "auto" else gain
-            wanted, bound = kp * (pressure - target), min(limit / (EVERY * dt), max_rate)
-            speed = min(max(wanted, -bound), bound)
-            clipped += abs(wanted) > bound
+            adds, bound = kp * (pressure - target), min(limit / (EVERY * dt), max_rate)
+            speed = min(max(steady + adds, -bound), bound)
+            if abs(steady + adds) > bound:
+                clipped += 1
+            elif base:
+                steady += 0.1 * stiffness * EVERY * dt / (damping + stiffness * EVERY * dt) * adds
         history.append((distance, speed, pressure))
-    return np.array(history).T, clipped
+    return np.array(history).T, clipped, kp
 
 
 def plate(axis, side, dimension):
@@ -77,10 +81,21 @@ def plate(axis, side, dimension):
 
 
 def follows_by_hand(
-    gain, change, law="hertz", where="z-", area="box", limit=0.5, dimension=3, units="si", max_rate=None
+    gain,
+    change,
+    law="hertz",
+    where="z-",
+    area="box",
+    limit=0.5,
+    dimension=3,
+    units="si",
+    max_rate=None,
+    drawn=0.0,
+    base=False,
 ):
     """`change`: target over the pressure at the start. `where`: axis, and the side of the plate on which the sphere
-    is. `max_rate`: None where it is left to the fix, a tenth of sqrt(target/density)."""
+    is. `max_rate`: None where it is left to the fix, a tenth of sqrt(target/density). `drawn`: the speed of the sphere
+    away from the plate, in parts of that; the mean pressure is then lower by V/k_p, with `base` it is not."""
 
     def case(ranks):
         axis, toward = "xyz".index(where[0]), 1.0 if where[1] == "+" else -1.0
@@ -100,28 +115,39 @@ def follows_by_hand(
         squared = EDGE ** (dimension - 1) if area == "box" else float(area)
         target = change * Contact(law, GAP, 0.0, mass).force / squared
         slow = max_rate or 0.1 * math.sqrt(target / DENSITY)
+        away = drawn * slow
+        motion = [str(toward * away) if k == axis else "0.0" for k in range(3)]
         deck.body = [
             "unfix integrate",
+            *([f"fix draw all move linear {' '.join(motion)} units box"] if drawn else []),
             "fix plate all mesh/surface file plate.stl type 1",
             f"fix wall all wall/gran {deck.model()} mesh n_meshes 1 meshes plate",
             f"fix press all press/wall mesh plate axis {where[0]} target {target!r} area {area} every/step {EVERY} "
-            f"gain {gain} limit {limit!r}" + (f" maxrate {max_rate!r}" if max_rate else ""),
+            f"gain {gain} limit {limit!r}"
+            + (" base yes" if base else "")
+            + (f" maxrate {max_rate!r}" if max_rate else ""),
             *thermo(1, "f_press", *F_PRESS.vector()),
             f"run {STEPS}",
         ]
         result = run(deck, ranks, folder=meshes.folder_with(plate=plate(axis, -toward, dimension)))
         table = result.thermo()[0]
         found = {name: table[F_PRESS[name]] for name in F_PRESS.own.names("vector")}
-        (distance, speed, pressure), clipped = by_hand(law, target, gain, mass, deck.dt(), squared, limit, slow)
+        (distance, speed, pressure), clipped, kp = by_hand(
+            law, target, gain, mass, deck.dt(), squared, limit, slow, away, base
+        )
         # Overlaps are differences of lengths a hundred times as large.
-        require_close(-toward * found["position"], distance, 1e-13, "distance of the plate", 1.0)
-        require_close(-toward * found["travel"], distance - GAP, 1e-13, "its way", 1.0)
+        way = distance - GAP - away * deck.dt() * table["step"]
+        require_close(-toward * found["position"], GAP + way, 1e-13, "distance of the plate", 1.0)
+        require_close(-toward * found["travel"], way, 1e-13, "its way", 1.0)
         require_close(-toward * found["V"], speed, 1e-9, "its velocity")
         require_close(table["f_press"], pressure, 1e-9, "averaged pressure")
         require_close(found["error"][1:], pressure[1:] / target - 1.0, 1e-9, "relative error", 1.0)
         require(found["clipped"][-1] == clipped, f"{found['clipped'][-1]} inputs were clipped, by hand {clipped}")
         require(found["inputs"][-1] == 1 + STEPS // EVERY, f"{found['inputs'][-1]} inputs")
-        require_close(pressure[-1], target, 1e-3, "the recursion by hand ends at the target")
+        offset = 0.0 if base else away / kp
+        require_close(pressure[-1], target - offset, 1e-3, "the recursion by hand ends where it should", target)
+        print(f"the plate follows at V/k_p = {away / kp / target:.2e} of the target")
+        require(not drawn or away / kp > 2e-3 * target, "the offset does not show")
 
     return case
 
@@ -138,6 +164,11 @@ CASES = {
     "clipped": follows_by_hand("auto", 3.0, limit=1e-3),
     "clipped-by-maxrate": follows_by_hand("auto", 3.0, max_rate=0.02),
     "starts-softly": follows_by_hand("auto", 3.0),
+    "follows-behind": follows_by_hand("auto", 2.0, drawn=0.3),
+    "follows-with-a-base": follows_by_hand("auto", 2.0, drawn=0.3, base=True),
+    "follows-with-a-base-of-hooke": follows_by_hand("auto", 1.5, "hooke", where="x+", drawn=0.3, base=True),
+    "base-with-a-given-gain": follows_by_hand(6e-5, 1.5, area="20.0", drawn=0.1, base=True),
+    "base-at-rest": follows_by_hand("auto", 0.5, base=True),
 }
 
 if __name__ == "__main__":

@@ -185,7 +185,7 @@ def volumes(ranks):
             require_equal(found[[29, 30, 35]], whole[[29, 30, 35]], "counts")
 
 
-WHOLE_BOX = "stresses are divided by the volume of the whole box"
+WHOLE_BOX = "stresses and densities (not Z and numbers) are divided by the volume of the whole box"
 
 
 def whole_box_warned_of(ranks):

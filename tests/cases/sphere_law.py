@@ -39,6 +39,7 @@ def law_of(deck):
         pairs(deck.material.cohesion),
         "tangential_reduce on" in deck.extra,
         "setup neutral" in deck.extra,
+        "time_level synchronized" in deck.extra,
     )
 
 
@@ -158,6 +159,9 @@ CASES = {
         "neutral": {"extra": "setup neutral"},
         "neutral-slippery": {"material": Material(friction=(0.01,), restitution=(0.1,)), "extra": "setup neutral"},
         "neutral-two-types": {**TWO_TYPES, "extra": "setup neutral"},
+        "synchronized": {"extra": "time_level synchronized"},
+        "synchronized-no-history": {"extra": "time_level synchronized", "tangential": "no_history"},
+        "synchronized-two-types": {**TWO_TYPES, "extra": "time_level synchronized"},
     }.items()
 }
 CASES["under-pressure-control"] = under_control(spheres())

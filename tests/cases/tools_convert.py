@@ -199,7 +199,9 @@ def walls(ranks):
     for name in ("cut.stl", "short.stl"):
         refused("convert", ["grains.dump", "--to", "vtk", "--walls", name], name, "STL", folder=folder)
     refused("convert", ["grains.dump", "--to", "vtk", "--walls", "a*.stl"], "a*.stl: no file", folder=folder)
+    folder = folder_of(snapshot(0, spheres()))
     refused("convert", ["grains.dump", "--to", "vtk", "--walls", "a.stl"], "a.stl: No such file", folder=folder)
+    require(not (folder / "vtk").exists(), "something was written before a wall was refused")
 
 
 def refusals(ranks):
@@ -209,6 +211,7 @@ def refusals(ranks):
         folder = folder_of(snapshot(0, {name: values for name, values in columns.items() if name != left_out}))
         line = "dump grains all custom 1000 grains.*.dump id type x y z quat1 quat2 quat3 quat4 shapex shapey shapez"
         refused("convert", ["grains.dump", "--to", "vtk"], f"no column {left_out}", line, folder=folder)
+        require(not (folder / "vtk").exists(), "something was written before grains were refused")
     folder = folder_of(snapshot(0, {name: values for name, values in spheres().items() if name != "radius"}))
     line = "dump grains all custom 1000 grains.*.dump id type x y z radius"
     refused("convert", ["grains.dump", "--to", "vtk"], "no column radius", line, folder=folder)

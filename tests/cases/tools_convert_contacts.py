@@ -170,6 +170,11 @@ def refusals(ranks):
     refused("convert", words, "of one compute contact/local", "c_contacts, c_other", folder=folder)
     contacts(whole, step=10)
     refused("convert", words, "in the same steps", "steps 10", "steps 0", folder=folder)
+    (folder / "grains").write_text(snapshot(0, spheres) + snapshot(1, spheres))
+    later = {name: values for name, values in whole.items() if name != "c_contacts[1]"}
+    (folder / "contacts").write_text("".join(snapshot(*one, kind="ENTRIES") for one in ((0, whole), (1, later))))
+    refused("convert", words, "no column id_i", folder=folder)
+    require(not (folder / "vtk").exists(), "something was written before contacts were refused")
     contacts(rows(id_i=7))
     messages = converted(*words, folder=folder)
     require("1 contacts are left out" in messages, messages)

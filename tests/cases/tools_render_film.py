@@ -5,6 +5,7 @@ import io
 import os
 import shutil
 import subprocess
+import weakref
 
 import numpy as np
 from PIL import Image, ImageSequence
@@ -12,6 +13,7 @@ from PIL import Image, ImageSequence
 from case import main, require, require_close, require_equal, skip
 from dump_files import new_folder, refused, snapshot, tool
 from grainscope.progress import Line
+from grainscope.render.camera import fitted
 from grainscope.render.command import add_arguments, checked
 from grainscope.render.film import film
 from grainscope.render.look import Look, Sources
@@ -85,6 +87,53 @@ def mp4(ranks):
     require(code == 0 and said.split()[-1] == "film.mp4", f"{code}, {said}")
     subprocess.run(["ffmpeg", "-loglevel", "error", "-i", "film.mp4", "%d.png"], cwd=folder, check=True)
     require_moves([read(folder / f"{number}.png") for number in range(1, len(list(folder.glob("*.png"))) + 1)], 60)
+
+
+def one_view_at_a_time(ranks):
+    """The look of a film reads its snapshots one after the other and keeps none; every second frame reads no others."""
+    most = 2  # the one that was looked at before, and this one
+    for every in (1, 2):
+        parser, kept, read_steps = argparse.ArgumentParser(), [], []
+        add_arguments(parser)
+        words = [*WORDS, "--animate", "film.gif", "--every", every, run_of() / "grains.*.dump"]
+        sources = Sources(checked(parser.parse_args([*map(str, words)])))
+        at = sources.grains.at
+
+        def noted(step):
+            snapshot = at(step)
+            kept.append(weakref.ref(snapshot))
+            read_steps.append(step)
+            alive = sum(one() is not None for one in kept)
+            require(alive <= most, f"{alive} snapshots are kept")
+            return snapshot
+
+        sources.grains.at = noted
+        Look(sources, sources.steps[::every], sources.arguments)
+        require(set(read_steps) == set(STEPS[::every]), f"steps {read_steps} were read")
+
+
+def same_look(ranks):
+    """Camera and colours are those that all grains at once have, with and without perspective."""
+    folder = new_folder()
+    random = np.random.default_rng(3)
+    steps, count = (0, 1, 2), 40
+    places, radii = random.uniform(0.0, 10.0, (len(steps), count, 3)), random.uniform(0.2, 1.0, (len(steps), count))
+    for step in steps:
+        columns = dict(zip("xyz", places[step].T), id=list(range(1, count + 1)), radius=radii[step])
+        (folder / f"{step}.dump").write_text(snapshot(step, columns, sides="ff ff ff"))
+    parser = argparse.ArgumentParser()
+    add_arguments(parser)
+    for words in ([], ["--orthographic"]):
+        words = [*words, "--colour", "radius", "--animate", "film.gif", folder / "*.dump"]
+        given = checked(parser.parse_args([*map(str, words)]))
+        sources = Sources(given)
+        look = Look(sources, sources.steps, given)
+        width, height = look.pixels
+        expected = fitted(look.axes, places.reshape(-1, 3), radii.ravel(), width / height, given.orthographic)
+        require_equal([look.scale.low, look.scale.high], [radii.min(), radii.max()], "ends of the colour bar")
+        # points are projected in blocks of other sizes
+        require_close(look.camera.target, expected.target, 1e-14, "target of the camera", 10.0)
+        require_close([look.camera.width], [expected.width], 1e-14, "width of the picture")
 
 
 def one_step(ranks):
@@ -187,6 +236,8 @@ def refusals(ranks):
         (["--output", "a.jpg"], "--output must end in .png, got 'a.jpg'"),
         (["--output", "none/a.png"], "No such file or directory"),
         (["--animate", "a.avi"], "--animate must end in .mp4 or .gif, got 'a.avi'"),
+        (["--every", 2], "--every is for films: give --animate"),
+        (["--animate", "a.gif", "--every", 0], "--every must be at least 1, got 0"),
         (["--animate", "a.gif", "--step", 0], "--animate draws all snapshots; leave out --step and --scene"),
         (["--animate", "a.gif", "--rate", 0], "--rate must be above 0, got 0"),
     ):
@@ -227,6 +278,8 @@ main(
         "gif": gif,
         "progress": progress,
         "mp4": mp4,
+        "one-view-at-a-time": one_view_at_a_time,
+        "same-look": same_look,
         "one-step": one_step,
         "walls-that-move": walls_that_move,
         "missing-programs": missing_programs,

@@ -357,7 +357,47 @@ def areas(ranks):
     deck.boundary = "s f f"
     output = run_with_meshes(deck, ranks, floor=FLOOR).output
     require("the area of wall 'y0' is not known (the box is shrink-wrapped along it" in output, "nothing is said of y0")
-    require("the area of wall 'x0'" not in output, "x0 has an area")
+    require("the area of wall 'x0' is not known" not in output, "x0 has an area")
+
+
+def bounded(ranks):
+    """A warning names the walls that end another inside the box, where its area was not given."""
+    bounds = "is all of it that lies in the box, but it meets inside the box: "
+    edge = 5.88
+    for at, sides, area, bounding in (
+        (0.0, [("x0", "xplane 0"), ("x1", f"xplane {edge}")], "", "x0, x1"),
+        (0.0, [("x0", "xplane 0"), ("x1", f"xplane {edge}")], " area z0 34.6", None),
+        (0.0, [("x0", "xplane -2"), ("lid", "zplane 7")], "", None),  # at a face, and beside it
+        (0.0, [("c", "zcylinder 4.2 2.94 2.94")], "", "c"),
+        (0.0, [("c", "zcylinder 8 2.94 2.94")], "", None),  # around the box
+        (0.0, [], "", None),
+        (-1.0, [("mesh", "")], "", None),
+        (0.5, [("mesh", "")], "", "floor"),
+    ):
+        packing = cube()
+        deck = Deck(packing, boundary="f f f")
+        wall = f"all wall/gran {deck.model()}"
+        deck.body = [f"fix z0 {wall} primitive type 1 zplane {at}"]
+        for name, words_of_it in sides:
+            if name == "mesh":  # upright
+                deck.body += ["fix floor all mesh/surface file floor.stl type 1"]
+                deck.body += [f"fix meshes {wall} mesh n_meshes 1 meshes floor"]
+            else:
+                deck.body += [f"fix {name} {wall} primitive type 1 {words_of_it}"]
+        deck.body += ["compute w all wall/contact walls z0" + area, "run 0", "run 0"]
+        upright = [[(x, y, z + 0.5) for x, z, y in triangle] for triangle in flat(0.0, edge, 1)]
+        output = " ".join(run_with_meshes(deck, ranks, floor=upright).output.split())
+        found = output.split(bounds)[1:]
+        require(len(found) == (bounding is not None), f"{sides}: {len(found)} warnings")
+        if bounding:
+            require(found[0].startswith(bounding + ". If"), f"{sides}: {found[0][:80]}")
+    # A cylinder between planes.
+    deck = Deck(cube(), boundary="f f f")
+    wall = f"all wall/gran {deck.model()}"
+    deck.body = [f"fix c {wall} primitive type 1 zcylinder 4.2 2.94 2.94", f"fix z0 {wall} primitive type 1 zplane 0"]
+    deck.body += ["compute w all wall/contact walls c", "run 0"]
+    output = " ".join(run_with_meshes(deck, ranks).output.split())
+    require("area of wall 'c' " + bounds + "z0" in output, "nothing is said of a cylinder on a plane")
 
 
 CASES = {
@@ -372,6 +412,7 @@ CASES = {
     "impacts-resumed": impacts_resumed,
     "losses": losses,
     "areas": areas,
+    "bounded": bounded,
 }
 
 if __name__ == "__main__":

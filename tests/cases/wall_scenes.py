@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from case import main, require, require_close, require_equal, require_same_snapshots
-from deck import POISSON, YOUNG, Deck, Material, dump_grains, thermo
+from deck import POISSON, YOUNG, Deck, Material, dump_grains, dump_local, thermo
 from grainscope.columns import outputs
 import meshes
 from packing import Grain, Packing, dense_packing
@@ -99,6 +99,32 @@ def bounce(kind, restitution):
         require_equal(table["c_power"], table[C_POWER["P_n_w"]], "P_total")
         require_equal(table[C_POWER["P_n"]], np.zeros(len(table["c_power"])), "power between grains")
         require(table[C_POWER["N_w"]].max() == 1.0 and table[C_POWER["N_c"]].max() == 0.0, "contacts")
+
+    return case
+
+
+def without_coefficients(kind):
+    """thornton_ning has no dashpot and gives no coefficient of one: no part of its force is damping."""
+
+    def case(ranks):
+        deck = open_box([Grain((0.0, 0.0, 1.001), velocity=(0, 0, -1.0))], normal="thornton_ning", tangential="off")
+        deck.body = [
+            "fix adhesion all property/global surfaceEnergy peratomtypepair 1 0.0",
+            "fix yield all property/global coefficientYieldRatio peratomtype 0.5",
+            *floor(deck, kind),
+            "compute rows all contact/local overlap fn fn_damping",
+            *dump_local("rows", 3, 5, "rows"),
+            "run 50",
+        ]
+        text = deck.text()
+        properties, wall = "\n".join(deck.body[:2]) + "\n", deck.body[2]
+        text = text.replace(properties, "").replace("pair_style", properties + "pair_style", 1)
+        touched = 0
+        for _, columns in run(text, ranks, folder=meshes.folder_with(floor=FLOOR)).dump("rows.dump"):
+            overlap, normal, damping = columns.values()
+            require_equal(damping, np.zeros(len(damping)), f"{wall}: damping part of {normal}")
+            touched += len(overlap)
+        require(touched > 3, f"{touched} contacts")
 
     return case
 
@@ -310,6 +336,7 @@ CASES = {
     "column-on-a-plane": column("plane"),
     "column-on-a-mesh": column("mesh"),
     **{f"bounce-on-a-{kind}-e-{e}": bounce(kind, e) for kind in ("plane", "mesh") for e in (0.1, 0.9)},
+    **{f"without-coefficients-on-a-{kind}": without_coefficients(kind) for kind in ("plane", "mesh")},
     "booked": booked,
     "dragged": dragged,
     "rattlers": rattlers,

@@ -70,6 +70,10 @@ CASES = {
         "got fix integrate of style nve/limit",
         before=["unfix integrate", "fix integrate all nve/limit radius_ratio 0.1"],
     ),
+    "grains-that-grow": refused(
+        NAME + "needs grains whose diameters do not change within a run, got fix grow of style adapt with 'diameter'",
+        before=["variable wide equal 2.0+1e-5*step", "fix grow all adapt 1 atom diameter v_wide"],
+    ),
     "box-without-flow": refused(
         NAME + "needs 'remap v' where the box deforms, got fix shear (deform) without it",
         before=["fix shear all deform 1 xy erate 0.01 remap x"],

@@ -59,9 +59,13 @@ def warned_under_gran(ranks):
 
 def continued_otherwise(ranks):
     """Of grains that are no spheres more is kept; of spheres not, and either level goes on from the other."""
-    for style, refused in (("superquadric", True), ("sphere", False)):
+    for style, refused, ledger in (
+        ("superquadric", True, ""),
+        ("superquadric", True, "ledger on "),
+        ("sphere", False, ""),
+    ):
         packing = dense_packing(1.5 if refused else 1.0, atom_style=style)
-        with_it, without = (Deck(packing, surface="ellipsoid", extra=words) for words in (SYNCHRONIZED, ""))
+        with_it, without = (Deck(packing, surface="ellipsoid", extra=ledger + words) for words in (SYNCHRONIZED, ""))
         for first, second, said in (
             (with_it, without, "it was written with 'time_level synchronized'. Use 'time_level synchronized'"),
             (without, with_it, "it was written without 'time_level synchronized'. Use 'time_level host'"),
@@ -92,6 +96,10 @@ def continued_with_as_many_columns(ranks):
 
 
 CASES = {
+    "units": refusal(
+        lambda: deck(units="electron"),
+        "pair_style gran/insitu: 'units' must be consistent: si, cgs, lj or micro, got 'electron'",
+    ),
     "superquadrics-without-a-surface": refusal(
         lambda: spheroids(" surface superquadric", "", rolling="cdt", extra="tangential_damping off"),
         f"pair_style gran/insitu: {BOUNDING}; got surface 'default'. Write 'pair_style gran/insitu {MODEL} "
@@ -160,7 +168,6 @@ CASES = {
                 "works with the normal models hertz, hooke, hertz/stiffness and hooke/stiffness only",
                 "hooke/hysteresis",
             ),
-            ("ledger", lambda: deck(extra=SYNCHRONIZED + " ledger on"), "needs 'ledger off'", "got 'ledger on'"),
         )
     },
     "synchronized-wall": refusal(
@@ -175,15 +182,6 @@ CASES = {
     "synchronized-wall-misspelt": refusal(
         lambda: deck(f"{WALL} time_level synchronised"),
         "fix floor (wall/gran): 'time_level' must be synchronized or host, got 'synchronised'",
-    ),
-    "synchronized-wall-with-ledger": refusal(
-        lambda: Deck(
-            replace(dense_packing(atom_style="sphere"), triclinic=False),
-            body=[f"{WALL} {SYNCHRONIZED}", "run 1"],
-            boundary="p p f",
-            extra="ledger on",
-        ),
-        "fix floor (wall/gran): 'time_level synchronized' needs pair_style gran/insitu with 'ledger off'",
     ),
     "synchronized-under-gran": refusal(lambda: deck(extra=SYNCHRONIZED, pair="gran"), "time_level"),
     "synchronized-restart": continued_otherwise,

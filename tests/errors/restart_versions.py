@@ -22,15 +22,17 @@ FIXES = {
     "ledger/record": "ledger_ledger",
     "press/strain": "press",
     "press/wall": "press",
+    "wall/gran": "floor",
 }
+WITH_WALLS = ("press/wall", "wall/gran")
 # of the states that have changed since they have versions
-VERSIONS = {"grain/record": 2, "ledger/record": 3, "press/strain": 2}
+VERSIONS = {"grain/record": 2, "ledger/record": 3, "press/strain": 2, "press/wall": 2, "wall/gran": 2}
 MARK = b"grs stat"
 SEAL = struct.Struct("<16sQII")  # mark, length, checksum, format
 
 
 def measured(style=""):
-    if style == "press/wall":
+    if style in WITH_WALLS:
         return plated(bed(across=3, layers=2)), [press(1e4)]
     deck = Deck(dense_packing(1.5), surface="ellipsoid", extra="setup neutral ledger on")
     lines = [*strain_lines(0.05), PRESS, DISPLACEMENT.define("all"), "compute ledger all energy/ledger"]
@@ -72,7 +74,7 @@ def refused(style, offset, value, words):
 
 def same_file_is_read(ranks):
     """What the other cases change is read when it is written again with the number that it had."""
-    for scene, styles in (("", [style for style in FIXES if style != "press/wall"]), ("press/wall", ["press/wall"])):
+    for scene, styles in (("", [style for style in FIXES if style not in WITH_WALLS]), ("press/wall", WITH_WALLS)):
         file, whole, resume = written(ranks, scene)
         for style in styles:
             file.write_bytes(with_number(whole, style, 8, VERSIONS.get(style, 1)))

@@ -17,7 +17,6 @@ class Snapshot:
     """One force evaluation: grains (velocities at the end of the step), the box it saw, and its contacts by (i, j)."""
 
     def __init__(self, law, grains, box, first):
-        before = dict(law.springs)
         rows = contacts(law, grains, box, first)
         self.grains, self.box, self.first = grains, box, first
         self.inertia = 0.4 * grains.mass * grains.radius**2
@@ -26,9 +25,7 @@ class Snapshot:
         for k in range(len(rows["fn"])):
             i, j = (index[identity] for identity in rows["id"][k])
             row = {name: values[k] for name, values in rows.items()}
-            row["before"], row["spring"] = (
-                springs.get((i, j), NONE) if law.tangential == "history" else NONE for springs in (before, law.springs)
-            )
+            row["spring"] = law.springs[(i, j)] if law.tangential == "history" else NONE
             row["elastic"] = row["kn"] * row["overlap"]
             row["viscous"] = -row["gamma_t"] * row["ut"]
             self.contacts[(i, j)] = row
@@ -91,7 +88,7 @@ def book(last, now, dt, frame, springs=True):
     for key in last.contacts.keys() | now.contacts.keys():
         a, b = last.contacts.get(key), now.contacts.get(key)
         u0 = last.velocity(key, v, omega, gradient) if a else None
-        u1 = b["un"] * b["normal"] + b["ut"] if b else None
+        u1 = b["u_at_force"] if b else None
         for row, u in ((a, u0), (b, u1)):
             if row is None:
                 continue
@@ -116,7 +113,7 @@ def book_spring(moved, a, b, u0, u1, dt, springs):
     force0 = a["ft"] - a["viscous"] if a else np.zeros(3)
     work = -0.5 * dt * force0 @ u0 if a else 0.0
     if not b and springs:  # opened: the half step after the last evaluation takes the velocities before it
-        past = 0.5 * dt * a["kt"] * a["spring"] @ a["ut"]
+        past = 0.5 * dt * a["kt"] * a["spring"] @ a["u_at_force"]
         energy = 0.5 * a["kt"] * a["spring"] @ a["spring"]
         moved["G_open"] += energy + past
         moved["G_p"] += work - past
@@ -146,6 +143,6 @@ def book_overlap(moved, a, b, u0, u1, dt):
     elif b:
         path = half1
     else:
-        path = -0.5 * dt * a["elastic"] * a["un"]
+        path = -0.5 * dt * a["elastic"] * a["normal"] @ a["u_at_force"]
     moved["G_n"] += half0 + half1 - path
     moved["G_dt"] += path - (energy1 - energy0)

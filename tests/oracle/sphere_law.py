@@ -3,7 +3,8 @@
 spring followed from step to step. F_n = 4/3 E* sqrt(R* d) d - gamma_n u_n; k_t = 8 G* sqrt(R* d); gamma = -2 sqrt(5/6)
 b sqrt(S m*), S = 2 E* sqrt(R* d) for the normal part and k_t for the tangential one, b = ln e / sqrt(ln^2 e + pi^2).
 Cohesion adds -energy x area along the normal, after the friction limit mu |F_n| is taken, or before it with
-`tangential_reduce on`."""
+`tangential_reduce on`. With `time_level synchronized` the law takes the velocity of the surfaces in the middle of the
+step, by normal and arms of centres that have moved half of it."""
 from dataclasses import dataclass, field
 import itertools
 import math
@@ -25,6 +26,7 @@ class Law:
     energy: np.ndarray = None  # of cohesion, types x types
     reduces: bool = False  # cohesion lowers the friction limit
     bounded: bool = False  # tangential damping is kept to the limit in the first evaluation
+    synchronized: bool = False
     springs: dict = field(default_factory=dict)
 
     def stiffness(self, a, b):
@@ -68,6 +70,24 @@ def touching(grains, box):
             yield i, j, shifts[k]
 
 
+def rotation(start, end):
+    """The shortest that takes one unit vector to another (Rodrigues)."""
+    axis, cosine = np.cross(start, end), start @ end
+    turning = np.array([[0.0, -axis[2], axis[1]], [axis[2], 0.0, -axis[0]], [-axis[1], axis[0], 0.0]])
+    return np.eye(3) + turning + turning @ turning / (1.0 + cosine)
+
+
+def in_the_middle(radii, branch, v, spins, dt):
+    """The velocity of the surfaces in the middle of a step at whose end centres are `branch` apart, turned to the
+    normal there; and the rotation of the normal over the step."""
+    n, middle = branch / np.linalg.norm(branch), branch - 0.5 * dt * v
+    distance = np.linalg.norm(middle)
+    half, overlap = middle / distance, sum(radii) - distance
+    levers = [(r - 0.5 * overlap) * spin for r, spin in zip(radii, spins)]
+    u = v - np.cross(levers[0] + levers[1], half)
+    return rotation(half, n) @ u, rotation(2.0 * (half @ n) * half - n, n)
+
+
 def contacts(law, grains, box, first):
     """Rows like those of compute contact/local, with stiffnesses and damping coefficients as well. Springs move on by
     one step."""
@@ -89,7 +109,13 @@ def contacts(law, grains, box, first):
         gamma_n, gamma_t = damping * math.sqrt(2.0 * effective * root), damping * math.sqrt(kt)
         if law.tangential == "off" or not law.tangential_damping:
             gamma_t = 0.0
-        u = v[i] - (v[j] + box.rate @ image) - np.cross(ri * omega[i] + rj * omega[j], n)
+        relative = v[i] - (v[j] + box.rate @ image)
+        at_force = u = relative - np.cross(ri * omega[i] + rj * omega[j], n)
+        before = law.springs.get((i, j))
+        if law.synchronized and not first:
+            radii = (grains.radius[i], grains.radius[j])
+            u, turned = in_the_middle(radii, branch, relative, (omega[i], omega[j]), law.dt)
+            before = None if before is None else turned @ before
         un = u @ n
         ut = u - un * n
         fn, damped = kn * overlap - gamma_n * un, -gamma_n * un
@@ -99,9 +125,7 @@ def contacts(law, grains, box, first):
         if law.cohesion != "off":
             cohesion = -law.energy[a, b] * cohesive_area(law.cohesion, grains.radius[i], grains.radius[j], distance)
         limit = law.friction[a, b] * abs(fn + cohesion if law.reduces else fn)
-        ft, kind, slip, spring, gamma_t = tangential_force(
-            law, law.springs.get((i, j)), ut, n, kt, gamma_t, limit, first
-        )
+        ft, kind, slip, spring, gamma_t = tangential_force(law, before, ut, n, kt, gamma_t, limit, first)
         springs[(i, j)] = spring
         fn += cohesion
         mobilisation = 0.0 if law.tangential == "off" or limit == 0.0 else np.linalg.norm(ft) / limit
@@ -119,6 +143,8 @@ def contacts(law, grains, box, first):
                 "ft": ft,
                 "un": un,
                 "ut": ut,
+                "u_at_force": at_force,
+                "before": np.zeros(3) if before is None else before,
                 "sliding": float(kind != "sticks"),
                 "cut": kind == "cut",
                 "slip": slip,

@@ -3,6 +3,7 @@
 #define GRAINSCOPE_COLLIDING_PAIR_H
 
 #include "energy_ledger.h"
+#include "half_step.h"
 #include "make_contact.h"
 #include <cmath>
 
@@ -14,6 +15,7 @@ using grainscope::ContactMotion;
 using grainscope::ContactPast;
 using grainscope::ContactRolling;
 using grainscope::ContactSpring;
+using grainscope::ContactVelocity;
 using grainscope::EnergyLedger;
 using grainscope::LedgerFrame;
 
@@ -47,7 +49,8 @@ class Pair {
   EnergyLedger ledger;
   LedgerFrame frame;
   Vector3d outside = Vector3d::Zero();
-  double rolling = 0.0;  // torque per difference of spins
+  double rolling = 0.0;       // torque per difference of spins
+  bool synchronized = false;  // the law takes the velocity in the middle of the step
   bool touching = false, touched = false;
 
   explicit Pair(double step = 1e-3) : dt(step) { ledger.set_laws(make_law(1.5, grainscope::TangentialLaw::spring)); }
@@ -75,9 +78,13 @@ class Pair {
     contact.normal = n;
     contact.overlap = d;
     motion.arm = -(radius - 0.5 * d) * n;
-    const Vector3d u = i.v - j.v + i.omega.cross(motion.arm) - j.omega.cross(motion.arm + r);
+    const Vector3d at_force = i.v - j.v + i.omega.cross(motion.arm) - j.omega.cross(motion.arm + r);
+    Vector3d u = at_force;
+    if (synchronized && springs_move) u = in_the_middle(r, n);
     motion.normal_velocity = u.dot(n);
     motion.tangential_velocity = u - u.dot(n) * n;
+    const double normal = at_force.dot(n);
+    if (synchronized) contact.at_force = ContactVelocity{normal, at_force - normal * n};
     motion.normal_stiffness = k * std::sqrt(d);
     motion.tangential_stiffness = h * std::sqrt(d);
     motion.normal_damping = -c * std::sqrt(std::sqrt(d)) * u.dot(n);
@@ -99,8 +106,8 @@ class Pair {
     contact.past = past_;
     ledger.add({&contact, 1}, everyone(), dt, springs_move);
     past_ = ContactPast{d, motion.normal_stiffness * d, motion.tangential_stiffness,
-                        -0.5 * dt * motion.normal_stiffness * d * u.dot(n),
-                        0.5 * dt * motion.tangential_stiffness * spring_.dot(motion.tangential_velocity)};
+                        -0.5 * dt * motion.normal_stiffness * d * normal,
+                        0.5 * dt * motion.tangential_stiffness * spring_.dot(at_force)};
     i.force += contact.force;
     j.force -= contact.force;
     i.torque += motion.arm.cross(contact.force) + torque;
@@ -141,6 +148,18 @@ class Pair {
   }
 
  private:
+  /** The velocity that the law takes; turns the spring. */
+  Vector3d in_the_middle(const Vector3d &r, const Vector3d &n) {
+    const Sphere &i = spheres[0], &j = spheres[1];
+    grainscope::half_step::Motion<double> motion;
+    Eigen::Map<Vector3d>(motion.velocity + 0) = i.v - j.v;
+    Eigen::Map<Vector3d>(motion.spin_i + 0) = i.omega;
+    Eigen::Map<Vector3d>(motion.spin_j + 0) = j.omega;
+    Vector3d half, u;
+    grainscope::half_step::of_spheres(n.data(), r.data(), radius, radius, motion, dt, half.data(), u.data());
+    grainscope::half_step::turn_spring(half.data(), spring_.data());
+    return u;
+  }
   Vector3d spring_ = Vector3d::Zero();
   std::optional<ContactPast> past_;
 };

@@ -36,6 +36,32 @@ TEST(energy_ledger, a_collision_loses_what_the_ledger_says) {
   EXPECT_EQ(totals[E::W_shear], 0.0);
 }
 
+/** The law takes another velocity than forces work with: without the latter nothing would close. What the turning of
+ *  the spring makes, G_p, then falls with dt^2, and else with dt. */
+TEST(energy_ledger, a_synchronized_collision_loses_what_the_ledger_says) {
+  double gained[2][3];
+  for (bool synchronized : {false, true})
+    for (int fine = 0; fine < 3; fine++) {
+      Pair pair(5e-4 / (1 << fine));
+      pair.synchronized = synchronized;
+      pair.evaluate(false);
+      const double before = pair.kinetic();
+      for (int n = 0; n < 800 << fine; n++) pair.step();
+      ASSERT_TRUE(pair.touched && !pair.touching);
+      const auto totals = pair.ledger.totals();
+      double lost = 0.0;
+      for (int k = E::D_n; k <= E::G_dt; k++) lost += totals[k];
+      EXPECT_NEAR(lost, before - pair.kinetic(), 3.0 * rounding);
+      EXPECT_NEAR(pair.residual(), 0.0, 3.0 * rounding);
+      EXPECT_GT(totals[E::D_t], 0.005);
+      gained[synchronized][fine] = totals[E::G_p];
+    }
+  for (int fine = 0; fine < 2; fine++) {
+    EXPECT_NEAR(gained[false][fine] / gained[false][fine + 1], 2.0, 0.1);
+    EXPECT_NEAR(gained[true][fine] / gained[true][fine + 1], 4.0, 0.4);
+  }
+}
+
 TEST(energy_ledger, work_from_outside_is_force_times_path) {
   Pair pair;
   pair.outside = Vector3d(0.5, -1.0, 0.2);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "half_step.h"
 #include "off_place.h"
 #include "packed_pairs.h"
 #include "sphere_contact.h"
@@ -195,6 +196,13 @@ struct Bench {
     kernel(scene.packed(), group, g, law_of_group(group), kept);
   }
 
+  void push_synchronized(const PairGroup &group, const GroupGeometry &g, GroupForces &kept) {
+    const auto kernel = which.kind == Grains::spheres ? push_spheres_synchronized
+                        : which.kind == Grains::round ? push_round_synchronized
+                                                      : push_ellipsoids_synchronized;
+    kernel(scene.packed(), group, g, law_of_group(group), &kept);
+  }
+
   /** `surface default`: surface_model_default.h and pair_gran_base.h. */
   void sphere_surface(const PackedGrain &a, const PackedGrain &b, Single &s) const {
     const Vector3d delta = Vector(a.x) - Vector(b.x), vr = Vector(a.velocity) - Vector(b.velocity);
@@ -380,6 +388,39 @@ TEST(pair_law, is_that_of_the_host_to_the_last_bit) {
     EXPECT_GT(limited, 100);
     EXPECT_GT(ghosts, 1000);
   }
+}
+
+/** With `time_level synchronized` forces are kept beside the velocity that the host's law takes: to the last bit. */
+TEST(pair_law, synchronized_keeps_the_velocity_that_forces_work_with) {
+  for (Grains kind : KINDS)
+    for (PairLaw::Tangential tangential : {PairLaw::Tangential::no_history, PairLaw::Tangential::history}) {
+      int touching = 0, apart = 0;
+      Bench bench({kind, PairLaw::Normal::hertz, tangential, 0, false, false}, 11);
+      bench.law.kept = 4;
+      for (int n = 0; n < 400; n++) {
+        PairGroup group = bench.scene.group(1 + n % LANES, bench.history);
+        double history[LANES][4 + half_step::kept_numbers] = {};
+        for (int k = 0; k < LANES; k++) {
+          std::fill_n(history[k] + 4, 3, std::sqrt(1.0 / 3.0));  // a normal: about half of the contacts go on
+          group.history[k] = history[std::min(k, group.size - 1)];
+        }
+        OffPlace<GroupGeometry> geometry;
+        OffPlace<GroupForces> host, synchronized;
+        bench.meet(group, geometry.here);
+        bench.push(group, geometry.here, &host.here);
+        bench.push_synchronized(group, geometry.here, synchronized.here);
+        for (int k = 0; k < LANES; k++) {
+          touching += geometry.here.touching[k] != 0;
+          apart += std::fabs(host.here.normal_velocity[k] - synchronized.here.normal_velocity[k]) > 1e-3;
+          ASSERT_EQ(host.here.working_normal()[k], host.here.normal_velocity[k]);
+          ASSERT_EQ(synchronized.here.working_normal()[k], host.here.normal_velocity[k]);
+          for (int l = 0; l < 3; l++)
+            ASSERT_EQ(synchronized.here.working_tangential()[l][k], host.here.tangential_velocity[l][k]);
+        }
+      }
+      EXPECT_GT(touching, 300);
+      EXPECT_GT(apart, touching / 4);
+    }
 }
 
 /** Of a group of which nothing touches nothing changes. */

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 /** Contacts that come four at a time, and the same contacts one by one. */
@@ -32,6 +33,12 @@ class RandomContacts {
     for (int k = 0; k < 3 * ALL; k++) shifts[k] = k < 3 * OWN ? 0.0 : std::round(uniform(-1.5, 1.5));
     edges << 0.3, 0.7, -0.2, 0, 0.1, 0.5, 0, 0, -0.4;
     for (int k = 0; k < ALL; k++) mask[k] = k % 5 ? 3 : 1;
+  }
+
+  /** `time_level synchronized`: forces work with another velocity than that of the law. */
+  RandomContacts synchronized() && {
+    law_.synchronized = true;
+    return std::move(*this);
   }
 
   /** Some of four pairs touch, some lanes may be idle. */
@@ -91,6 +98,10 @@ class RandomContacts {
     m.normal_velocity = uniform(-1, 1);
     m.tangential_velocity = vector();
     m.tangential_velocity -= m.tangential_velocity.dot(c.normal) * c.normal;
+    if (law_.synchronized) {
+      const Vector3d u = vector();
+      c.at_force = ContactVelocity{u.dot(c.normal), u - u.dot(c.normal) * c.normal};
+    }
     m.normal_stiffness = uniform(50, 100);
     m.tangential_stiffness = uniform(50, 100);
     m.damping_coefficient = uniform(1, 10);
@@ -131,11 +142,15 @@ class RandomContacts {
     f.length[k] = s.norm();
     f.cut[k] = c.sliding ? -1 : 0;
     f.normal_velocity[k] = m.normal_velocity;
+    f.synchronized = law_.synchronized;
+    const ContactVelocity working = c.working_velocity();
+    f.normal_at_force[k] = working.normal;
     for (int l = 0; l < 3; l++) {
       geometry_.here.d[l][k] = -c.branch[l];
       f.normal[l][k] = c.normal[l];
       f.force[l][k] = c.force[l];
       f.tangential_velocity[l][k] = m.tangential_velocity[l];
+      f.tangential_at_force[l][k] = working.tangential[l];
       f.arm[l][k] = m.arm[l];
     }
     remember(k, spring ? s : Vector3d::Zero(), c);

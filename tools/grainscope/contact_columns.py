@@ -31,27 +31,42 @@ def dump_line(keywords):
     return f"compute contacts all contact/local\n  dump contacts all local 1000 contacts.*.dump {words}"
 
 
-def named(snapshot, keywords):
-    """The columns of a snapshot by name. `keywords`: those that the compute was given."""
+def names_of_columns(path, words, keywords):
+    """What the words of a dump's columns stand for. `keywords`: those that the compute was given."""
     names = [name for keyword in keywords or BY_DEFAULT for name in names_of(keyword)]
-    found, computes = {}, set()
-    for word, values in snapshot.columns.items():
+    found, computes = [], set()
+    for word in words:
         match = re.fullmatch(r"(c_\w+)\[(\d+)\]", word)
         if match is None:
-            found[word] = values
+            found.append(word)
             continue
         computes.add(match[1])
         number = int(match[2])
         if number > len(names):
             raise InputError(
-                f"{snapshot.path}: there is a column {word}, but compute contact/local has {len(names)} columns with "
+                f"{path}: there is a column {word}, but compute contact/local has {len(names)} columns with "
                 f"'{' '.join(keywords or BY_DEFAULT)}'; give its words by --contact-columns"
             )
-        found[names[number - 1]] = values
+        found.append(names[number - 1])
     if len(computes) > 1:
+        raise InputError(f"{path}: columns of one compute contact/local are needed, got {', '.join(sorted(computes))}")
+    return found
+
+
+def require_columns(path, names, needed, keywords):
+    """An error about those of the `needed` columns that are not among the names. `keywords`: those that give them."""
+    missing = [name for name in needed if name not in names]
+    if missing:
         raise InputError(
-            f"{snapshot.path}: columns of one compute contact/local are needed, got {', '.join(sorted(computes))}"
+            f"{path}: no column {', '.join(missing)}; it has {' '.join(names)}\nDump contacts by\n  "
+            f"{dump_line(keywords)}\nor name the words of your compute contact/local by --contact-columns"
         )
+
+
+def named(snapshot, keywords):
+    """The columns of a snapshot by name."""
+    names = names_of_columns(snapshot.path, snapshot.columns, keywords)
+    found = dict(zip(names, snapshot.columns.values()))
     _check(snapshot, found)
     return found
 

@@ -7,6 +7,7 @@ import re
 from grainscope import contact_columns, vtk_scene
 from grainscope.dumps import Dump
 from grainscope.errors import InputError, warn
+from grainscope.grains import grains_of
 from grainscope.ovito_dump import write_ovito
 from grainscope.progress import progress
 from grainscope.surfaces import DEEPEST, read_stl
@@ -52,6 +53,10 @@ class Walls:
             self._walls.append(found)
         self.move = any(set(files) != {0} for files in self._walls)
 
+    def require_readable(self):
+        for path in {path for files in self._walls for path in files.values()}:
+            read_stl(path)
+
     def numbered(self, step):
         """The file of each wall in a step, by the number of the wall, from 1; a wall may have none yet."""
         held = ([s for s in files if s <= step] for files in self._walls)
@@ -62,7 +67,46 @@ class Walls:
         return list(self.numbered(step).values())
 
 
+class Contacts:
+    """Contacts in the steps in which grains were dumped too. All have the columns that are needed."""
+
+    def __init__(self, grains, arguments):
+        self._grains, self._keywords = grains, arguments.contact_columns
+        self._contacts = Dump(arguments.contacts)
+        warn_of(self._contacts)
+        dumped = self._contacts.steps
+        self._steps = sorted(set(dumped).intersection(grains.steps))
+        if not self._steps:
+            raise InputError(
+                "contacts and grains must be dumped in the same steps: "
+                f"contacts are of {some(dumped)}, grains of {some(grains.steps)}"
+            )
+        if len(self._steps) < len(dumped):
+            warn(f"contacts of {len(dumped) - len(self._steps)} steps are left out: their grains were not dumped")
+        for step in self._steps:
+            path = self._contacts.path(step)
+            names = contact_columns.names_of_columns(path, self._contacts.names(step), self._keywords)
+            remedy = ("id", "point", "branch", "force", "fn")
+            contact_columns.require_columns(path, names, vtk_scene.OF_CONTACTS, remedy)
+        contact_columns.named(self._contacts.at(self._steps[0]), self._keywords)
+
+    def write(self, series, time):
+        lost = 0
+        for step in progress(self._steps, "contacts of snapshots"):
+            snapshot = self._contacts.at(step)
+            columns, grains = contact_columns.named(snapshot, self._keywords), self._grains.at(step)
+            lost += vtk_scene.write_contacts(series.add(step, time(step)), time(step), columns, snapshot, grains)
+        if lost:
+            warn(f"{lost} contacts are left out: the grain i of each is not in the dump of grains")
+
+
 def to_vtk(grains, arguments):
+    """Nothing is written before all that is needed is there."""
+    grains_of(grains.at(grains.steps[0]))
+    contacts = Contacts(grains, arguments) if arguments.contacts else None
+    walls = Walls(arguments.walls) if arguments.walls else None
+    if walls:
+        walls.require_readable()
     folder = Path(arguments.output or "vtk")
     kinds = ["grains", "box"] + ["surfaces"] * (arguments.mesh is not None)
     series = {kind: Series(folder, kind) for kind in kinds}
@@ -77,38 +121,17 @@ def to_vtk(grains, arguments):
         if arguments.mesh is not None:
             path = series["surfaces"].add(step, time(step))
             vtk_scene.write_surfaces(path, time(step), snapshot, arguments.mesh)
-    if arguments.contacts:
-        series["contacts"] = contacts_to_vtk(Series(folder, "contacts"), grains, arguments, time)
-    if arguments.walls:
+    if contacts:
+        series["contacts"] = Series(folder, "contacts")
+        contacts.write(series["contacts"], time)
+    if walls:
         series["walls"] = Series(folder, "walls")
-        walls = Walls(arguments.walls)
         for step in grains.steps if walls.move else grains.steps[:1]:
             meshes = {number: read_stl(path) for number, path in walls.numbered(step).items()}
             if meshes:
                 vtk_scene.write_walls(series["walls"].add(step, time(step)), time(step), meshes)
     for one in series.values():
         one.close()
-
-
-def contacts_to_vtk(series, grains, arguments, time):
-    contacts = Dump(arguments.contacts)
-    warn_of(contacts)
-    steps = sorted(set(contacts.steps).intersection(grains.steps))
-    if not steps:
-        raise InputError(
-            "contacts and grains must be dumped in the same steps: "
-            f"contacts are of {some(contacts.steps)}, grains of {some(grains.steps)}"
-        )
-    if len(steps) < len(contacts.steps):
-        warn(f"contacts of {len(contacts.steps) - len(steps)} steps are left out: their grains were not dumped")
-    lost = 0
-    for step in progress(steps, "contacts of snapshots"):
-        snapshot = contacts.at(step)
-        columns = contact_columns.named(snapshot, arguments.contact_columns)
-        lost += vtk_scene.write_contacts(series.add(step, time(step)), time(step), columns, snapshot, grains.at(step))
-    if lost:
-        warn(f"{lost} contacts are left out: the grain i of each is not in the dump of grains")
-    return series
 
 
 def warn_of(dump):

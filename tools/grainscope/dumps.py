@@ -4,6 +4,7 @@ for each step, plain or .gz.
 
     dump = Dump("grains.*.dump")     a name, a pattern with *, or a list of these
     dump.steps                       [0, 1000, 2000]
+    dump.names(1000)                 the names of a step's columns, without its rows
     dump.notes                       sentences for the user: what was left out, and why
     for snapshot in dump: ...        one at a time; nothing but this snapshot is in memory
     last = dump[-1]
@@ -129,6 +130,15 @@ class Dump:
             raise InputError(f"no snapshot of step {step}; there are {', '.join(map(str, self.steps))}")
         path, start, end = self._places[step]
         return _snapshot(path, self._content(path)[start:end])
+
+    def path(self, step):
+        """The file of a step."""
+        return self._places[step][0]
+
+    def names(self, step):
+        """The names of the columns of a step, without reading its rows."""
+        path, start, end = self._places[step]
+        return HEADER.match(self._content(path), start, end)["names"].decode().split()
 
     def _content(self, path):
         opened = self._opened  # taken once: a film reads its snapshots side by side

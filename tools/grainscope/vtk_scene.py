@@ -3,11 +3,10 @@
 import numpy as np
 
 from grainscope import grains as of_grains
-from grainscope.contact_columns import dump_line
-from grainscope.errors import InputError
 from grainscope.surfaces import grain_surfaces
 from grainscope.vtk_files import write_polydata
 
+OF_CONTACTS = ["id_i", "id_j", *(f"{name}_{end}" for name in ("point", "branch") for end in "xyz")]
 WHOLE = ("id", "type", "mol", "id_multisphere", "wall", "triangle", "strong", "sliding", "cluster")
 TRIPLES = {
     "velocity": ("vx", "vy", "vz"),
@@ -68,15 +67,8 @@ def write_surfaces(path, time, snapshot, level):
 
 def write_contacts(path, time, columns, snapshot, grains):
     """A line for each contact: from the centre of i to the contact point and on to the centre of the image of j that i
-    touches, or to the wall. Returns how many contacts are left out because `grains` has no i."""
-    needed = ["id_i", "id_j", *(f"{name}_{end}" for name in ("point", "branch") for end in "xyz")]
-    missing = [name for name in needed if name not in columns]
-    if missing:
-        remedy = dump_line(("id", "point", "branch", "force", "fn"))
-        raise InputError(
-            f"{snapshot.path}: no column {', '.join(missing)}; it has {' '.join(columns)}\n"
-            f"Dump contacts by\n  {remedy}\nor name the words of your compute contact/local by --contact-columns"
-        )
+    touches, or to the wall; `columns` by name has OF_CONTACTS. Returns how many contacts are left out because `grains`
+    has no i."""
     there = np.isin(columns["id_i"], grains["id"])
     columns = {name: values[there] for name, values in columns.items()}
     point, branch = (np.stack([columns[f"{name}_{end}"] for end in "xyz"], axis=1) for name in ("point", "branch"))

@@ -61,13 +61,31 @@ def picture_axes(view, up):
     return np.array([right, np.cross(toward, right), toward])
 
 
+def half_opening_of(orthographic):
+    """Its tangent."""
+    return 0.0 if orthographic else np.tan(np.radians(0.5 * OPENING)) / MARGIN
+
+
+def outermost(axes, points, radii, aspect, orthographic):
+    """Which spheres decide the camera: of others with these, fitted() makes the same camera from these alone."""
+    if not len(points):
+        return np.array([], dtype=int)
+    u, v, w = axes @ points.T
+    half_opening = half_opening_of(orthographic)
+    found = [w.argmin(), w.argmax(), (w + radii).argmax()]
+    for place, tangent in ((u, half_opening), (v, half_opening / aspect)):
+        reach = tangent * w + radii * np.hypot(1.0, tangent)
+        found += [(reach + place).argmax(), (reach - place).argmax()]
+    return np.unique(found)
+
+
 def fitted(axes, points, radii, aspect, orthographic):
     """The camera that just sees all spheres. In a perspective picture one at (u, v, w) of radius r is seen where
     |u - u_c| + r sqrt(1 + t^2) <= t (D - w), t the tangent of half the opening; so for v, with the opening upwards."""
     places = points @ axes.T
     w = places[:, 2]
     middle = 0.5 * (w.min() + w.max())
-    half_opening = 0.0 if orthographic else np.tan(np.radians(0.5 * OPENING)) / MARGIN
+    half_opening = half_opening_of(orthographic)
     centre, halves = [], []
     for k, tangent in ((0, half_opening), (1, half_opening / aspect)):
         reach = tangent * (w - middle) + radii * np.hypot(1.0, tangent)

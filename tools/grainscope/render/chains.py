@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from grainscope.contact_columns import dump_line, named
+from grainscope.contact_columns import named, require_columns
 from grainscope.errors import InputError
 
 NEEDED = ("id_i", "id_j", "branch_x", "branch_y", "branch_z", "fn")
@@ -31,12 +31,7 @@ def chains_of(contacts, keywords, drawn):
     """Of a snapshot of contacts those between grains that are drawn, and of these with walls. `keywords` are those of
     the compute contact/local."""
     columns = named(contacts, keywords)
-    missing = [name for name in NEEDED if name not in columns]
-    if missing:
-        raise InputError(
-            f"{contacts.path}: no column {', '.join(missing)}; it has {' '.join(columns)}\nDump contacts by\n  "
-            f"{dump_line(('id', 'branch', 'fn'))}\nor name the words of your compute contact/local by --contact-columns"
-        )
+    require_columns(contacts.path, columns, NEEDED, ("id", "branch", "fn"))
     drawn.snapshot.require("id")
     ids = drawn.snapshot["id"].astype(int)
     id_i, id_j = columns["id_i"].astype(int), columns["id_j"].astype(int)
@@ -62,9 +57,9 @@ def chains_of(contacts, keywords, drawn):
     )
 
 
-def strongest(everything):
-    """The normal force that is drawn the thickest, of the chains of all snapshots."""
-    forces = np.abs(np.concatenate([chains.forces for chains in everything]))
+def strongest(forces):
+    """The normal force that is drawn the thickest, of the magnitudes in all snapshots."""
+    forces = np.concatenate(forces)
     return float(np.quantile(forces, QUANTILE)) if forces.size else 0.0
 
 

@@ -86,6 +86,12 @@ def scale_of(values, name, axis="x", limits=None, colormap=None, label=None):
     return Scale(label or name, matplotlib.colormaps[colormap or "viridis"], low, high)
 
 
+def decisive(values):
+    """Those of the values of a snapshot that the scale of all snapshots depends on."""
+    kinds = np.unique(values[np.isfinite(values)])
+    return kinds if len(kinds) <= MOST_KINDS else np.append(kinds[:MOST_KINDS], kinds[-1])
+
+
 def strip_height(width):
     return max(1, round(STRIP * width))
 

@@ -79,6 +79,7 @@ def add_arguments(parser):
     group = parser.add_argument_group("films")
     add = group.add_argument
     add("--animate", metavar="FILE", help="a film of all snapshots, .mp4 (by ffmpeg) or .gif, in place of a picture")
+    add("--every", type=int, default=1, metavar="N", help="frames of every Nth snapshot alone (default: 1)")
     add("--rate", type=float, default=12.0, help="snapshots per second (default: 12)")
 
 
@@ -110,6 +111,8 @@ def checked(given):
         raise InputError(f"--jobs must be at least 1, got {given.jobs}")
     if not 0.0 < given.rate < np.inf:
         raise InputError(f"--rate must be above 0, got {given.rate:g}")
+    if given.every < 1:
+        raise InputError(f"--every must be at least 1, got {given.every}")
     if given.strongest is not None and not 0.0 < given.strongest < np.inf:
         raise InputError(f"--strongest must be above 0, got {given.strongest:g}")
     if not given.contacts:
@@ -120,6 +123,8 @@ def checked(given):
         raise InputError("--colour is for grains, which --only-contacts leaves out")
     if not given.output.endswith(".png"):
         raise InputError(f"--output must end in .png, got '{given.output}'")
+    if given.every != 1 and not given.animate:
+        raise InputError("--every is for films: give --animate")
     if given.animate:
         require_writer(given.animate)
         if given.step is not None or given.scene:
@@ -134,7 +139,7 @@ def run(arguments):
     for note in sources.notes:
         warn(note)
     if given.animate:
-        film(Look(sources, sources.steps, given), sources, given.animate, given.rate, given.jobs)
+        film(Look(sources, sources.steps[:: given.every], given), sources, given.animate, given.rate, given.jobs)
         print(given.animate)
         return
     step = sources.steps[-1] if given.step is None else given.step

@@ -41,8 +41,8 @@ def finished(look, step, pixels):
 
 
 def film(look, sources, path, rate, jobs, line=None):
-    """Draws every snapshot, `jobs` at a time, says how far it is, and writes the film."""
-    steps = sources.steps
+    """Draws the snapshots of the look, `jobs` at a time, says how far it is, and writes the film."""
+    steps = look.steps
     line = line or Line()
 
     def draw(step):

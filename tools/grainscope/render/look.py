@@ -2,15 +2,16 @@
 """What is drawn of each snapshot, and what all pictures of a film share: camera, colours, thickness of force chains."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import matplotlib
 import numpy as np
 
 from grainscope.dumps import Dump
 from grainscope.errors import InputError
-from grainscope.render.camera import AXES, DEFAULT_VIEW, Camera, fitted, picture_axes, upright
+from grainscope.render.camera import AXES, DEFAULT_VIEW, fitted, outermost, picture_axes, upright
 from grainscope.render.chains import Chains, chains_of, radii, strongest
-from grainscope.render.colours import GREY, Scale, scale_of, strip, strip_height, values_of
+from grainscope.render.colours import GREY, Scale, decisive, scale_of, strip, strip_height, values_of
 from grainscope.render.drawn import Drawn, drawn_of
 from grainscope.render.scene import Scene, box_edges, corners_by_place
 from grainscope.render.walls import AllWalls
@@ -49,8 +50,9 @@ class Sources:
         self.condition = Condition(arguments.where) if arguments.where else None
         self.steps = self.grains.steps
         self.notes = self.grains.notes + (self.contacts.notes if self.contacts else [])
+        self.view = lru_cache(maxsize=1)(self._view)  # a picture has one, which is read once
 
-    def view(self, step):
+    def _view(self, step):
         snapshot = self.grains.at(step)
         drawn = drawn_of(snapshot, self.condition, self.arguments.cut)
         chains = None
@@ -59,73 +61,110 @@ class Sources:
         return View(drawn, chains, self.walls.triangles(step, snapshot.box))
 
 
+class Overview:
+    """What must be known of all views before the first is drawn; of each view only sums and forces are kept."""
+
+    def __init__(self):
+        self.grains, self.sizes = 0, 0.0  # their number, and the sum of their mean radii
+        self.flat, self.are_spheres = True, True
+        self.forces = []
+        self._tilts = dict.fromkeys(("xy", "xz", "yz"), 0.0)
+
+    def add(self, view):
+        drawn, edges = view.drawn, view.box.edges
+        self.grains += len(drawn)
+        self.sizes += np.cbrt(np.prod(drawn.semi_axes, axis=1)).sum()
+        self.flat = self.flat and drawn.lie_flat
+        self.are_spheres = self.are_spheres and bool(drawn.are_spheres.all())
+        if view.chains is not None:
+            self.forces.append(np.abs(view.chains.forces))
+        for plane in self._tilts:
+            flow, gradient = map(AXES.index, plane)
+            self._tilts[plane] = max(self._tilts[plane], abs(edges[gradient][flow]) / edges[gradient][gradient])
+
+    def shear_plane(self):
+        """The plane xy, xz or yz, flow and gradient, in which boxes are tilted the most; None where none is."""
+        plane = max(self._tilts, key=self._tilts.get)
+        return plane if self._tilts[plane] > 0.0 else None
+
+
 class Look:
-    """What all pictures of these steps share."""
+    """What all pictures of these steps share. Views are read one at a time: for an overview, for the colours and the
+    camera, and when they are drawn."""
 
     def __init__(self, sources, steps, arguments):
-        self.arguments = arguments
-        views = [sources.view(step) for step in steps]
-        self._require_something(views, sources)
-        first = views[0]
-        self.flat = all(view.drawn.lie_flat for view in views)
+        self.arguments, self.steps = arguments, steps
+        periodic = sources.view(steps[0]).box.periodic
+        all_views = Overview()
+        for step in steps:
+            all_views.add(sources.view(step))
+        if not all_views.grains:
+            self._refuse(sources.view(steps[-1]).drawn.snapshot)
+        self.flat = all_views.flat
         self.with_box = arguments.box
         if self.with_box is None:
-            self.with_box = all(first.box.periodic[: 2 if self.flat else 3])
-        self.plane = shear_plane(views) if arguments.arrows is None else arguments.arrows
+            self.with_box = all(periodic[: 2 if self.flat else 3])
+        self.plane = all_views.shear_plane() if arguments.arrows is None else arguments.arrows
         if self.plane == "none" or (arguments.arrows is None and not self.with_box):
             self.plane = None
-        self.colour, self.scale = self._scale_of_grains(views)
-        self._scale_of_forces(views)
+        self.force_scale = None
+        if arguments.contacts:
+            high = arguments.strongest or strongest(all_views.forces) or 1.0
+            self.force_scale = Scale("normal force", FORCES, 0.0, high)
+            self.grain = all_views.sizes / all_views.grains
+        self.colour = self._column_of_colours(all_views)
+        self.noted = arguments.animate is not None
+        self.pixels = self._pixels()
         self.top = upright(arguments.up)[1]
         self.axes = picture_axes(arguments.view or ((0.0, 0.0) if self.flat else DEFAULT_VIEW), arguments.up)
-        self._fit(views)
+        self.scale, self.camera = self._scale_and_camera(map(sources.view, steps))
+        self.scales = [scale for scale in (self.scale, self.force_scale) if scale is not None]
 
-    def _require_something(self, views, sources):
-        if any(len(view.drawn) for view in views):
-            return
+    def _refuse(self, snapshot):
         chosen = [f"--where '{self.arguments.where}'"] if self.arguments.where else []
         chosen += [f"--cut {axis} {low:g} {high:g}" for axis, low, high in self.arguments.cut]
-        snapshot = views[-1].drawn.snapshot
         raise InputError(
             f"{snapshot.path}: no grain to draw of the {snapshot.rows} of step {snapshot.step}"
             + (f" with {' and '.join(chosen)}" if chosen else "")
         )
 
-    def _scale_of_grains(self, views):
-        """The column of the colours, and its scale; grains are grey without."""
+    def _column_of_colours(self, all_views):
+        """None where grains are grey."""
         name = self.arguments.colour
         if self.arguments.only_contacts or (name is None and self.arguments.contacts):
-            return None, None
+            return None
         name = name or "alignment"
-        axis = self.arguments.along or (self.plane or "x")[0]
-        values = np.concatenate([values_of(view.drawn, name, axis) for view in views])
-        label = self.arguments.label
-        if name == "alignment" and label is None and self.plane:
-            label = "angle to the flow"
-        scale = scale_of(values, name, axis, self.arguments.range, self.arguments.colormap, label)
-        return name, scale
+        return None if name == "alignment" and all_views.are_spheres else name
 
-    def _scale_of_forces(self, views):
-        self.force_scale = None
-        if not self.arguments.contacts:
-            return
-        high = self.arguments.strongest or strongest([view.chains for view in views]) or 1.0
-        self.force_scale = Scale("normal force", FORCES, 0.0, high)
-        self.grain = np.mean(np.concatenate([np.cbrt(np.prod(view.drawn.semi_axes, axis=1)) for view in views]))
+    def _along(self):
+        return self.arguments.along or (self.plane or "x")[0]
 
-    def _fit(self, views):
+    def _pixels(self):
+        """Width and height without the colour bars."""
         width, height = self.arguments.size
-        self.scales = [scale for scale in (self.scale, self.force_scale) if scale is not None]
-        self.noted = self.arguments.animate is not None
-        if self.scales or self.noted:
+        if self.colour or self.force_scale or self.noted:
             height -= strip_height(width)
         if height < 1:
             raise InputError(f"--size: {self.arguments.size[1]} pixels are too low for a width of {width}")
-        self.pixels = width, height
-        points, sizes = zip(*[part for view in views for part in self._seen(view)])
-        points, sizes = np.concatenate(points), np.concatenate(sizes)
-        orthographic = self.arguments.orthographic or self.flat
-        self.camera: Camera = fitted(self.axes, points, sizes, width / height, orthographic)
+        return width, height
+
+    def _scale_and_camera(self, views):
+        aspect, orthographic = self.pixels[0] / self.pixels[1], self.arguments.orthographic or self.flat
+        values, seen = [], []
+        for view in views:
+            if self.colour:
+                values.append(decisive(values_of(view.drawn, self.colour, self._along())))
+            points, sizes = (np.concatenate(parts) for parts in zip(*self._seen(view)))
+            outer = outermost(self.axes, points, sizes, aspect, orthographic)
+            seen.append((points[outer], sizes[outer]))
+        camera = fitted(self.axes, *map(np.concatenate, zip(*seen)), aspect, orthographic)
+        return self._scale_of(np.concatenate(values)) if self.colour else None, camera
+
+    def _scale_of(self, values):
+        label, along = self.arguments.label, self._along()
+        if self.colour == "alignment" and label is None and self.plane:
+            label = "angle to the flow"
+        return scale_of(values, self.colour, along, self.arguments.range, self.arguments.colormap, label)
 
     def _seen(self, view):
         """Points, and radii of what is about them."""
@@ -184,8 +223,7 @@ class Look:
     def _colours(self, drawn):
         if self.scale is None:
             return np.tile(GREY, (len(drawn), 1))
-        axis = self.arguments.along or (self.plane or "x")[0]
-        return self.scale.colours(values_of(drawn, self.colour, axis))
+        return self.scale.colours(values_of(drawn, self.colour, self._along()))
 
     def _opacity(self):
         if self.arguments.opacity is not None:
@@ -195,14 +233,3 @@ class Look:
     def strip(self, step):
         """Colour bars and, in films, the step, as rows of pixels."""
         return strip(self.scales, self.pixels[0], f"step {step}" if self.noted else "")
-
-
-def shear_plane(views):
-    """The plane xy, xz or yz, flow and gradient, in which boxes are tilted the most; None where none is."""
-    tilts = {
-        "xy": max(abs(view.box.edges[1][0]) / view.box.edges[1][1] for view in views),
-        "xz": max(abs(view.box.edges[2][0]) / view.box.edges[2][2] for view in views),
-        "yz": max(abs(view.box.edges[2][1]) / view.box.edges[2][2] for view in views),
-    }
-    plane = max(tilts, key=tilts.get)
-    return plane if tilts[plane] > 0.0 else None
