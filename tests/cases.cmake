@@ -5,7 +5,7 @@ add_cases(gran/insitu-bitwise-equal cases/pair_bitwise.py LABEL case STYLES gran
 add_cases(gran/insitu-bitwise-equal cases/pair_bitwise.py LABEL case STYLES gran/insitu CASES
   tangential-off tangential-no-history rolling-cdt hooke tangential-damping-off gaussian-curvature limit-force
   uncompiled-combination boxy-grains)
-add_cases(gran/insitu-spheres cases/sphere_bitwise.py LABEL case STYLES gran/insitu RANKS 1 2 LONG_RANKS 4 CASES hertz)
+add_cases(gran/insitu-spheres cases/sphere_bitwise.py LABEL case STYLES gran/insitu RANKS 1 LONG_RANKS 2 4 CASES hertz)
 add_cases(gran/insitu-spheres cases/sphere_bitwise.py LABEL case STYLES gran/insitu RANKS 1 LONG_RANKS 2 4 CASES
   hooke tangential-no-history frozen-of-two-types polydisperse settling-between-walls bridges-washino
   narrow-contact-distance)
@@ -17,7 +17,7 @@ add_cases(gran/insitu-spheres cases/sphere_bitwise.py LABEL case STYLES gran/ins
 add_cases(gran/insitu-host cases/pair_host.py LABEL case STYLES gran/insitu RANKS 1 LONG_RANKS 2 CASES
   pair-local-output-does-not-disturb restart-of-spheres-continues clear-and-begin-again pair-style-again
   sinks-come-and-go virial-of-spheroids)
-add_cases(gran/insitu-host cases/pair_host.py LABEL case STYLES gran/insitu RANKS 1 2 CASES
+add_cases(gran/insitu-host cases/pair_host.py LABEL case STYLES gran/insitu RANKS 1 LONG_RANKS 2 CASES
   restart-continues stale-springs-warned-once host-deck-with-walls)
 add_cases(gran/insitu-host cases/pair_host.py LABEL case STYLES gran/insitu CASES stale-springs-beside-rigid-bodies)
 add_cases(gran/insitu-host cases/pair_host.py LABEL case STYLES gran/insitu CASES
@@ -34,7 +34,7 @@ add_cases(gran/insitu-range cases/ranges.py LABEL case STYLES gran/insitu RANKS 
 # stress/contact, dissipation, nematic, contact/local against the oracle and a contact law of its own
 set(first_measures stress/contact dissipation nematic contact/local)
 add_cases(stress/contact+dissipation+nematic-oracle cases/measures_against_oracle.py LABEL case
-  STYLES ${first_measures} RANKS 1 2 CASES spheroid-1.5)
+  STYLES ${first_measures} RANKS 1 LONG_RANKS 2 CASES spheroid-1.5)
 add_cases(stress/contact+dissipation+nematic-oracle cases/measures_against_oracle.py LABEL case
   STYLES ${first_measures} RANKS 1 LONG_RANKS 2 CASES
   spheres spheres-in-the-open spheroid-1.5-in-the-open spheres-through-a-flip spheroids-through-a-flip
@@ -71,7 +71,8 @@ add_cases(stress/contact-range cases/ranges.py LABEL case STYLES stress/contact 
 add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation CASES
   history-undamped no-history frictionless slippery limit-force synchronized synchronized-no-history
   synchronized-two-types)
-add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation RANKS 1 2 CASES
+add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation RANKS 1
+  LONG_RANKS 2 CASES
   history)
 add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation
   RANKS 1 LONG_RANKS 2 CASES two-types)
@@ -116,21 +117,22 @@ add_cases(fabric+contact/surface+contact/direction+contact/grain-analytic cases/
   area-of-sphere-polar area-of-sphere-parametric area-about-another-axis area-about-another-axis-parametric
   every-bin-prolate-parametric every-bin-oblate-polar pole-on-equator statistics-of-spheres)
 add_cases(fabric+contact/surface+contact/direction+contact/grain-analytic cases/contact_analytic.py LABEL case
-  STYLES ${contact_measures} RANKS 1 2 CASES
+  STYLES ${contact_measures} RANKS 1 LONG_RANKS 2 CASES
   cubic-lattice every-bin-prolate-polar opposite-bins-of-spheroids powers-add-up)
 add_cases(fabric+contact/surface+contact/direction+contact/grain-analytic cases/contact_analytic.py LABEL case
   STYLES ${contact_measures} RANKS 1 LONG_RANKS 2 CASES
   every-bin-oblate-parametric opposite-bins powers-of-spheres-add-up)
 
 # wall/gran: the motion of the host's, contacts with walls in every measure of contacts
-add_cases(wall/gran-bitwise-equal cases/wall_bitwise.py LABEL case STYLES wall/gran gran/insitu RANKS 1 2 CASES
+add_cases(wall/gran-bitwise-equal cases/wall_bitwise.py LABEL case STYLES wall/gran gran/insitu RANKS 1 LONG_RANKS 2
+  CASES
   walls-default)
 add_cases(wall/gran-bitwise-equal cases/wall_bitwise.py LABEL case STYLES wall/gran gran/insitu RANKS 1 LONG_RANKS 2
   CASES walls-superquadric models-default models-superquadric)
 add_cases(wall/gran-bitwise-equal cases/wall_bitwise.py LABEL case STYLES wall/gran gran/insitu surface/ellipsoid
   RANKS 1 LONG_RANKS 2 CASES walls-ellipsoid models-ellipsoid)
 set(wall_measures wall/gran ${contact_measures} stress/contact dissipation contact/local)
-add_cases(wall/gran-measures cases/wall_measures.py LABEL case STYLES ${wall_measures} RANKS 1 2 LONG_RANKS 4 CASES
+add_cases(wall/gran-measures cases/wall_measures.py LABEL case STYLES ${wall_measures} RANKS 1 LONG_RANKS 2 4 CASES
   box drum)
 add_cases(wall/gran-measures cases/wall_measures.py LABEL case STYLES ${wall_measures} RANKS 1 LONG_RANKS 2 4 CASES
   piston hopper box-viscous box-subgroup box-empty-group hopper-frictionless)
@@ -140,10 +142,10 @@ add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES ${wall_measures
   column-on-a-plane column-on-a-mesh bounce-on-a-plane-e-0.1 bounce-on-a-plane-e-0.9 bounce-on-a-mesh-e-0.1
   bounce-on-a-mesh-e-0.9 booked dragged rattlers)
 add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran stress/contact press/strain gran/insitu
-  RANKS 1 2 LONG_RANKS 4 CASES press-between-sides)
+  RANKS 1 LONG_RANKS 2 4 CASES press-between-sides)
 add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran stress/contact press/strain gran/insitu
-  RANKS 1 2 CASES asked-before-walls change resumed-under-a-plate resumed-under-a-plate-moved-late)
-add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran energy/ledger RANKS 1 2 CASES
+  RANKS 1 LONG_RANKS 2 CASES asked-before-walls change resumed-under-a-plate resumed-under-a-plate-moved-late)
+add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran energy/ledger RANKS 1 LONG_RANKS 2 CASES
   ledger-asked-before-walls)
 add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran gran/insitu RANKS 1 2 CASES unseen-walls)
 add_cases(wall/gran-scene cases/wall_scenes.py LABEL case STYLES wall/gran contact/local CASES
@@ -165,7 +167,7 @@ add_cases(fluctuation+layering+displacement/shear+velocity/memory-analytic cases
   rarely-asked affine-backward affine-without-stretch drifting-backward drifting-in-xz drifting-in-yz rigid lever
   starts-late)
 add_cases(fluctuation+layering+displacement/shear+velocity/memory-analytic cases/motion_analytic.py LABEL case
-  STYLES ${motions} RANKS 1 2 CASES replaced-grains affine planes-of-grains remembers)
+  STYLES ${motions} RANKS 1 LONG_RANKS 2 CASES replaced-grains affine planes-of-grains remembers)
 add_cases(fluctuation+layering+displacement/shear+velocity/memory-analytic cases/motion_analytic.py LABEL case
   STYLES ${motions} RANKS 1 LONG_RANKS 2 CASES
   rarely-asked-backward drifting drifting-under-press-strain energies random-walk later-grains remembers-later-grains)
@@ -173,7 +175,8 @@ add_cases(fluctuation-range cases/ranges.py LABEL case STYLES fluctuation RANKS 
 set(series displacement/shear velocity/memory grain/record)
 add_cases(displacement/shear+velocity/memory-oracle cases/series_measures.py LABEL case STYLES ${series} CASES
   spheroids backward backward-under-pressure-control)
-add_cases(displacement/shear+velocity/memory-oracle cases/series_measures.py LABEL case STYLES ${series} RANKS 1 2 CASES
+add_cases(displacement/shear+velocity/memory-oracle cases/series_measures.py LABEL case STYLES ${series} RANKS 1
+  LONG_RANKS 2 CASES
   under-pressure-control)
 add_cases(displacement/shear+velocity/memory-oracle cases/series_measures.py LABEL case STYLES ${series}
   RANKS 1 LONG_RANKS 2 CASES spheres sheared-in-yz subgroup)
@@ -183,18 +186,18 @@ add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case S
 add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation
   LONG_RANKS 1 CASES spheroid-3)
 add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation
-  RANKS 1 2 CASES through-a-flip plane-wave-on-a-mesh one-search asked-beside)
+  RANKS 1 LONG_RANKS 2 CASES through-a-flip plane-wave-on-a-mesh one-search asked-beside)
 add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation
   RANKS 1 LONG_RANKS 2 CASES spheres under-pressure-control subgroup running plane-wave)
 
 # press/strain
 add_cases(press/strain-faces-that-close cases/faces_that_close.py LABEL case STYLES press/strain gran/insitu
-  RANKS 1 2 LONG_RANKS 4 CASES pressed pressed-and-sheared deformed)
+  RANKS 1 LONG_RANKS 2 4 CASES pressed pressed-and-sheared deformed)
 add_cases(press/strain-control cases/press_strain.py LABEL case STYLES press/strain CASES
   shears-backward-as-fix-deform shears-in-xz shears-in-yz recursion-clipped recursion-clipped-by-rate
   recursion-every-time recursion-negative-rate inputs-every-strain inputs-every-time inputs-every-step
   holds-the-target target-zero-expands target-follows-a-variable without-shear momentum-kept)
-add_cases(press/strain-control cases/press_strain.py LABEL case STYLES press/strain RANKS 1 2 CASES
+add_cases(press/strain-control cases/press_strain.py LABEL case STYLES press/strain RANKS 1 LONG_RANKS 2 CASES
   shears-as-fix-deform restart-continues)
 add_cases(press/strain-control cases/press_strain.py LABEL case STYLES press/strain RANKS 1 LONG_RANKS 2 CASES
   recursion-every-strain automatic-gain at-the-target-nothing-moves momentum-removed kinetic-part-counts)
@@ -202,7 +205,8 @@ add_cases(press/strain-control cases/press_strain.py LABEL case STYLES press/str
   same-on-ranks restart-on-other-ranks)
 add_cases(press/strain-analytic cases/press_analytic.py LABEL case STYLES press/strain RANKS 1 LONG_RANKS 2 CASES
   automatic-gain-compresses automatic-gain-expands automatic-gain-of-hooke)
-add_cases(press/strain-analytic cases/press_analytic.py LABEL case STYLES press/strain RANKS 1 2 CASES given-gain)
+add_cases(press/strain-analytic cases/press_analytic.py LABEL case STYLES press/strain RANKS 1 LONG_RANKS 2
+  CASES given-gain)
 add_cases(press/strain-path-by-hand cases/stress_path_analytic.py LABEL case STYLES press/strain CASES
   two-edges an-edge-by-the-old-form-and-one-driven mean-with-ratios-beside-a-rate shear-stress
   sheared-in-two-planes-under-pressure)
@@ -213,7 +217,7 @@ add_cases(press/strain-path cases/stress_paths.py LABEL case STYLES press/strain
   volume-stays targets-follow-variables in-two-dimensions part-of-the-grains)
 add_cases(press/strain-path cases/stress_paths.py LABEL case STYLES press/strain RANKS 1 LONG_RANKS 2 4 CASES
   lattice-under-three-targets holds-a-shear-stress next-stage between-runs between-walls)
-add_cases(press/strain-path cases/stress_paths.py LABEL case STYLES press/strain RANKS 1 2 LONG_RANKS 4 CASES
+add_cases(press/strain-path cases/stress_paths.py LABEL case STYLES press/strain RANKS 1 LONG_RANKS 2 4 CASES
   sheared-in-three-planes-and-stretched whatever-lists-are-built whatever-lists-are-built-on-every-edge
   restart-continues restart-continues-with-a-mean-and-a-shear-stress)
 add_cases(press/strain-path cases/stress_paths.py LABEL case STYLES press/strain RANKS 2 LONG_RANKS 4 CASES
@@ -239,9 +243,9 @@ add_cases(stress/contact+field/write-renumbered cases/renumbered.py LABEL case S
 add_cases(press/wall-analytic cases/press_wall_analytic.py LABEL case STYLES press/wall RANKS 1 LONG_RANKS 2 CASES
   automatic-gain-gives-way automatic-gain-of-hooke from-below-along-x along-y clipped clipped-by-maxrate starts-softly
   two-dimensions in-cgs follows-behind follows-with-a-base-of-hooke base-with-a-given-gain base-at-rest)
-add_cases(press/wall-analytic cases/press_wall_analytic.py LABEL case STYLES press/wall RANKS 1 2 CASES
+add_cases(press/wall-analytic cases/press_wall_analytic.py LABEL case STYLES press/wall RANKS 1 LONG_RANKS 2 CASES
   automatic-gain-presses given-gain follows-with-a-base)
-add_cases(press/wall-bed cases/press_wall.py LABEL case STYLES press/wall RANKS 1 2 LONG_RANKS 4 CASES
+add_cases(press/wall-bed cases/press_wall.py LABEL case STYLES press/wall RANKS 1 LONG_RANKS 2 4 CASES
   holds-spheres restarted restarted-neutral)
 add_cases(press/wall-bed cases/press_wall.py LABEL case STYLES press/wall RANKS 1 LONG_RANKS 2 CASES
   holds-spheroids holds-hooke stable-every-step stable-rarely stable-bouncing stable-damped
@@ -257,7 +261,8 @@ add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/sph
   flows-as-host-1.5)
 add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid RANKS 1 LONG_RANKS 2 CASES
   energy-kept some-grains first-group collision-of-prolate-grains collision-of-oblate-grains inserted-grains)
-add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid RANKS 1 2 CASES restart-continues)
+add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid RANKS 1 LONG_RANKS 2
+  CASES restart-continues)
 add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid RANKS 1 2 LONG_RANKS 4 CASES
   shears-as-host-1.5)
 add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid RANKS 1 LONG_RANKS 2 4 CASES
@@ -270,7 +275,8 @@ add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case 
   hooke rolling-cdt rolling-epsd2 limit-force-undamped moved-by-nve-spheroid mixed-shapes-and-types cohesion
   spheres-of-five-sizes frozen-spheres softened-spheres rods-squeezed-by-the-box tumbling-rods-with-jumps
   tumbling-rods-shrink-wrapped pushed-rods shapes-set-between-runs)
-add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case STYLES surface/ellipsoid RANKS 1 2 CASES
+add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case STYLES surface/ellipsoid RANKS 1
+  LONG_RANKS 2 CASES
   spheroid-1.5 tumbling-rods-in-a-deforming-box)
 add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case STYLES surface/ellipsoid CASES
   observed-spheres observed-tangential-off observed-tangential-no-history observed-undamped observed-limit-force
@@ -304,7 +310,7 @@ add_cases(wall/gran-mended cases/walls_mended.py LABEL case STYLES wall/gran RAN
   cylinder-turns-z-inside cylinder-turns-z-inside-narrow cylinder-turns-z-outside
   floor-diagonal-superquadric floor-beside-the-diagonal-superquadric floor-far-superquadric floor-diagonal-ellipsoid
   floor-beside-the-diagonal-ellipsoid floor-far-ellipsoid edge-superquadric edge-ellipsoid)
-add_cases(wall/gran-mended cases/walls_mended.py LABEL case STYLES wall/gran RANKS 1 2 CASES
+add_cases(wall/gran-mended cases/walls_mended.py LABEL case STYLES wall/gran RANKS 1 LONG_RANKS 2 CASES
   torque-large torque-small torque-ellipsoid second-run)
 add_cases(surface/ellipsoid-contact cases/ellipsoid_contacts.py LABEL case STYLES surface/ellipsoid CASES
   poles-meet poles-meet-gaussian poles-meet-mean equators-meet-gaussian equators-meet-mean flat-faces-meet-gaussian
@@ -328,9 +334,9 @@ add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger
   sheared-frictionless no-history polydisperse drift-kept synchronized-damped synchronized-no-history
   synchronized-open-and-close synchronized-under-pressure-control)
 add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} LONG_RANKS 1 CASES sheared-slippery)
-add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} RANKS 1 2 CASES sheared
+add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} RANKS 1 LONG_RANKS 2 CASES sheared
   synchronized)
-add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} RANKS 1 2 LONG_RANKS 4 CASES
+add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} RANKS 1 LONG_RANKS 2 4 CASES
   three-rates)
 add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} RANKS 1 LONG_RANKS 2 CASES
   sheared-with-tangential-damping contacts-open-and-close through-a-flip under-pressure-control
@@ -356,8 +362,9 @@ add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} gran/
   same-synchronized-spheres same-synchronized-spheroids)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} gran/insitu setup/memory CASES
   restart-synchronized-spheroids)
-add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS 1 2 CASES flip restart-continues)
-add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS 1 2 LONG_RANKS 4 CASES
+add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS 1 LONG_RANKS 2
+  CASES flip restart-continues)
+add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS 1 LONG_RANKS 2 4 CASES
   restart-in-a-box-of-three-rates)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS 1 LONG_RANKS 2 CASES
   two-long-1.5 polydisperse-two-types wraps runs groups falling undisturbed rates-add-up)
@@ -371,7 +378,7 @@ add_cases(energy/ledger-walls cases/ledger_walls.py LABEL case STYLES ${ledger} 
 add_cases(energy/ledger-walls cases/ledger_walls.py LABEL case STYLES ${ledger} wall/gran RANKS 1 LONG_RANKS 2 4 CASES
   seen-from-outside bounce-mesh plate conveyor drum hopper-spheres drops-out between-runs in-a-box-that-shears
   other-laws drained drum-synchronized drum-synchronized-walls drum-synchronized-grains hopper-synchronized)
-add_cases(energy/ledger-walls cases/ledger_walls.py LABEL case STYLES ${ledger} wall/gran RANKS 1 2 LONG_RANKS 4 CASES
+add_cases(energy/ledger-walls cases/ledger_walls.py LABEL case STYLES ${ledger} wall/gran RANKS 1 LONG_RANKS 2 4 CASES
   hopper-spheroids torn-apart rained restarted in-a-box-that-stretches restarted-synchronized)
 set(ledger_flows ${ledger} wall/gran wall/contact)
 add_cases(energy/ledger-flows cases/ledger_flows.py LABEL case STYLES ${ledger_flows} RANKS 1 LONG_RANKS 2 4 CASES
@@ -379,7 +386,7 @@ add_cases(energy/ledger-flows cases/ledger_flows.py LABEL case STYLES ${ledger_f
 add_cases(energy/ledger-flows cases/ledger_flows.py LABEL long STYLES ${ledger_flows} CASES silo drum)
 
 # read_restart, setup neutral, run/guard: runs that are split, killed, stopped, damaged
-add_cases(setup/memory-split cases/restarts.py LABEL case STYLES setup/memory gran/insitu RANKS 1 2 CASES
+add_cases(setup/memory-split cases/restarts.py LABEL case STYLES setup/memory gran/insitu RANKS 1 LONG_RANKS 2 CASES
   split-spheroids)
 add_cases(setup/memory-split cases/restarts.py LABEL case STYLES setup/memory gran/insitu RANKS 1 LONG_RANKS 2 CASES
   split-through-a-flip measures-go-on)
@@ -388,7 +395,8 @@ add_cases(setup/memory-split cases/restarts.py LABEL case STYLES setup/memory gr
   split-with-gravity split-by-the-host split-after-no-step noticed-freezing noticed-velocities noticed-spins
   noticed-places noticed-box noticed-deletion noticed-time-step)
 set(resumed read_restart run/guard setup/memory)
-add_cases(read_restart-goes-on cases/restarts.py LABEL case STYLES ${resumed} RANKS 1 2 CASES exact-spheroids)
+add_cases(read_restart-goes-on cases/restarts.py LABEL case STYLES ${resumed} RANKS 1 LONG_RANKS 2
+  CASES exact-spheroids)
 add_cases(read_restart-goes-on cases/restarts.py LABEL case STYLES ${resumed} LONG_RANKS 4 CASES exact-spheroids)
 add_cases(read_restart-goes-on cases/restarts.py LABEL case STYLES ${resumed} RANKS 1 LONG_RANKS 2 CASES exact-spheres)
 add_cases(read_restart-goes-on cases/restarts.py LABEL case STYLES ${resumed} LONG_RANKS 1 2 CASES killed-a-few-times)
@@ -405,7 +413,8 @@ add_cases(read_restart+energy/ledger-recipe cases/recipes.py LABEL case STYLES $
 add_cases(build-job-scripts cases/recipes.py LABEL case STYLES build CASES job-scripts-are-named)
 add_cases(read_restart-damage cases/damage.py LABEL case STYLES read_restart RANKS 1 LONG_RANKS 2 CASES
   restart-cut restart-flipped other-settings)
-add_cases(read_restart-damage cases/damage.py LABEL case STYLES read_restart RANKS 1 2 CASES newest-whole-one)
+add_cases(read_restart-damage cases/damage.py LABEL case STYLES read_restart RANKS 1 LONG_RANKS 2
+  CASES newest-whole-one)
 add_cases(read_restart-damage cases/damage.py LABEL case STYLES read_restart CASES plain-gran-and-back)
 add_cases(read_restart-damage cases/damage.py LABEL long STYLES read_restart CASES
   restart-cut-often restart-flipped-often)
@@ -415,7 +424,7 @@ add_cases(run/guard-stopped cases/restarts.py LABEL case STYLES run/guard RANKS 
 add_cases(run/guard-stopped cases/restarts.py LABEL case STYLES run/guard RANKS 2 LONG_RANKS 4 CASES
   sigterm-to-one-rank)
 add_cases(run/guard-stopped cases/restarts.py LABEL case STYLES run/guard LONG_RANKS 2 CASES sigint)
-add_cases(run/guard-damage cases/damage.py LABEL case STYLES run/guard RANKS 1 2 CASES
+add_cases(run/guard-damage cases/damage.py LABEL case STYLES run/guard RANKS 1 LONG_RANKS 2 CASES
   velocity-nan lost-from-a-periodic-box)
 add_cases(run/guard-damage cases/damage.py LABEL case STYLES run/guard RANKS 1 LONG_RANKS 2 CASES
   force-inf too-long-a-step)
@@ -504,7 +513,8 @@ add_cases(study-fits cases/study_fits.py LABEL case STYLES study CASES
 add_cases(study-runs cases/study_runs.py LABEL case STYLES study RANKS 1 LONG_RANKS 2 CASES
   killed-run-continues longer-strain-continues)
 add_cases(study-runs cases/study_runs.py LABEL case STYLES study CASES
-  one-at-a-time stopped-run-has-not-ended out-of-time hours-refused first-restart-cut no-restart-whole other-variables-refused
+  one-at-a-time stopped-run-has-not-ended out-of-time hours-refused first-restart-cut no-restart-whole
+  other-variables-refused
   part-must-be-named reason-is-given means-of-files table-holds-everything)
 add_cases(study-slices cases/study_slices.py LABEL case STYLES study CASES
   parts-within-time first-that-fits stopped-slice-goes-on killed-slice-goes-on killed-slice-leaves-none
@@ -530,12 +540,12 @@ add_cases(study-slurm cases/study_slurm.py LABEL long STYLES study CASES slurm-g
 
 # What ends between runs: the last step of a run is known after it
 add_cases(stress/contact-last-step cases/last_step.py LABEL case
-  STYLES stress/contact fabric dissipation contact/surface contact/direction RANKS 1 2 CASES
+  STYLES stress/contact fabric dissipation contact/surface contact/direction RANKS 1 LONG_RANKS 2 CASES
   after-a-run by-update-on-run-end)
 add_cases(stress/contact-last-step cases/last_step.py LABEL case
   STYLES stress/contact fabric dissipation contact/surface contact/direction CASES
   grains-move-as-without in-formulas loops thermo-changed stays-until-the-next-run)
-add_cases(contact/grain-last-step cases/last_step.py LABEL case STYLES contact/grain RANKS 1 2 CASES
+add_cases(contact/grain-last-step cases/last_step.py LABEL case STYLES contact/grain RANKS 1 LONG_RANKS 2 CASES
   grains-change-between-runs)
 add_cases(contact/local-last-step cases/last_step.py LABEL case STYLES contact/local CASES rows-after-a-run)
 add_cases(energy/ledger-last-step cases/last_step.py LABEL case
@@ -547,7 +557,7 @@ add_cases(gran/insitu-first-evaluation cases/first_evaluation.py LABEL case
   neutral repeated-row after-a-change below-the-limit spin-on-a-frictionless-plane spin-on-a-frictionless-mesh
   friction-of-a-plane friction-of-a-mesh)
 add_cases(gran/insitu-first-evaluation cases/first_evaluation.py LABEL case
-  STYLES gran/insitu run/guard contact/local contact/grain dissipation stress/contact RANKS 1 2 CASES
+  STYLES gran/insitu run/guard contact/local contact/grain dissipation stress/contact RANKS 1 LONG_RANKS 2 CASES
   as-the-host packings beside-a-mesh-moved-before beside-a-mesh-moved-after when-a-motion-ends)
 add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case
   STYLES contact/local dissipation gran/insitu CASES
@@ -556,7 +566,7 @@ add_cases(contact/local+contact/grain+contact/surface-friction-limit cases/frict
   STYLES contact/local contact/grain contact/surface dissipation CASES
   spheroids-cohesion-reduces balls-that-slide liquid-bridge-washino liquid-bridge-easo)
 add_cases(contact/local+contact/grain+contact/surface-friction-limit cases/friction_limit.py LABEL case
-  STYLES contact/local contact/grain contact/surface dissipation RANKS 1 2 CASES spheroids)
+  STYLES contact/local contact/grain contact/surface dissipation RANKS 1 LONG_RANKS 2 CASES spheroids)
 add_cases(surface/ellipsoid-cohesion cases/sphere_cohesion.py LABEL case STYLES surface/ellipsoid gran/insitu CASES
   poles sides pole-on-side sizes sphere-and-spheroid poles-sjkr2 sizes-sjkr2 poles-by-curvature sides-by-curvature
   sizes-by-curvature poles-under-gran spheres softened-spheres pole-on-a-plane pole-on-a-mesh
@@ -580,11 +590,11 @@ add_cases(fluctuation+layering-faces cases/moving_faces.py LABEL case STYLES flu
   top-layer)
 add_cases(gran/insitu-faces cases/moving_faces.py LABEL case STYLES gran/insitu run/guard setup/memory CASES
   neutral-with-minimum neutral-changed-beyond-grains neutral-notices-periodic)
-add_cases(gran/insitu-faces cases/moving_faces.py LABEL case STYLES gran/insitu setup/memory RANKS 1 2 CASES
+add_cases(gran/insitu-faces cases/moving_faces.py LABEL case STYLES gran/insitu setup/memory RANKS 1 LONG_RANKS 2 CASES
   neutral-shrink-wrapped neutral-restart)
 
 # Data files
-add_cases(superquadric-data-file cases/data_files.py LABEL case STYLES superquadric RANKS 1 2 CASES
+add_cases(superquadric-data-file cases/data_files.py LABEL case STYLES superquadric RANKS 1 LONG_RANKS 2 CASES
   there-and-back there-and-back-triclinic there-and-back-after-steps by-hand-18-columns)
 add_cases(property/atom-of-superquadrics cases/data_files.py LABEL case
   STYLES property/atom superquadric RANKS 1 2 CASES
@@ -614,7 +624,8 @@ add_cases(build-job-scripts cases/job_scripts.py LABEL long STYLES build CASES s
 # What grains do at walls
 add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall/gran RANKS 1 2 LONG_RANKS 4 CASES
   balance mesh-stress drum)
-add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall/gran RANKS 1 2 CASES impacts)
+add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall/gran RANKS 1 LONG_RANKS 2
+  CASES impacts)
 add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall/gran CASES
   couple weight rows-by-name power-of-a-plane losses areas bounded impacts-resumed)
 add_cases(wall/triangle cases/wall_triangle.py LABEL case STYLES wall/triangle wall/contact RANKS 1 2 LONG_RANKS 4
@@ -627,9 +638,9 @@ add_cases(press/strain-small-box cases/small_box.py LABEL case STYLES press/stra
   discs only-what-is-certain large-enough forecast-comes-true)
 
 # Standard numbers of a state
-add_cases(packing cases/packing_measures.py LABEL case STYLES packing RANKS 1 2 LONG_RANKS 4 CASES
+add_cases(packing cases/packing_measures.py LABEL case STYLES packing RANKS 1 LONG_RANKS 2 4 CASES
   spheres oblate chains at-walls)
-add_cases(packing cases/packing_clumps.py LABEL case STYLES packing RANKS 1 2 LONG_RANKS 4 CASES clumps)
+add_cases(packing cases/packing_clumps.py LABEL case STYLES packing RANKS 1 LONG_RANKS 2 4 CASES clumps)
 add_cases(packing cases/packing_clumps.py LABEL case STYLES packing RANKS 1 LONG_RANKS 2 4 CASES
   rigid-refused clumps-between-walls)
 add_cases(packing cases/packing_measures.py LABEL case STYLES packing RANKS 1 LONG_RANKS 2 4 CASES
@@ -642,9 +653,9 @@ add_cases(contact/force cases/contact_force.py LABEL case STYLES contact/force c
 # Fields on grids
 add_cases(field/write cases/field_files.py LABEL case STYLES field/write RANKS 1 2 LONG_RANKS 4 CASES
   averages untouched between-runs refused)
-add_cases(field cases/field.py LABEL case STYLES field RANKS 1 2 LONG_RANKS 4 CASES
+add_cases(field cases/field.py LABEL case STYLES field RANKS 1 LONG_RANKS 2 4 CASES
   sheared-spheres sheared-ellipsoids flipping-box laboratory walls)
-add_cases(field cases/field.py LABEL case STYLES field RANKS 1 4 LONG_RANKS 2 CASES
+add_cases(field cases/field.py LABEL case STYLES field RANKS 1 LONG_RANKS 2 4 CASES
   gaussian lucy rings-in-a-drum empty-cells trajectory-untouched)
 add_cases(field cases/field.py LABEL case STYLES field RANKS 1 LONG_RANKS 2 4 CASES
   which-walls types group rings-in-a-periodic-box two-dimensions order-of-columns by-region clumps-refused on-faces
@@ -676,7 +687,7 @@ add_cases(every-style-outputs cases/outputs_declared.py LABEL case STYLES output
   CASES every-number)
 add_cases(every-style-outputs cases/outputs_declared.py LABEL case STYLES outputs ${with_outputs} CASES
   norm json-is-made pages declared-in-words)
-add_cases(outputs-variables cases/outputs.py LABEL case STYLES outputs stress/contact RANKS 1 2 CASES
+add_cases(outputs-variables cases/outputs.py LABEL case STYLES outputs stress/contact RANKS 1 LONG_RANKS 2 CASES
   read-everywhere announced lasting printed-once)
 add_cases(outputs-variables cases/outputs.py LABEL case STYLES outputs stress/contact dissipation press/strain CASES
   prefixes)
@@ -737,24 +748,24 @@ add_cases(every-style-two-dimensions cases/two_dimensions.py LABEL case STYLES A
 add_cases(every-style-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES ALL RANKS 2 LONG_RANKS 4
   CASES decompositions)
 add_cases(stress/contact-two-dimensions cases/two_dimensions.py LABEL case STYLES stress/contact
-  RANKS 1 2 LONG_RANKS 4 CASES stress lattice)
+  RANKS 1 LONG_RANKS 2 4 CASES stress lattice)
 add_cases(fluctuation+layering+contact/direction-two-dimensions cases/two_dimensions.py LABEL case
   STYLES fluctuation layering contact/direction RANKS 1 2 LONG_RANKS 4 CASES motion)
 add_cases(dissipation+nematic+contact/grain-two-dimensions cases/two_dimensions.py LABEL case
   STYLES dissipation nematic contact/grain contact/local RANKS 1 2 LONG_RANKS 4 CASES losses)
-add_cases(fabric-two-dimensions cases/two_dimensions.py LABEL case STYLES fabric RANKS 1 2 LONG_RANKS 4 CASES fabric)
+add_cases(fabric-two-dimensions cases/two_dimensions.py LABEL case STYLES fabric RANKS 1 LONG_RANKS 2 4 CASES fabric)
 add_cases(velocity/correlation-two-dimensions cases/two_dimensions.py LABEL case STYLES velocity/correlation
   RANKS 1 2 LONG_RANKS 4 CASES correlation)
 add_cases(energy/ledger-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES energy/ledger
-  RANKS 1 2 LONG_RANKS 4 CASES ledger)
+  RANKS 1 LONG_RANKS 2 4 CASES ledger)
 add_cases(press/strain-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES press/strain
   RANKS 1 LONG_RANKS 2 4 CASES pressure)
 add_cases(displacement/shear-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES displacement/shear
-  RANKS 1 2 LONG_RANKS 4 CASES displacement)
+  RANKS 1 LONG_RANKS 2 4 CASES displacement)
 add_cases(wall/contact+stress/contact-two-dimensions cases/two_dimensions_runs.py LABEL case
   STYLES wall/contact stress/contact wall/gran RANKS 1 LONG_RANKS 2 4 CASES walls ring)
 add_cases(stress/contact-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES stress/contact
-  RANKS 1 2 LONG_RANKS 4 CASES regions)
+  RANKS 1 LONG_RANKS 2 4 CASES regions)
 add_cases(gran/insitu-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES gran/insitu
   RANKS 1 LONG_RANKS 2 4 CASES in-parts)
 # What is measured: the shared keywords
@@ -777,9 +788,9 @@ add_cases(contact/direction+contact/surface+contact/local-region cases/regions.p
 add_cases(velocity/correlation-region cases/flows.py LABEL case STYLES velocity/correlation RANKS 1 LONG_RANKS 2
   CASES correlation-in-a-region)
 add_cases(stress/contact+fabric+fluctuation-region cases/regions.py LABEL case
-  STYLES stress/contact fabric fluctuation RANKS 1 2 LONG_RANKS 4 CASES without-set-up)
+  STYLES stress/contact fabric fluctuation RANKS 1 LONG_RANKS 2 4 CASES without-set-up)
 add_cases(stress/contact+fabric-region cases/regions.py LABEL case STYLES stress/contact fabric dissipation
-  RANKS 1 2 CASES refused)
+  RANKS 1 LONG_RANKS 2 CASES refused)
 add_cases(stress/contact-region cases/region_shapes.py LABEL case STYLES stress/contact RANKS 1 4 LONG_RANKS 2 CASES
   shapes)
 add_cases(stress/contact-region cases/region_shapes.py LABEL case STYLES stress/contact RANKS 1 LONG_RANKS 2 4 CASES
@@ -796,13 +807,13 @@ add_cases(stress/contact+fluctuation+displacement/shear-clumps cases/clumps.py L
 add_cases(dissipation+fabric+contact/direction-clumps cases/clumps.py LABEL case
   STYLES dissipation fabric contact/direction contact/local RANKS 1 2 LONG_RANKS 4 CASES losses)
 add_cases(nematic+energy/ledger+press/strain-clumps cases/clumps.py LABEL case
-  STYLES nematic energy/ledger press/strain gran/insitu RANKS 1 2 CASES refused)
+  STYLES nematic energy/ledger press/strain gran/insitu RANKS 1 LONG_RANKS 2 CASES refused)
 add_cases(fluctuation+layering+displacement/shear-clumps cases/clumps.py LABEL case
   STYLES fluctuation layering displacement/shear velocity/memory velocity/correlation RANKS 2 LONG_RANKS 1
   CASES refused-of-a-part refused-bodies)
 
 # Flows that are not the box's, groups whose grains come and go
-add_cases(fluctuation-flows cases/flows.py LABEL case STYLES fluctuation RANKS 1 2 LONG_RANKS 4 CASES mean-flows)
+add_cases(fluctuation-flows cases/flows.py LABEL case STYLES fluctuation RANKS 1 LONG_RANKS 2 4 CASES mean-flows)
 add_cases(fluctuation-flows cases/flows.py LABEL case STYLES fluctuation RANKS 1 LONG_RANKS 2 CASES solid-rotation)
 add_cases(displacement/shear-flows cases/flows.py LABEL case STYLES displacement/shear RANKS 1 2 LONG_RANKS 4
   CASES displacements-against-flows solid-turns sheared-flight)
@@ -811,7 +822,7 @@ add_cases(velocity/memory+displacement/shear-flows cases/flows.py LABEL case
 add_cases(velocity/memory+displacement/shear-flows cases/flows.py LABEL case
   STYLES velocity/memory displacement/shear RANKS 1 LONG_RANKS 2 CASES over-time empty-start)
 add_cases(velocity/memory+displacement/shear-time cases/passed_time.py LABEL case
-  STYLES velocity/memory displacement/shear RANKS 1 2 LONG_RANKS 4 CASES goes-on)
+  STYLES velocity/memory displacement/shear RANKS 1 LONG_RANKS 2 4 CASES goes-on)
 
 # Other units
 add_cases(every-style-units cases/units.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 CASES spheres spheroids walls)
@@ -852,6 +863,6 @@ add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insi
 add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu surface/ellipsoid RANKS 2
   LONG_RANKS 4 CASES ranks-spheres ranks-spheroids)
 add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu wall/gran setup/memory read_restart
-  RANKS 1 2 LONG_RANKS 4 CASES restart-spheres restart-spheroids)
+  RANKS 1 LONG_RANKS 2 4 CASES restart-spheres restart-spheroids)
 add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu wall/gran setup/memory CASES
   repeated-spheres repeated-spheroids)

@@ -8,6 +8,7 @@
 #include "kept_history.h"
 #include "lane_law.h"
 #include "model_names.h"
+#include "neighbour_list_watch.h"
 #include "pair_checks.h"
 #include "run_fixes.h"
 #include "sphere_geometry.h"
@@ -73,9 +74,9 @@ struct PairGranInsitu::Impl {
     run = now;
     send(Sent::masks, pair);
   }
-  bigint grains = 0;        // in the last evaluation
-  bool renumbered = false;  // since then
-  bigint images_of_build = -1;
+  bigint grains = 0;                            // in the last evaluation
+  bool renumbered = false;                      // since then
+  grainscope::NeighbourListWatch images_watch;  // of the image shifts of ghosts
 };
 
 PairGranInsitu::PairGranInsitu(LAMMPS *lmp) : PairGranProxy(lmp), impl_(new Impl(lmp)) {
@@ -204,7 +205,7 @@ void PairGranInsitu::init_style() {
   impl_->run = {update->firststep, update->laststep};
   impl_->observer.remove_all();
   impl_->observer.begin_run();
-  impl_->images_of_build = -1;
+  impl_->images_watch = grainscope::NeighbourListWatch();
   if (history && !fix_history)
     impl_->checks.require_same_columns_in_restart(
         columns_in_restart(),
@@ -334,8 +335,7 @@ bool PairGranInsitu::contact_match(const std::string kind, const std::string mod
 /** The periodic image of each ghost, in whole box edges. The swaps know it exactly; positions do not, because grains
  *  drift out of the box between two neighbour lists. Once per neighbour list that is observed. */
 void PairGranInsitu::update_image_shifts() {
-  if (impl_->images_of_build == neighbor->lastcall) return;
-  impl_->images_of_build = neighbor->lastcall;
+  if (!impl_->images_watch.renewed(*neighbor, *update)) return;
   impl_->observer.image_shifts().assign(3 * (atom->nlocal + atom->nghost), 0.0);
   impl_->send(Impl::Sent::images, *this);
 }
