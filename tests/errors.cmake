@@ -191,7 +191,7 @@ add_cases(read_restart errors/restart_versions.py LABEL error STYLES read_restar
 foreach(kind primitive mesh)
   add_cases(wall/gran-restart errors/restart_walls.py LABEL error STYLES wall/gran read_restart CASES
     ${kind}-other-models ${kind}-other-time-level ${kind}-without-the-time-level ${kind}-without-the-ledger
-    ${kind}-of-liggghts ${kind}-of-another-id)
+    ${kind}-of-liggghts ${kind}-of-the-other-surface ${kind}-of-another-id)
 endforeach()
 add_cases(wall/gran-restart errors/restart_walls.py LABEL error STYLES wall/gran read_restart RANKS 2 CASES
   primitive-other-models mesh-of-another-id)

@@ -11,6 +11,7 @@
 #include "pair_gran_insitu.h"
 #include "restart_data.h"
 #include "restart_state.h"
+#include "superquadric_columns.h"
 #include "taken_setting.h"
 #include "atom.h"
 #include "comm.h"
@@ -289,9 +290,15 @@ void FixWallGranInsitu::post_force(int vflag) {
   observer.end();
 }
 
-std::string FixWallGranInsitu::column_names() const {
+/** Either surface of superquadrics goes on with the numbers of the other: their names are those of superquadric. */
+std::string FixWallGranInsitu::column_names() {
+  const bool of_ellipsoid = contact_match("surface", "ellipsoid");
   std::string names;
-  for (const std::string &name : impl_->columns) names += (names.empty() ? "" : " ") + name;
+  for (std::string name : impl_->columns) {
+    if (of_ellipsoid && name == "touching") name = "particles_were_in_contact";
+    if (of_ellipsoid && name == grainscope::SuperquadricColumns::kept) name = "a2";
+    names += (names.empty() ? "" : " ") + name;
+  }
   return names;
 }
 

@@ -62,7 +62,7 @@ class FixWallGranInsitu : public FixWallGran, public grainscope::WallContactsOwn
   FixWallGranInsitu(class LAMMPS *lmp, Words words);
   void synchronize();
   std::string who() const;
-  std::string column_names() const;
+  std::string column_names();
   grainscope::ContactLaw law_of_models();
 
   std::vector<TriMesh *> meshes();

@@ -35,10 +35,11 @@ def top(packing):
     return packing.origin[2] + packing.edges[2] - 3.0 + 0.05
 
 
-def written(ranks, words, kind, extra="", **options):
+def written(ranks, words, kind, extra="", surface="default", **options):
     """A restart file of a bed that touches its floor."""
-    packing = bed(across=3, layers=2)
-    deck = Deck(packing, boundary="p p f", rolling="epsd2" if "epsd2" in words else "off", extra=extra)
+    packing = bed(across=3, layers=2, style="sphere" if surface == "default" else "superquadric")
+    rolling = "epsd2" if "epsd2" in words else "off"
+    deck = Deck(packing, boundary="p p f", rolling=rolling, surface=surface, extra=extra)
     lines = [*(ground(packing) if kind == "mesh" else []), wall(words, kind)]
     deck.body = [*lines, "fix pull all gravity 9.81 vector 0 0 -1", "run 200", "write_restart now.restart"]
     return deck, run(deck, ranks, **options).folder / "now.restart"
@@ -72,6 +73,17 @@ def of_liggghts(kind):
         synchronized = SPRINGS + " time_level synchronized"
         words = "holds 3 numbers for each contact with this wall, this fix has 12"
         require_refused(resumed(deck, file, synchronized, kind), ranks, "fix floor (wall/gran)", words, REMEDY)
+
+    return case
+
+
+def of_the_other_surface(kind):
+    """Files of both surfaces of superquadrics hold the same numbers."""
+
+    def case(ranks):
+        for surface, other in (("ellipsoid", "superquadric"), ("superquadric", "ellipsoid")):
+            deck, file = written(ranks, f"{SPRINGS} surface {surface}", kind, surface=surface)
+            run(resumed(replace(deck, surface=other), file, f"{SPRINGS} surface {other}", kind), ranks)
 
     return case
 
@@ -141,6 +153,7 @@ for kind in ("primitive", "mesh"):
     )
     CASES[f"{kind}-without-the-ledger"] = other_columns(kind, SPRINGS, SPRINGS, f"this fix has {SPRING}", "ledger on")
     CASES[f"{kind}-of-liggghts"] = of_liggghts(kind)
+    CASES[f"{kind}-of-the-other-surface"] = of_the_other_surface(kind)
     CASES[f"{kind}-of-another-id"] = wall_of_another_id(kind)
 
 if __name__ == "__main__":
