@@ -356,8 +356,8 @@ add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} gran/
   lanes-synchronized-spheres lanes-synchronized-round lanes-synchronized-spheroids undisturbed-synchronized-spheres
   undisturbed-synchronized-superquadrics restart-synchronized-superquadrics)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} gran/insitu RANKS 1 LONG_RANKS 2 4 CASES
-  sheared-synchronized pressed-spheres-synchronized types-synchronized undisturbed-synchronized-spheroids
-  restart-synchronized-spheres)
+  sheared-synchronized pressed-spheres-synchronized types-synchronized mixture-synchronized
+  undisturbed-synchronized-spheroids restart-synchronized-spheres)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} gran/insitu RANKS 2 LONG_RANKS 4 CASES
   same-synchronized-spheres same-synchronized-spheroids)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} gran/insitu setup/memory CASES

@@ -15,7 +15,7 @@ sys.path.insert(0, str(HERE.parents[1] / "tools"))
 from grainscope.means import mean_and_error, text_of  # noqa: E402
 
 # ratio of sizes, coefficient of friction, time step over Rayleigh's time, strain
-FLOWS = (("5", "0.5", "0.15", 6.0), ("5", "1", "0.15", 6.0), ("5", "1", "0.03", 2.3))
+FLOWS = (("5", "0.5", "0.15", 6.0), ("5", "1", "0.15", 6.0), ("5", "1", "0.03", 2.3), ("10", "1", "0.15", 3.0))
 LEVELS = ("host", "synchronized")
 SETTLES = 1.0  # strain from which on a flow is measured; the state that it begins from has another
 STEADY = ("mu_eff", "P", "phi", "Z", "rattlers", "Z_small", "sliding_small", "held_small", "spin_held")

@@ -11,7 +11,7 @@ from collisions import kinetic_energy
 from deck import Deck, Material, dump_grains, number, rayleigh_time, shear, thermo
 from grainscope.columns import outputs
 from oracle.ledger import AXES, ENTRIES, STORES
-from packing import Grain, Packing, dense_packing, tilted
+from packing import Grain, Packing, dense_packing, filled_packing, tilted
 from run import run
 
 C_E = outputs("energy/ledger").of("e")
@@ -711,6 +711,14 @@ CASES = {
         dense_packing(1.5, sizes=(0.6, 0.8, 1.0), types=2, speed=0.3),
         material=Material(young=(5e6, 2e7), restitution=(0.3,), friction=(0.4, 0.1, 0.1, 0.8)),
         extra=LEVEL,
+    ),
+    "mixture-synchronized": packing_closes(
+        filled_packing(),
+        rate=0.3,
+        surface="default",
+        material=Material(restitution=(0.5,), friction=(1.0,)),
+        timestep=0.15 * rayleigh_time(0.1),
+        extra=SYNCHRONIZED,
     ),
     "superquadric-synchronized": packing_closes(
         dense_packing(1.5, speed=0.3), 1e-6, surface="superquadric", spheroid=False, extra=SYNCHRONIZED

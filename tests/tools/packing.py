@@ -81,6 +81,13 @@ def _random_quaternion(random, wobble):
     return (math.cos(half), *(math.sin(half) * axis))
 
 
+def _face_centred(counts):
+    """Points of a face-centred lattice of so many cells of edge 1, a quarter of a cell off its corner."""
+    basis = np.array([[0, 0, 0], [0, 0.5, 0.5], [0.5, 0, 0.5], [0.5, 0.5, 0]])
+    corners = np.stack(np.meshgrid(*[np.arange(n) for n in counts], indexing="ij"), axis=-1).reshape(-1, 3)
+    return (corners[:, None, :] + basis[None, :, :]).reshape(-1, 3) + 0.25
+
+
 def dense_packing(
     alpha=1.0,
     sizes=(1.0,),
@@ -106,9 +113,7 @@ def dense_packing(
     while 4 * counts.prod() < minimum:
         k = np.argmin(counts * cell)
         counts[k] += 2 if k == 0 else 1
-    basis = np.array([[0, 0, 0], [0, 0.5, 0.5], [0.5, 0, 0.5], [0.5, 0.5, 0]])
-    corners = np.stack(np.meshgrid(*[np.arange(n) for n in counts], indexing="ij"), axis=-1).reshape(-1, 3)
-    points = ((corners[:, None, :] + basis[None, :, :]).reshape(-1, 3) + 0.25) * cell
+    points = _face_centred(counts) * cell
     grains = []
     for k, point in enumerate(points):
         a = sizes[k % len(sizes)]
@@ -124,6 +129,24 @@ def dense_packing(
             )
         )
     return Packing(tuple(counts * cell), grains, atom_style=atom_style, types=types)
+
+
+def filled_packing(ratio=10.0, overlap=0.02, speed=0.3, seed=7):
+    """Balls of radius 1 as in dense_packing, and in the holes between them balls of 1/ratio on a lattice of their own:
+    a mixture in which most small grains touch others."""
+    large = dense_packing(overlap=overlap, speed=speed, seed=seed, atom_style="sphere", minimum=32)
+    edges, centres = np.array(large.edges), np.array([grain.position for grain in large.grains])
+    radius = 1.0 / ratio
+    counts = np.floor(edges / (2.0 * math.sqrt(2.0) * (1.0 - overlap) * radius)).astype(int)
+    points = _face_centred(counts) * edges / counts
+    apart = points[:, None, :] - centres
+    apart -= edges * np.round(apart / edges)
+    points = points[np.linalg.norm(apart, axis=2).min(axis=1) >= 1.0 + (1.0 - 2.0 * overlap) * radius]
+    random = np.random.default_rng(seed)
+    for point in points:
+        motion = (tuple(speed * random.normal(size=3)) for _ in range(2))
+        large.grains.append(Grain(tuple(point), (radius,) * 3, (1.0, 0.0, 0.0, 0.0), *motion))
+    return large
 
 
 def disc_packing(sizes=(0.8, 1.0, 1.2), overlap=0.02, speed=0.4, seed=7, rows=10, depth=1.0):
