@@ -521,7 +521,7 @@ add_cases(study-slices cases/study_slices.py LABEL case STYLES study CASES
   one-slice-at-a-time nothing-fits failures-are-told options-refused)
 add_cases(study-partial cases/study_partial.py LABEL case STYLES study CASES
   status-of-known-files status-of-nothing partial-is-marked table-refusals data-set data-set-refused metadata
-  every-column-has-a-source)
+  earlier-runs earlier-refused every-column-has-a-source)
 add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study CASES basic-measures bad-configuration)
 add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study LONG_RANKS 1 CASES
   failing-runs-do-not-stop-others study-goes-on)

@@ -11,10 +11,13 @@ import yaml
 
 from case import main, require, require_close
 from command import asked, require_refused
+from grainscope.shear.measures import MEASURED
 from grainscope.study import export, status
 from grainscope.study.compare import NOT_RUN
 from grainscope.study.cost_model import steps_per_strain
+from grainscope.study.earlier import earlier_of
 from grainscope.study.plan import plan, write_plan
+from grainscope.study.run_grid import Grid
 from grainscope.study.slices import read_slices
 from grainscope.study.state import RunState
 from grainscope.study.table import all_headers, coverage, read_csv, read_study
@@ -173,6 +176,90 @@ def data_set(ranks):
     require(code == 0 and (folder("again") / "fig11.png").exists(), said)
 
 
+def without_figures(*_):
+    """In place of export.draw_all, which takes most of the time."""
+
+
+def lines_of(path, name):
+    return [line for line in path.read_text().splitlines() if line.startswith(name)]
+
+
+def earlier_runs(ranks):
+    """Of two runs one ended elsewhere, and is known by its data set: it is not made again, and the tables and the data
+    set of both have its rows to the letter, also where the data set is written over its own."""
+    export.draw_all = without_figures
+    runs, first = one_of_two()
+    one, other = (run.name for run in runs)
+    asked("study", "export", first, "--output", folder("data"))
+    before = {path: lines_of(path, one) for path in (folder("data") / "curves").iterdir()}
+    row = lines_of(folder("data") / "table.csv", one)
+    attempts = json.loads((folder("data") / "provenance.json").read_text())["runs"][one]
+    shutil.rmtree(folder("study"))
+
+    config = {**yaml.safe_load(first.read_text()), "earlier": str(folder("data"))}
+    folder("study.yaml").write_text(yaml.safe_dump(config))
+    known = earlier_of(config, runs)
+    grid = Grid(runs, folder("study"), "program", 1, 1e9, earlier=known)
+    require(grid.next_run().name == other, f"{grid.next_run().name} is made again")
+    require(grid.states[one].seconds == float(read_csv(folder("data") / "table.csv")[0]["core_time"]), "its time")
+    code, said = asked("study", "status", folder("study.yaml"))
+    require(code == 0 and "| all | 2 | 1 | 0 | 0 | 1 | 0 |" in said, said)
+    write_plan(runs, folder("plan.csv"))
+    words = ["--plan", folder("plan.csv"), "--earlier", folder("data"), "--output", folder("tables")]
+    code, said = asked("study", "table", *words)
+    require(code == 0 and str(coverage(folder("tables"))) == "partial: 1 of 2 points", said)
+
+    ended(runs[1].folder(folder("study")), mu=1, e=0.1, seed=runs[1].variables["seed"])
+    runs[1].marker(folder("study")).touch()
+    for _ in range(2):  # the second time both are in the data set, and one of them in the folder too
+        code, said = asked("study", "export", folder("study.yaml"), "--output", folder("data"))
+        require(code == 0 and "2 of 2 points" in said and "partial" not in said, said)
+        require(sorted(run.name for run in read_study(folder("data"))) == sorted((one, other)), "two runs")
+        require(lines_of(folder("data") / "table.csv", one) == row, "its row")
+        for path, lines in before.items():
+            require(lines and lines_of(path, one) == lines, f"{path.name}: its lines")
+            require(len(lines_of(path, other)) > 5, f"{path.name}: the other's lines")
+        found = json.loads((folder("data") / "provenance.json").read_text())
+        require(found["runs"][one] == attempts and len(found["runs"][other]["attempts"]) == 1, f"{found['runs']}")
+        for attempt in (found["runs"][name]["attempts"][0] for name in (one, other)):
+            require(len(found["programs"][attempt["program"]]["sha256"]) == 64, f"{found['programs']}")
+        require(str(folder("")) not in (folder("data") / "provenance.json").read_text(), "a path of this machine")
+
+
+def earlier_refused(ranks):
+    """What is not of this study, and what is no data set."""
+    export.draw_all = without_figures
+    runs, config = one_of_two()
+    asked("study", "export", config, "--output", folder("data"))
+    study = yaml.safe_load(config.read_text())
+    export_it = ["study", "export", folder("other.yaml"), "--output", folder("again")]
+    for change, expected in (
+        ({"strain": 0.9}, f"table.csv: {runs[0].name}: strain must be 0.9 as in the study, is 0.6"),
+        ({"steady": 0.3}, "steady must be 0.3 as in the study, is 0.2"),
+        ({"earlier": str(folder("none"))}, "table.csv: No such file"),
+        ({"earlier": "two words"}, "earlier must be the name of a folder without spaces, got 'two words'"),
+        ({"earlier": 3}, "earlier must be the name of a folder without spaces, got 3"),
+    ):
+        folder("other.yaml").write_text(yaml.safe_dump({**study, "earlier": str(folder("data")), **change}))
+        require_refused(export_it, expected)
+    require_refused(["study", "table", "--earlier", folder("data")], "--earlier needs --plan")
+    folder("other.yaml").write_text(
+        yaml.safe_dump({**study, "earlier": str(folder("data")), "output": str(folder("new"))})
+    )
+    curve = folder("data") / "curves" / "direction.csv"
+    kept = curve.read_text()
+    curve.write_text(kept.replace("run,", "run,x", 1))
+    require_refused(export_it, "direction.csv: must have a column")
+    curve.write_text(kept)
+    (folder("data") / "provenance.json").write_text('{"runs": {}}')
+    require_refused(export_it, f"provenance.json: must name the run '{runs[0].name}'")
+    table = folder("data") / "table.csv"
+    names, *lines = (line.split(",") for line in table.read_text().splitlines())
+    basic = [["" if name in MEASURED else word for name, word in zip(names, line)] for line in lines]
+    table.write_text("".join(",".join(line) + "\n" for line in [names, *basic]))
+    require_refused(export_it, "must have been run with measure all, was with basic")
+
+
 def data_set_refused(ranks):
     """What is too large, and what has no runs."""
     folder("study.yaml").write_text(yaml.safe_dump({"alpha": [1], "mu": [0], "I": [0.1], "N": [100]}))
@@ -227,6 +314,8 @@ main(
         "partial-is-marked": partial_is_marked,
         "table-refusals": table_refusals,
         "data-set": data_set,
+        "earlier-runs": earlier_runs,
+        "earlier-refused": earlier_refused,
         "data-set-refused": data_set_refused,
         "metadata": metadata,
         "every-column-has-a-source": every_column_has_a_source,

@@ -13,6 +13,7 @@ from grainscope.errors import InputError
 from grainscope.program import TOP
 from grainscope.shear.output import read_run
 from grainscope.study.compare import write_comparison
+from grainscope.study.earlier import earlier_of
 from grainscope.study.fit import write_fits
 from grainscope.study.plan import OTHERS, plan, write_plan
 from grainscope.study.planned import read_config
@@ -23,7 +24,8 @@ from grainscope.study.table import coverage, write_tables
 
 LIMIT = 20_000_000  # bytes
 TITLE = "Simple shear of frictional spheroids: data of a study with grainscope"
-PRIVATE = ("program", "output")  # words of a configuration that concern one machine
+SHARED = {"source": "sources", "program": "programs", "machine": "machines"}  # of attempts
+PRIVATE = ("program", "output", "earlier")  # words of a configuration that concern one machine
 
 
 def numbered(values, value):
@@ -49,16 +51,25 @@ def versions():
     return found
 
 
-def provenance(config, runs, output, covered):
+def earlier_provenance(earlier):
+    """Lists of what attempts share, slices and runs as they stand in the data set of earlier runs."""
+    known = earlier.provenance() if earlier.rows else {}
+    try:
+        of_runs = {name: known["runs"][name] for name in earlier.rows}
+    except KeyError as name:
+        raise InputError(f"earlier: {earlier.folder / 'provenance.json'}: must name the run {name}") from None
+    return {**{name: known.get(name, []) for name in (*SHARED.values(), "slices")}, "runs": of_runs}
+
+
+def provenance(config, runs, output, covered, earlier):
     """Where the runs of the tables came from; what many attempts share stands in lists, and is named by its number."""
-    sources, programs, machines, of_runs = [], [], [], {}
+    found = earlier_provenance(earlier)
+    of_runs = found["runs"]
     for run in runs:
         attempts = [
             {
                 "time": attempt["time"],
-                "source": numbered(sources, attempt["source"]),
-                "program": numbered(programs, attempt["program"]),
-                "machine": numbered(machines, attempt["machine"]),
+                **{name: numbered(found[all_of], attempt[name]) for name, all_of in SHARED.items()},
                 "ranks": attempt["ranks"],
             }
             for attempt in attempts_of(run.folder(output))
@@ -67,18 +78,17 @@ def provenance(config, runs, output, covered):
         command = ["grainscope-tools", "study", "run", run.name, *variables, "--ranks", str(run.ranks)]
         of_runs[run.name] = {"seed": run.variables["seed"], "command": " ".join(command), "attempts": attempts}
         of_runs[run.name]["programs"] = programs_of(run.folder(output))
+    slices = {row["begin"]: row for row in found["slices"]}  # those of this folder may have been exported before
+    for row in read_slices(output):
+        begin, end = row["begin"].isoformat(), row["end"] and row["end"].isoformat()
+        slices[begin] = {**row, "begin": begin, "end": end}
     return {
         "made": now().isoformat(),
         "coverage": str(covered),
         "study": {name: value for name, value in config.items() if name not in PRIVATE},
         "tools": {"source": source(), "versions": versions()},
-        "sources": sources,
-        "programs": programs,
-        "machines": machines,
-        "slices": [
-            {**row, "begin": row["begin"].isoformat(), "end": row["end"] and row["end"].isoformat()}
-            for row in read_slices(output)
-        ],
+        **{name: found[name] for name in SHARED.values()},
+        "slices": sorted(slices.values(), key=lambda row: row["begin"]),
         "runs": of_runs,
     }
 
@@ -142,15 +152,16 @@ def run(arguments):
     output, target = Path(config.get("output", OTHERS["output"])), arguments.output
     planned = list(plan(config).values())
     ended = [run for run in planned if run.marker(output).exists()]
-    if not ended:
+    earlier = earlier_of(config, planned).without({run.name for run in ended})
+    if not ended and not earlier.rows:
         raise InputError(f"{output}: must have at least one run that has ended, has none")
     write_plan(planned, target / "plan.csv")
     runs = [(read_run(run.folder(output)), run.value("steady")) for run in ended]
-    write_tables(runs, target, target / "plan.csv")
+    write_tables(runs, target, target / "plan.csv", earlier)
     write_fits(target, target)
     write_comparison(target, target)
     covered = coverage(target)
-    text = json.dumps(provenance(config, ended, output, covered), indent=1)
+    text = json.dumps(provenance(config, ended, output, covered, earlier), indent=1)
     (target / "provenance.json").write_text(text + "\n")
     cff, zenodo = citation(arguments.title, covered)
     (target / "CITATION.cff").write_text(cff)

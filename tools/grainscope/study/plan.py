@@ -12,7 +12,15 @@ from grainscope.study.cost_model import memory_of, seconds_of
 
 LISTS = ("alpha", "mu", "I", "N", "seed")
 NUMBERS = {"e": 0.1, "strain": 16.0, "steady": 6.0, "part": 0.125, "ranks": 1, "speed": 1.0}
-OTHERS = {"measure": "all", "groups": (), "exceptions": (), "output": "study-output", "program": NAME, "partial": 0}
+OTHERS = {
+    "measure": "all",
+    "groups": (),
+    "exceptions": (),
+    "output": "study-output",
+    "earlier": "",
+    "program": NAME,
+    "partial": 0,
+}
 ONLY_GROUP = "all"  # of a study without `groups`
 WHOLE = ("N", "seed", "ranks")
 MAY_BE_ZERO = ("mu", "steady")
@@ -202,9 +210,10 @@ def plan(config):
     measure = config.get("measure", OTHERS["measure"])
     if measure not in ("basic", "all"):
         raise PlanError(f"measure must be basic or all, got {measure!r}")
-    output = str(config.get("output", OTHERS["output"]))
-    if not output or any(letter.isspace() for letter in output):
-        raise PlanError(f"output must be the name of a folder without spaces, got {output!r}")
+    for name in ("output", "earlier"):
+        folder = config.get(name, OTHERS[name])
+        if not isinstance(folder, str) or any(letter.isspace() for letter in folder) or (name in config and not folder):
+            raise PlanError(f"{name} must be the name of a folder without spaces, got {folder!r}")
     listed = config.get("exceptions") or []
     if not isinstance(listed, (list, tuple)):
         raise PlanError(f"exceptions must be a list of {{where: {{...}}, use: {{...}}}}, got {listed!r}")

@@ -13,6 +13,7 @@ import time
 
 from grainscope.errors import InputError
 from grainscope.program import find_program
+from grainscope.study.earlier import Earlier, earlier_of
 from grainscope.study.part_clock import MARGIN
 from grainscope.study.plan import OTHERS, plan, write_plan
 from grainscope.study.planned import read_config
@@ -46,14 +47,18 @@ def command_of(run, output, program, seconds):
 class Grid:
     """The runs of one slice of time."""
 
-    def __init__(self, runs, output, program, jobs, seconds, clock=time.monotonic):
+    def __init__(self, runs, output, program, jobs, seconds, clock=time.monotonic, earlier=Earlier()):
         self.runs, self.output, self.program, self.jobs, self.clock = runs, output, program, jobs, clock
         self.deadline = clock() + seconds
-        self.states = {run.name: state_of(run, output) for run in runs}
+        self.earlier = earlier
+        self.states = {run.name: self.state_now(run) for run in runs}
         self.processes = {}  # by name, of the runs that this slice has begun and that have not ended
         self.tried = set()
         self.too_long = {}  # seconds of the next part of runs that it would not fit
         self.stopping = False
+
+    def state_now(self, run):
+        return state_of(run, self.output, self.earlier)
 
     def stop(self, *_):
         """Ends all runs in order."""
@@ -72,7 +77,7 @@ class Grid:
             if run.name in self.tried:
                 continue
             if self.states[run.name].state == RUNNING:
-                self.states[run.name] = state_of(run, self.output)
+                self.states[run.name] = self.state_now(run)
             state = self.states[run.name]
             if state.state in (ENDED, RUNNING):
                 continue
@@ -105,7 +110,7 @@ class Grid:
             said = process.stderr.read().strip()
             if process.returncode == 0:
                 run.marker(self.output).touch()
-            self.states[run.name] = state = state_of(run, self.output)
+            self.states[run.name] = state = self.state_now(run)
             if process.returncode == 0:
                 print(f"{run.name}: ended", flush=True)
             elif process.returncode == STOPPED or self.stopping:
@@ -166,7 +171,7 @@ def run(arguments):
     output, program = Path(settings["output"]), arguments.binary or find_program(settings["program"])
     with alone(output):
         write_plan(runs, output / "plan.csv")
-        grid = Grid(runs, output, program, arguments.jobs, 3600 * arguments.hours)
+        grid = Grid(runs, output, program, arguments.jobs, 3600 * arguments.hours, earlier=earlier_of(config, runs))
         for number in SIGNALS:
             signal.signal(number, grid.stop)
         with Slice(output, arguments.hours, arguments.jobs):

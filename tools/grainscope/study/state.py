@@ -70,14 +70,16 @@ def costs_of(folder):
     return sum(int(row[1]) - int(row[0]) for row in rows), sum(float(row[3]) for row in rows)
 
 
-def state_of(run, output):
-    """The RunState of a planned run."""
+def state_of(run, output, earlier):
+    """The RunState of a planned run; `earlier` (Earlier): what ended before."""
     folder = run.folder(output)
-    if not folder.exists():
-        return RunState(WAITING)
     steps, seconds = costs_of(folder)
     if run.marker(output).exists():
         return RunState(ENDED, run.strain, steps, seconds)
+    if run.name in earlier.rows:
+        return RunState(ENDED, run.strain, *earlier.cost(run))
+    if not folder.exists():
+        return RunState(WAITING)
     strain, failure = min(strain_of(folder), run.strain), folder / FAILED
     if locked(folder):
         state = RUNNING

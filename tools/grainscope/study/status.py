@@ -6,6 +6,7 @@ from datetime import timedelta
 import html
 from pathlib import Path
 
+from grainscope.study.earlier import Earlier, earlier_of
 from grainscope.study.plan import OTHERS, plan
 from grainscope.study.planned import read_config
 from grainscope.study.slices import now, read_slices
@@ -85,8 +86,8 @@ class Status:
     failures: list  # (name, reason, last lines)
 
 
-def status_of(runs, output, at):
-    states = {run.name: state_of(run, output) for run in runs}
+def status_of(runs, output, at, earlier=Earlier()):
+    states = {run.name: state_of(run, output, earlier) for run in runs}
     groups = groups_of(runs, states)
     slices = read_slices(output)
     hours = sum((row["end"] - row["begin"]).total_seconds() for row in slices if row["end"]) / 3600
@@ -151,7 +152,8 @@ def add_arguments(parser):
 def run(arguments):
     config = read_config(arguments.config)
     output = Path(config.get("output", OTHERS["output"]))
-    status = status_of(list(plan(config).values()), output, now())
+    runs = list(plan(config).values())
+    status = status_of(runs, output, now(), earlier_of(config, runs))
     output.mkdir(parents=True, exist_ok=True)
     text = markdown(status)
     (output / "status.md").write_text(text)

@@ -11,6 +11,7 @@ from grainscope.errors import InputError, warn
 from grainscope.progress import progress
 from grainscope.shear.measures import ALWAYS, CURVES, MEASURED, SERIES, SteadyRun, steady_run
 from grainscope.shear.output import read_run
+from grainscope.study.earlier import Earlier
 from grainscope.study.sources import OF_COLUMN, OF_CURVE, STUDY
 from grainscope.tables import read_rows
 
@@ -130,10 +131,11 @@ def missing_rows(plan, found):
             yield {"run": row["run"], "state": NOT_RUN, **known}
 
 
-def write_tables(runs, output, plan=None):
-    """Writes all files for (run, start of its averages) pairs; with the plan.csv of the study also a row for each
-    planned run that is not among them."""
-    rows, curves = [], {name: [] for name in CURVES}
+def write_tables(runs, output, plan=None, earlier=Earlier()):
+    """Writes all files for (run, start of its averages) pairs and those of `earlier` that are not among them; with the
+    plan.csv of the study also a row for each planned run that is neither."""
+    earlier = earlier.without({run.name for run, _ in runs})
+    rows, curves = list(earlier.rows.values()), {name: earlier.curve_rows(name) for name in CURVES}
     for run, start in progress(runs, "runs"):
         steady = steady_run(run, start)
         rows.append(row_of(run, steady, start))
@@ -142,10 +144,10 @@ def write_tables(runs, output, plan=None):
             thin = points[:: max(1, len(points) // LONGEST)]
             curves[curve] += [(run.name, *(f"{value:.4g}" for value in point)) for point in thin]
     for row in rows:
-        if row["flagged"]:
+        if float(row["flagged"]):
             warn(
-                f"{row['run']}: the inertial number is {row['I_reached']:.4g}, more than {100 * TOLERANCE:g} % off its "
-                "target"
+                f"{row['run']}: the inertial number is {float(row['I_reached']):.4g}, more than "
+                f"{100 * TOLERANCE:g} % off its target"
             )
     rows += missing_rows(plan, {row["run"] for row in rows})
     names = [name for name, _, _ in header()]
@@ -279,6 +281,9 @@ def add_arguments(parser):
     parser.add_argument(
         "--plan", type=Path, metavar="FILE", help="plan.csv of the study: planned runs that are missing are named"
     )
+    parser.add_argument(
+        "--earlier", metavar="FOLDER", help="data set of the same study: planned runs that are in it are added"
+    )
 
 
 def folder_and_start(word):
@@ -291,7 +296,11 @@ def folder_and_start(word):
 
 
 def run(arguments):
-    if not arguments.run:
+    if arguments.earlier and not arguments.plan:
+        raise InputError("--earlier needs --plan, got none")
+    planned = {row.get("run"): row for row in read_csv(arguments.plan)} if arguments.plan else {}
+    earlier = Earlier(arguments.earlier, planned)
+    if not arguments.run and not earlier.rows:
         raise InputError("run must be at least one folder, got none: no run of the study has ended")
     pairs = map(folder_and_start, arguments.run)
-    write_tables([(read_run(folder), start) for folder, start in pairs], arguments.output, arguments.plan)
+    write_tables([(read_run(folder), start) for folder, start in pairs], arguments.output, arguments.plan, earlier)
