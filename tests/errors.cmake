@@ -10,6 +10,7 @@ foreach(style IN LISTS styles_with_keywords)
   foreach(way refused taken)
     add_script(${style}-keywords-${way} COMMAND ${keywords} ${case}-${way} 1 LABELS error ${style})
   endforeach()
+  add_script(${style}-keywords-refused-every-word COMMAND ${keywords} ${case}-refused-every-word 1 LABELS long ${style})
   add_script(${style}-keywords-refused-on-2-ranks RANKS 2 COMMAND ${keywords} ${case}-refused 2
              LABELS error mpi ${style})
 endforeach()

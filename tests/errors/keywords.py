@@ -14,9 +14,9 @@ PLANE = Keyword("plane", choice("xy", "xz", "yz"))
 COMPONENT = Keyword("component", choice("vx", "vy", "vz", "wx", "wy", "wz"))
 WALLS = Keyword("walls", choice("no", "yes", "only"))
 TYPE = Kind(
-    "two atom types, each a number or *", ("1 1", "* *", "1 *"), NOT_NUMBERS + ("0", "-1", "1.5", "1000001", "**")
+    "two atom types, each a number or *", ("1 1", "* *", "1 *"), ("0", "-1", "1.5", "1000001", "**"), NOT_NUMBERS
 )
-TYPES = [Keyword("types", TYPE), Keyword("types 1", Kind(TYPE.requirement, ("1", "*"), TYPE.bad), "types")]
+TYPES = [Keyword("types", TYPE), Keyword("types 1", replace(TYPE, good=("1", "*")), "types")]
 REGION = Keyword(
     "region",
     Kind("a region that is defined", ("box",), ("q", "", "nan", "BOX")),
@@ -45,8 +45,7 @@ LENGTH = number("a positive length", ("1e-300", "1e300"), ("0", "-1", "-0.0", "1
 REFERENCE = Kind(
     "f_ID[n], v_name or time",
     ("v_strain", "f_press[1]", "time"),
-    NOT_NUMBERS
-    + (
+    (
         "0.1",
         "strain",
         "c_x[1]",
@@ -63,6 +62,7 @@ REFERENCE = Kind(
         "f_press[1][2]",
         "f_press[x]",
     ),
+    NOT_NUMBERS,
 )
 STRAIN = Keyword("strain", REFERENCE)
 COLUMNS = (
@@ -434,11 +434,12 @@ def slug(style):
     return style.name.split()[-1].replace("/", "-")
 
 
-def refused(style):
-    """All of them on one rank; on more, one: every rank reads the same words."""
+def refused(style, every=False):
+    """All of them on one rank; on more, one: every rank reads the same words. `every`: also each word that no keyword
+    of its kind takes, at each keyword."""
 
     def case(ranks):
-        inputs = list(style.refused())
+        inputs = list(style.refused(every))
         require_all_refused(style, inputs if ranks == 1 else inputs[len(inputs) // 2 :][:1], ranks)
 
     return case
@@ -469,9 +470,11 @@ def taken(style):
     return case
 
 
-CASES = {f"{slug(style)}-refused": refused(style) for style in STYLES} | {
-    f"{slug(style)}-taken": taken(style) for style in STYLES
-}
+CASES = (
+    {f"{slug(style)}-refused": refused(style) for style in STYLES}
+    | {f"{slug(style)}-refused-every-word": refused(style, True) for style in STYLES}
+    | {f"{slug(style)}-taken": taken(style) for style in STYLES}
+)
 
 if __name__ == "__main__":
     main(CASES)

@@ -17,19 +17,25 @@ def listed(words):
 @dataclass
 class Kind:
     """What may follow a keyword: the requirement that messages give, values that are taken (the limits, where there are
-    any), and values that are not."""
+    any), and values that are not; `never`: those that keywords of one way to read them share."""
 
     requirement: str
     good: tuple
     bad: tuple
+    never: tuple = ()
+
+    def some_bad(self, turn):
+        """All of `bad` and two of `never`, by turns."""
+        return *self.bad, *(self.never[(2 * turn + k) % len(self.never)] for k in range(2) if self.never)
 
 
 def choice(*words):
-    return Kind(listed(words), words, ("q", "", "nan", "1e999", words[0].upper(), words[0] + "s", words[0] + " "))
+    never = ("q", "", "nan", "1e999", words[0].upper(), words[0] + "s", words[0] + " ")
+    return Kind(listed(words), words, (), never)
 
 
 def number(requirement, good, bad):
-    return Kind(requirement, good, NOT_NUMBERS + bad)
+    return Kind(requirement, good, bad, NOT_NUMBERS)
 
 
 def whole(low, high):
@@ -93,8 +99,8 @@ class Style:
         own = [k.text for k in self.keywords if " " not in k.text]
         return list(self.order) or [*own, *self.flags]
 
-    def refused(self):
-        """(command, message) of every bad input."""
+    def refused(self, every):
+        """(command, message) of every bad input, or of some."""
         if self.others:
             pass
         elif self.names():
@@ -103,9 +109,9 @@ class Style:
         else:
             for word in ("spin", "", "nan", "0"):
                 yield self.command(quoted(word)), f"takes no keywords, got '{word}'"
-        for keyword in self.keywords:
-            first = keyword.first()
-            for value in keyword.kind.bad:
+        for turn, keyword in enumerate(self.keywords):
+            first, kind = keyword.first(), keyword.kind
+            for value in (*kind.bad, *kind.never) if every else kind.some_bad(turn):
                 yield self.command(keyword.text, quoted(value), leave_out=first), keyword.complaint(value)
             yield self.command(keyword.text, leave_out=first), keyword.end()
             twice = [f"{keyword.text} {value}" for value in (keyword.kind.good[0], keyword.kind.good[-1])]
