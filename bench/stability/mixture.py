@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Small spheres among large ones in a shear flow, by time level and time step: mixture.csv, and the table of
-doc/stability_data.md. Goes on where it was stopped; ten minutes for all.
+doc/stability_data.md. Goes on where it was stopped; ten minutes for 1 : 5, an hour for 1 : 10.
 
     bench/stability/mixture.py build/release/bin/grainscope
 """

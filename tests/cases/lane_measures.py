@@ -13,7 +13,7 @@ from everything import RATE, Questions
 from packing import dense_packing
 from run import run
 
-STEPS = 200
+STEPS = 60
 EVERY = 10
 SIZES = (0.8, 0.9, 1.0, 1.1, 1.2)
 TYPES = Material(

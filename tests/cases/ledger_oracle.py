@@ -17,7 +17,7 @@ from run import run
 C_LEDGER = outputs("energy/ledger").of("ledger")
 F_PRESS = outputs("press/strain").of("press")
 
-STEPS = 60
+STEPS = 30
 COLUMNS = (*ENTRIES, *AXES, *STORES)
 RATES = [C_LEDGER[f"{name}_rate"] for name in (*ENTRIES, *AXES)]
 STORED = [C_LEDGER[name] for name in STORES]

@@ -4,7 +4,7 @@ contact is followed by name from one step to the next and paired with its own ve
 nothing is summed over grains first."""
 import numpy as np
 
-from oracle.sphere_law import contacts
+from oracle.sphere_law import contacts, cross
 
 LOSSES = ("D_n", "D_t", "D_damp", "D_rolling", "G_k", "G_p", "G_n", "G_open", "G_dt")
 ENTRIES = ("W_shear", "W_box", "W_frame", "W_other", *LOSSES)
@@ -61,13 +61,7 @@ class Snapshot:
         row = self.contacts[key]
         arm_i = row["point"] - self.grains.x[i]
         arm_j = arm_i + row["branch"]
-        return (
-            v[i]
-            - v[j]
-            - gradient @ self.box.edges @ row["image"]
-            + np.cross(omega[i], arm_i)
-            - np.cross(omega[j], arm_j)
-        )
+        return v[i] - v[j] - gradient @ self.box.edges @ row["image"] + cross(omega[i], arm_i) - cross(omega[j], arm_j)
 
 
 def carried(before, after):

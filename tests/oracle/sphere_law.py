@@ -60,19 +60,22 @@ def half_step_velocities(grains, dt, first):
 def touching(grains, box):
     """(i, j, image) with i < j in ID, x_j + H image touching x_i."""
     shifts = np.array(list(itertools.product((-1, 0, 1), repeat=3)))
-    for i, j in itertools.combinations(range(len(grains.ids)), 2):
-        gaps = (
-            np.linalg.norm(grains.x[i] - grains.x[j] - shifts @ box.edges.T, axis=1)
-            - grains.radius[i]
-            - grains.radius[j]
-        )
-        for k in np.flatnonzero(gaps < 0.0):
-            yield i, j, shifts[k]
+    i, j = np.triu_indices(len(grains.ids), 1)
+    apart = (grains.x[i] - grains.x[j])[:, None, :] - shifts @ box.edges.T
+    reach = (grains.radius[i] + grains.radius[j])[:, None]
+    for pair, k in zip(*np.nonzero(np.linalg.norm(apart, axis=2) < reach)):
+        yield i[pair], j[pair], shifts[k]
+
+
+def cross(a, b):
+    """Of two vectors; numpy's is made for many, and takes ten times as long for two."""
+    (ax, ay, az), (bx, by, bz) = a.tolist(), b.tolist()
+    return np.array([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx])
 
 
 def rotation(start, end):
     """The shortest that takes one unit vector to another (Rodrigues)."""
-    axis, cosine = np.cross(start, end), start @ end
+    axis, cosine = cross(start, end), start @ end
     turning = np.array([[0.0, -axis[2], axis[1]], [axis[2], 0.0, -axis[0]], [-axis[1], axis[0], 0.0]])
     return np.eye(3) + turning + turning @ turning / (1.0 + cosine)
 
@@ -84,7 +87,7 @@ def in_the_middle(radii, branch, v, spins, dt):
     distance = np.linalg.norm(middle)
     half, overlap = middle / distance, sum(radii) - distance
     levers = [(r - 0.5 * overlap) * spin for r, spin in zip(radii, spins)]
-    u = v - np.cross(levers[0] + levers[1], half)
+    u = v - cross(levers[0] + levers[1], half)
     return rotation(half, n) @ u, rotation(2.0 * (half @ n) * half - n, n)
 
 
@@ -110,7 +113,7 @@ def contacts(law, grains, box, first):
         if law.tangential == "off" or not law.tangential_damping:
             gamma_t = 0.0
         relative = v[i] - (v[j] + box.rate @ image)
-        at_force = u = relative - np.cross(ri * omega[i] + rj * omega[j], n)
+        at_force = u = relative - cross(ri * omega[i] + rj * omega[j], n)
         before = law.springs.get((i, j))
         if law.synchronized and not first:
             radii = (grains.radius[i], grains.radius[j])
