@@ -1,5 +1,6 @@
 # Whether our styles fit this host, before anything is built: compiles cmake/host_probe.cpp against the staged headers,
-# and refuses other forks in one sentence that says what they lack. Two seconds; kept until a header changes.
+# and refuses other forks in one sentence that says what they lack. Four seconds; kept until a header changes, wherever
+# they lie: -D HOST_PROBE_PASSED from another build folder's cache saves them.
 
 set(probe "${CMAKE_BINARY_DIR}/probe")
 set(text "")
@@ -14,7 +15,8 @@ write_if_changed("${probe}/our_headers.h" "${text}")
 file(GLOB probed "${HOST_STAGE}/*.h" src/*/*.h cmake/host_probe.cpp)
 foreach(file IN LISTS probed)
   file(SHA1 "${file}" sum)
-  string(APPEND probe_key "${file} ${sum}\n")
+  get_filename_component(name "${file}" NAME)
+  string(APPEND probe_key "${name} ${sum}\n")
 endforeach()
 string(SHA1 probe_key "${probe_key}")
 
@@ -60,5 +62,5 @@ if(NOT HOST_PROBE_PASSED STREQUAL probe_key)
     message(FATAL_ERROR "${given}: '${HOST_SOURCE}' (${fork} ${host_version}) is not supported: ${lacking}. "
                         "doc/hosts.md lists the hosts that are.")
   endif()
-  set(HOST_PROBE_PASSED "${probe_key}" CACHE INTERNAL "Headers of the host that the probe was compiled with")
+  set(HOST_PROBE_PASSED "${probe_key}" CACHE INTERNAL "Compiler and headers of the host that the probe passed with")
 endif()

@@ -17,6 +17,13 @@ LAMDA = "prd_lamda[0] = prd_lamda[1] = prd_lamda[2] = {};"
 HALF_LAMDA = "prd_half_lamda[0] = prd_half_lamda[1] = prd_half_lamda[2] = {};"
 
 
+def probe_passed():
+    """That our styles fit the host was found when the program of these tests was configured: by the same compiler from
+    the same headers, or else it is looked at again."""
+    cache = (Path(os.environ["GRAINSCOPE_BUILD"]) / "CMakeCache.txt").read_text()
+    return f"-D{re.search('^HOST_PROBE_PASSED:.*', cache, re.M)[0]}"
+
+
 def configure(source, *options, build=None):
     """(exit code, output with lines unwrapped, build folder)."""
     build = build or Path(tempfile.mkdtemp(dir=os.environ["GRAINSCOPE_SCRATCH"])) / "build"
@@ -28,6 +35,7 @@ def configure(source, *options, build=None):
             "-B",
             build,
             "-DGRAINSCOPE_TESTS=OFF",
+            probe_passed(),
             f"-DLIGGGHTS_SOURCE_DIR={source}",
             *options,
         ],
