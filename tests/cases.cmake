@@ -1,19 +1,23 @@
 # gran/insitu: the motion of pair_style gran, LIGGGHTS around it
 add_cases(gran/insitu-bitwise-equal cases/pair_bitwise.py LABEL case STYLES gran/insitu RANKS 1 LONG_RANKS 2 CASES
-  spheres spheres-as-superquadrics spheroid-0.33 spheroid-3 polydisperse two-types)
+  spheres polydisperse two-types)
+add_cases(gran/insitu-bitwise-equal cases/pair_bitwise.py LABEL case STYLES gran/insitu LONG_RANKS 1 2 CASES
+  spheres-as-superquadrics spheroid-0.33 spheroid-3)
 add_cases(gran/insitu-bitwise-equal cases/pair_bitwise.py LABEL case STYLES gran/insitu RANKS 1 2 CASES spheroid-1.5)
-add_cases(gran/insitu-bitwise-equal cases/pair_bitwise.py LABEL case STYLES gran/insitu CASES
-  tangential-off tangential-no-history rolling-cdt hooke tangential-damping-off gaussian-curvature limit-force
-  uncompiled-combination boxy-grains)
+add_cases(gran/insitu-bitwise-equal cases/pair_bitwise.py LABEL case STYLES gran/insitu LONG_RANKS 1 CASES
+  tangential-off limit-force)
+add_cases(gran/insitu-bitwise-equal cases/pair_bitwise.py LABEL case STYLES gran/insitu CASES tangential-no-history
+  rolling-cdt hooke tangential-damping-off gaussian-curvature uncompiled-combination boxy-grains)
 add_cases(gran/insitu-spheres cases/sphere_bitwise.py LABEL case STYLES gran/insitu RANKS 1 LONG_RANKS 2 4 CASES hertz)
 add_cases(gran/insitu-spheres cases/sphere_bitwise.py LABEL case STYLES gran/insitu RANKS 1 LONG_RANKS 2 4 CASES
   hooke tangential-no-history frozen-of-two-types polydisperse settling-between-walls bridges-washino
   narrow-contact-distance)
-add_cases(gran/insitu-spheres cases/sphere_bitwise.py LABEL case STYLES gran/insitu CASES
-  hooke-two-sevenths hertz-stiffness hooke-stiffness hooke-stiffness-absolute tangential-off
-  tangential-no-history-of-hooke tangential-damping-off limit-force two-types frozen rolling-cdt rolling-epsd2
-  cohesion-sjkr ledger bridges-easo types-that-no-grain-has types-that-no-spheroid-has spheroids-of-hertz-stiffness
-  spheroids-of-hertz-stiffness-without-friction spheroids-of-hooke-stiffness)
+add_cases(gran/insitu-spheres cases/sphere_bitwise.py LABEL case STYLES gran/insitu CASES hooke-two-sevenths
+  hertz-stiffness hooke-stiffness hooke-stiffness-absolute tangential-off tangential-no-history-of-hooke
+  tangential-damping-off limit-force two-types frozen rolling-cdt rolling-epsd2 cohesion-sjkr ledger bridges-easo
+  types-that-no-grain-has spheroids-of-hertz-stiffness spheroids-of-hertz-stiffness-without-friction)
+add_cases(gran/insitu-spheres cases/sphere_bitwise.py LABEL case STYLES gran/insitu LONG_RANKS 1 CASES
+  types-that-no-spheroid-has spheroids-of-hooke-stiffness)
 add_cases(gran/insitu-host cases/pair_host.py LABEL case STYLES gran/insitu RANKS 1 LONG_RANKS 2 CASES
   pair-local-output-does-not-disturb restart-of-spheres-continues clear-and-begin-again pair-style-again
   sinks-come-and-go virial-of-spheroids)
@@ -52,34 +56,40 @@ add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYL
 add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures} surface/ellipsoid
   LONG_RANKS 4 CASES ellipsoids-0.33 ellipsoids-polydisperse)
 add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures} surface/ellipsoid
-  RANKS 2 LONG_RANKS 4 CASES ellipsoids-1.5)
+  LONG_RANKS 2 4 CASES ellipsoids-1.5)
 add_cases(stress/contact+dissipation+nematic-same cases/ranks.py LABEL case STYLES ${first_measures} surface/ellipsoid
   LONG_RANKS 2 4 CASES ellipsoids-3)
 # measures of contacts that are worked out four at a time, against one by one
-add_cases(stress/contact+dissipation-lanes cases/lane_measures.py LABEL case
-  STYLES ${first_measures} gran/insitu RANKS 1 LONG_RANKS 2 CASES spheres)
-add_cases(stress/contact+dissipation-lanes cases/lane_measures.py LABEL case
-  STYLES ${first_measures} gran/insitu surface/ellipsoid RANKS 1 LONG_RANKS 2 CASES spheroid-1.5 mixed-shapes)
+add_cases(stress/contact+dissipation-lanes cases/lane_measures.py LABEL case STYLES ${first_measures} gran/insitu
+  LONG_RANKS 1 2 CASES spheres)
+add_cases(stress/contact+dissipation-lanes cases/lane_measures.py LABEL case STYLES ${first_measures} gran/insitu
+  surface/ellipsoid LONG_RANKS 1 2 CASES spheroid-1.5)
+add_cases(stress/contact+dissipation-lanes cases/lane_measures.py LABEL case STYLES ${first_measures} gran/insitu
+  surface/ellipsoid RANKS 1 LONG_RANKS 2 CASES mixed-shapes)
+add_cases(stress/contact+dissipation-lanes cases/lane_measures.py LABEL case STYLES ${first_measures} gran/insitu
+  LONG_RANKS 1 CASES spheres-of-five-sizes spheres-hooke spheres-limit-force)
 add_cases(stress/contact+dissipation-lanes cases/lane_measures.py LABEL case STYLES ${first_measures} gran/insitu CASES
-  spheres-of-five-sizes spheres-of-two-types spheres-hooke spheres-no-history spheres-without-friction
-  spheres-limit-force)
-add_cases(stress/contact+dissipation-lanes cases/lane_measures.py LABEL case
-  STYLES ${first_measures} gran/insitu surface/ellipsoid CASES
-  round-ellipsoids spheroid-0.5 spheroid-1.5-of-two-types spheroid-1.5-hooke spheroid-1.5-no-history
-  spheroid-1.5-without-friction spheroid-1.5-limit-force)
+  spheres-of-two-types spheres-no-history spheres-without-friction)
+add_cases(stress/contact+dissipation-lanes cases/lane_measures.py LABEL case STYLES ${first_measures} gran/insitu
+  surface/ellipsoid LONG_RANKS 1 CASES round-ellipsoids spheroid-1.5-without-friction spheroid-1.5-limit-force)
+add_cases(stress/contact+dissipation-lanes cases/lane_measures.py LABEL case STYLES ${first_measures} gran/insitu
+  surface/ellipsoid CASES spheroid-0.5 spheroid-1.5-of-two-types spheroid-1.5-hooke spheroid-1.5-no-history)
 add_cases(stress/contact-range cases/ranges.py LABEL case STYLES stress/contact RANKS 1 LONG_RANKS 2 CASES kappa)
+add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation LONG_RANKS 1
+  CASES history-undamped no-history synchronized synchronized-no-history)
 add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation CASES
-  history-undamped no-history frictionless slippery limit-force synchronized synchronized-no-history
-  synchronized-two-types)
+  frictionless slippery limit-force synchronized-two-types)
 add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation RANKS 1
   LONG_RANKS 2 CASES
   history)
 add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation
   RANKS 1 LONG_RANKS 2 CASES two-types)
 add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation press/strain
-  RANKS 1 LONG_RANKS 2 CASES under-pressure-control sheared-backward)
-add_cases(contact/local+surface/ellipsoid-rows cases/ellipsoid_rows.py LABEL case
-  STYLES contact/local surface/ellipsoid CASES spheroid-0.33 spheroid-3 ellipsoid-0.33 ellipsoid-3)
+  RANKS 1 LONG_RANKS 2 CASES under-pressure-control)
+add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation press/strain
+  LONG_RANKS 1 2 CASES sheared-backward)
+add_cases(contact/local+surface/ellipsoid-rows cases/ellipsoid_rows.py LABEL case STYLES contact/local surface/ellipsoid
+  LONG_RANKS 1 CASES spheroid-0.33 spheroid-3 ellipsoid-0.33 ellipsoid-3)
 add_cases(contact/local+surface/ellipsoid-rows cases/ellipsoid_rows.py LABEL case
   STYLES contact/local surface/ellipsoid RANKS 1 LONG_RANKS 2 CASES spheroid-1.5)
 add_cases(contact/local+surface/ellipsoid-rows cases/ellipsoid_rows.py LABEL case
@@ -93,18 +103,19 @@ add_cases(dissipation-collision cases/collisions.py LABEL case STYLES dissipatio
   head-on-spheres-e-0.1 head-on-spheres-e-0.5 head-on-spheres-e-0.9 head-on-prolate-e-0.1 head-on-prolate-e-0.5
   head-on-prolate-e-0.9 head-on-oblate-e-0.1 head-on-oblate-e-0.5 head-on-oblate-e-0.9 oblique-spheres oblique-prolate
   single-contact)
-add_cases(dissipation-collision cases/collisions.py LABEL case STYLES dissipation RANKS 2 CASES oblique-prolate)
+add_cases(dissipation-collision cases/collisions.py LABEL case STYLES dissipation LONG_RANKS 2 CASES oblique-prolate)
 add_cases(dissipation-collision cases/collisions.py LABEL case STYLES dissipation LONG_RANKS 2 CASES
   head-on-prolate-e-0.5)
 
 # fabric, contact/surface, contact/direction, contact/grain
 set(contact_measures fabric contact/surface contact/direction contact/grain)
-add_cases(fabric+contact/surface+contact/direction+contact/grain-oracle cases/contact_measures.py LABEL case
-  STYLES ${contact_measures} CASES
-  spheres-mu-0 spheres-mu-10 spheres-polydisperse spheroid-0.33-in-the-open spheroid-0.67-in-the-open
-  spheroid-1-in-the-open spheroid-3-in-the-open spheroid-1.5-mu-0 spheroid-1.5-mu-10 spheroid-0.33 polydisperse
-  two-types with-tangential-damping no-history tilted-backward subgroup group-of-one axis-along-body-x
-  walls units-cgs)
+add_cases(fabric+contact/surface+contact/direction+contact/grain-oracle cases/contact_measures.py LABEL case STYLES
+  ${contact_measures} CASES spheres-mu-0 spheres-mu-10 spheres-polydisperse spheroid-0.33-in-the-open
+  spheroid-1-in-the-open spheroid-1.5-mu-0 spheroid-0.33 polydisperse two-types with-tangential-damping no-history
+  tilted-backward subgroup group-of-one walls units-cgs)
+add_cases(fabric+contact/surface+contact/direction+contact/grain-oracle cases/contact_measures.py LABEL case STYLES
+  ${contact_measures} LONG_RANKS 1 CASES spheroid-0.67-in-the-open spheroid-3-in-the-open spheroid-1.5-mu-10
+  axis-along-body-x)
 add_cases(fabric+contact/surface+contact/direction+contact/grain-oracle cases/contact_measures.py LABEL case
   STYLES ${contact_measures} RANKS 1 2 CASES spheroid-1.5)
 add_cases(fabric+contact/surface+contact/direction+contact/grain-oracle cases/contact_measures.py LABEL case
@@ -128,9 +139,13 @@ add_cases(wall/gran-bitwise-equal cases/wall_bitwise.py LABEL case STYLES wall/g
   CASES
   walls-default)
 add_cases(wall/gran-bitwise-equal cases/wall_bitwise.py LABEL case STYLES wall/gran gran/insitu RANKS 1 LONG_RANKS 2
-  CASES walls-superquadric models-default models-superquadric)
+  CASES walls-superquadric)
+add_cases(wall/gran-bitwise-equal cases/wall_bitwise.py LABEL case STYLES wall/gran gran/insitu LONG_RANKS 1 2 CASES
+  models-default models-superquadric)
 add_cases(wall/gran-bitwise-equal cases/wall_bitwise.py LABEL case STYLES wall/gran gran/insitu surface/ellipsoid
-  RANKS 1 LONG_RANKS 2 CASES walls-ellipsoid models-ellipsoid)
+  LONG_RANKS 1 2 CASES walls-ellipsoid)
+add_cases(wall/gran-bitwise-equal cases/wall_bitwise.py LABEL case STYLES wall/gran gran/insitu surface/ellipsoid RANKS
+  1 LONG_RANKS 2 CASES models-ellipsoid)
 set(wall_measures wall/gran ${contact_measures} stress/contact dissipation contact/local)
 add_cases(wall/gran-measures cases/wall_measures.py LABEL case STYLES ${wall_measures} RANKS 1 LONG_RANKS 2 4 CASES
   box drum)
@@ -180,13 +195,16 @@ add_cases(displacement/shear+velocity/memory-oracle cases/series_measures.py LAB
   under-pressure-control)
 add_cases(displacement/shear+velocity/memory-oracle cases/series_measures.py LABEL case STYLES ${series}
   RANKS 1 LONG_RANKS 2 CASES spheres sheared-in-yz subgroup)
+add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation LONG_RANKS 1
+  CASES spheres-at-rest polydisperse spheroid-0.33 tilted-backward sheared-in-yz)
 add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation CASES
-  spheres-at-rest polydisperse spheroid-0.33 tilted-backward sheared-in-xz sheared-in-yz group-of-one not-periodic
-  decays)
+  sheared-in-xz group-of-one not-periodic decays)
 add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation
   LONG_RANKS 1 CASES spheroid-3)
-add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation
-  RANKS 1 LONG_RANKS 2 CASES through-a-flip plane-wave-on-a-mesh one-search asked-beside)
+add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation RANKS 1
+  LONG_RANKS 2 CASES through-a-flip plane-wave-on-a-mesh asked-beside)
+add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation LONG_RANKS 1
+  2 CASES one-search)
 add_cases(velocity/correlation-oracle cases/correlation_measures.py LABEL case STYLES velocity/correlation
   RANKS 1 LONG_RANKS 2 CASES spheres under-pressure-control subgroup running plane-wave)
 
@@ -212,16 +230,19 @@ add_cases(press/strain-path-by-hand cases/stress_path_analytic.py LABEL case STY
   sheared-in-two-planes-under-pressure)
 add_cases(press/strain-path-by-hand cases/stress_path_analytic.py LABEL case STYLES press/strain RANKS 1 LONG_RANKS 2
   CASES three-edges mean shear-stress-and-pressure)
-add_cases(press/strain-path cases/stress_paths.py LABEL case STYLES press/strain CASES
-  oedometer-frictionless oedometer-with-springs lattice-under-a-mean sheared-in-xy-and-xz sheared-in-xy-and-yz
-  volume-stays targets-follow-variables in-two-dimensions part-of-the-grains)
+add_cases(press/strain-path cases/stress_paths.py LABEL case STYLES press/strain CASES oedometer-frictionless
+  oedometer-with-springs lattice-under-a-mean volume-stays targets-follow-variables in-two-dimensions
+  part-of-the-grains)
+add_cases(press/strain-path cases/stress_paths.py LABEL case STYLES press/strain LONG_RANKS 1 CASES sheared-in-xy-and-xz
+  sheared-in-xy-and-yz)
 add_cases(press/strain-path cases/stress_paths.py LABEL case STYLES press/strain RANKS 1 LONG_RANKS 2 4 CASES
   lattice-under-three-targets holds-a-shear-stress next-stage between-runs between-walls)
 add_cases(press/strain-path cases/stress_paths.py LABEL case STYLES press/strain RANKS 1 LONG_RANKS 2 4 CASES
   sheared-in-three-planes-and-stretched whatever-lists-are-built whatever-lists-are-built-on-every-edge
   restart-continues restart-continues-with-a-mean-and-a-shear-stress)
 add_cases(press/strain-path cases/stress_paths.py LABEL case STYLES press/strain RANKS 2 LONG_RANKS 4 CASES
-  same-on-ranks same-on-ranks-with-a-mean-and-a-shear-stress)
+  same-on-ranks-with-a-mean-and-a-shear-stress)
+add_cases(press/strain-path cases/stress_paths.py LABEL case STYLES press/strain LONG_RANKS 2 4 CASES same-on-ranks)
 add_cases(press/strain-path cases/stress_paths.py LABEL long STYLES press/strain CASES flows-at-a-shear-stress)
 add_cases(press/strain-range cases/ranges.py LABEL case STYLES press/strain RANKS 1 LONG_RANKS 2 CASES clipping)
 add_cases(press/strain-runs cases/stress_path_runs.py LABEL case STYLES press/strain stress/contact
@@ -247,34 +268,40 @@ add_cases(press/wall-analytic cases/press_wall_analytic.py LABEL case STYLES pre
   automatic-gain-presses given-gain follows-with-a-base)
 add_cases(press/wall-bed cases/press_wall.py LABEL case STYLES press/wall RANKS 1 LONG_RANKS 2 4 CASES
   holds-spheres restarted restarted-neutral)
-add_cases(press/wall-bed cases/press_wall.py LABEL case STYLES press/wall RANKS 1 LONG_RANKS 2 CASES
-  holds-spheroids holds-hooke stable-every-step stable-rarely stable-bouncing stable-damped
-  target-follows-a-variable counts-time group sinking smaller-plates)
+add_cases(press/wall-bed cases/press_wall.py LABEL case STYLES press/wall RANKS 1 LONG_RANKS 2 CASES holds-spheroids
+  holds-hooke stable-every-step stable-bouncing stable-damped target-follows-a-variable counts-time group sinking)
+add_cases(press/wall-bed cases/press_wall.py LABEL case STYLES press/wall LONG_RANKS 1 2 CASES stable-rarely
+  smaller-plates)
 add_cases(press/wall-bed cases/press_wall.py LABEL case STYLES press/wall RANKS 2 LONG_RANKS 4 CASES same-on-ranks)
 add_cases(press/wall-bed cases/press_wall.py LABEL case STYLES press/wall energy/ledger RANKS 1 LONG_RANKS 2 CASES
   energy)
 
 # nve/spheroid
-add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid CASES
-  flows-as-host-0.5 boxy-grains)
+add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid LONG_RANKS 1 CASES
+  flows-as-host-0.5)
+add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid CASES boxy-grains)
 add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid LONG_RANKS 1 CASES
   flows-as-host-1.5)
 add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid RANKS 1 LONG_RANKS 2 CASES
   energy-kept some-grains first-group collision-of-prolate-grains collision-of-oblate-grains inserted-grains)
 add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid RANKS 1 LONG_RANKS 2
   CASES restart-continues)
-add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid RANKS 1 2 LONG_RANKS 4 CASES
+add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid RANKS 1 LONG_RANKS 2 4 CASES
   shears-as-host-1.5)
 add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid RANKS 1 LONG_RANKS 2 4 CASES
-  free-flight free-flight-in-large-turns shears-as-host-0.5)
+  free-flight free-flight-in-large-turns)
+add_cases(nve/spheroid-motion cases/spheroid_motion.py LABEL case STYLES nve/spheroid LONG_RANKS 1 2 4 CASES
+  shears-as-host-0.5)
 
 # surface ellipsoid, contact/solver
-add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case STYLES surface/ellipsoid CASES
-  spheroid-0.33 spheroid-3 spheres polydisperse frozen-grains narrow-contact-distance gaussian-curvature
-  mean-curvature mean-curvature-of-mixed-shapes curvature-keywords-without-limit tangential-off tangential-no-history
-  hooke rolling-cdt rolling-epsd2 limit-force-undamped moved-by-nve-spheroid mixed-shapes-and-types cohesion
-  spheres-of-five-sizes frozen-spheres softened-spheres rods-squeezed-by-the-box tumbling-rods-with-jumps
-  tumbling-rods-shrink-wrapped pushed-rods shapes-set-between-runs)
+add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case STYLES surface/ellipsoid LONG_RANKS 1
+  CASES spheroid-0.33 spheroid-3)
+add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case STYLES surface/ellipsoid CASES spheres
+  polydisperse frozen-grains narrow-contact-distance gaussian-curvature mean-curvature mean-curvature-of-mixed-shapes
+  curvature-keywords-without-limit tangential-off tangential-no-history hooke rolling-cdt rolling-epsd2
+  limit-force-undamped moved-by-nve-spheroid mixed-shapes-and-types cohesion spheres-of-five-sizes frozen-spheres
+  softened-spheres rods-squeezed-by-the-box tumbling-rods-with-jumps tumbling-rods-shrink-wrapped pushed-rods
+  shapes-set-between-runs)
 add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case STYLES surface/ellipsoid RANKS 1
   LONG_RANKS 2 CASES
   spheroid-1.5 tumbling-rods-in-a-deforming-box)
@@ -290,12 +317,14 @@ add_cases(surface/ellipsoid-bitwise-equal cases/ellipsoid_bitwise.py LABEL case 
 add_cases(surface/ellipsoid-host cases/pair_host.py LABEL case STYLES surface/ellipsoid gran/insitu
   RANKS 1 LONG_RANKS 2 CASES
   virial-of-ellipsoids restart-of-ellipsoids-continues pair-local-output-does-not-disturb-ellipsoids)
+add_cases(surface/ellipsoid-forces cases/ellipsoid_forces.py LABEL case STYLES surface/ellipsoid contacthistory
+  LONG_RANKS 1 CASES spheroid-0.33 spheroid-3 polydisperse)
 add_cases(surface/ellipsoid-forces cases/ellipsoid_forces.py LABEL case STYLES surface/ellipsoid contacthistory CASES
-  spheroid-0.33 spheroid-0.5 spheroid-3 spheres polydisperse gaussian-curvature mean-curvature
-  limit-without-curvature-keywords flows-on-from-the-other restart-of-prolate-grains restart-of-oblate-grains)
+  spheroid-0.5 spheres gaussian-curvature mean-curvature limit-without-curvature-keywords flows-on-from-the-other
+  restart-of-prolate-grains restart-of-oblate-grains)
 add_cases(surface/ellipsoid-forces cases/ellipsoid_forces.py LABEL case STYLES surface/ellipsoid
   RANKS 1 LONG_RANKS 2 CASES spheroid-1.5 restart-before-a-flip)
-add_cases(surface/ellipsoid-forces cases/ellipsoid_forces.py LABEL case STYLES surface/ellipsoid RANKS 2 CASES
+add_cases(surface/ellipsoid-forces cases/ellipsoid_forces.py LABEL case STYLES surface/ellipsoid LONG_RANKS 2 CASES
   start-survives-a-swap)
 add_cases(surface/ellipsoid-wall cases/ellipsoid_walls.py LABEL case STYLES surface/ellipsoid CASES
   prolate-on-a-plane prolate-on-a-cylinder prolate-on-a-mesh oblate-on-a-plane oblate-on-a-cylinder oblate-on-a-mesh
@@ -319,7 +348,7 @@ add_cases(surface/ellipsoid-contact cases/ellipsoid_contacts.py LABEL case STYLE
   limit-below-one-caps-spheres spheres-collide spheres-collide-head-on spheres-collide-hooke-no-history
   spheres-collide-rolling spheres-part-at-e concentric-spheres concentric-spheroids concentric-triaxial
   no-stale-springs no-stale-springs-of-poles host-keeps-springs host-keeps-springs-of-poles)
-add_cases(surface/ellipsoid-contact cases/ellipsoid_contacts.py LABEL case STYLES surface/ellipsoid RANKS 2 CASES
+add_cases(surface/ellipsoid-contact cases/ellipsoid_contacts.py LABEL case STYLES surface/ellipsoid LONG_RANKS 2 CASES
   concentric-between-ranks)
 add_cases(contact/solver-counts cases/contact_solver.py LABEL case STYLES contact/solver surface/ellipsoid
   RANKS 1 LONG_RANKS 2 4 CASES lists-and-contacts)
@@ -330,36 +359,42 @@ add_cases(contact/solver-counts cases/contact_solver.py LABEL case STYLES contac
 
 # energy/ledger
 set(ledger energy/ledger ledger/record dissipation)
-add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} CASES
-  sheared-frictionless no-history polydisperse drift-kept synchronized-damped synchronized-no-history
-  synchronized-open-and-close synchronized-under-pressure-control)
+add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} LONG_RANKS 1 CASES
+  sheared-frictionless polydisperse drift-kept synchronized-no-history synchronized-open-and-close)
+add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} CASES no-history synchronized-damped
+  synchronized-under-pressure-control)
 add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} LONG_RANKS 1 CASES sheared-slippery)
-add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} RANKS 1 LONG_RANKS 2 CASES sheared
-  synchronized)
-add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} RANKS 1 LONG_RANKS 2 4 CASES
-  three-rates)
+add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} RANKS 1 LONG_RANKS 2 CASES sheared)
+add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} LONG_RANKS 1 2 CASES synchronized)
+add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} LONG_RANKS 1 2 4 CASES three-rates)
+add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} LONG_RANKS 1 2 CASES
+  sheared-with-tangential-damping through-a-flip)
 add_cases(energy/ledger-oracle cases/ledger_oracle.py LABEL case STYLES ${ledger} RANKS 1 LONG_RANKS 2 CASES
-  sheared-with-tangential-damping contacts-open-and-close through-a-flip under-pressure-control
-  three-rates-and-shear)
-add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} CASES
-  two-spheres two-flat two-long-3 two-triaxial two-spheres-default two-long-1.5-superquadric order-spheres order-flat
-  order-long-1.5 order-long-3 known-collision hooke no-history tangential-damping tangential-off limit-force curvature
-  rolling-cdt rolling-epsd rolling-epsd2 rolling-superquadric sheared-0.33-mu-0 sheared-0.33-mu-0.4 sheared-0.33-mu-10
+  contacts-open-and-close under-pressure-control three-rates-and-shear)
+add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} LONG_RANKS 1 CASES two-spheres two-flat
+  two-long-3 two-triaxial two-spheres-default two-long-1.5-superquadric)
+add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} CASES order-spheres order-flat order-long-1.5
+  order-long-3 known-collision hooke no-history tangential-damping tangential-off limit-force curvature rolling-cdt
+  rolling-epsd rolling-epsd2 rolling-superquadric sheared-0.33-mu-0 sheared-0.33-mu-0.4 sheared-0.33-mu-10
   sheared-1.5-mu-0 sheared-1.5-mu-0.4 sheared-1.5-mu-10 sheared-3-mu-0 sheared-3-mu-0.4 sheared-3-mu-10 pressed-0.33
   pressed-1 pressed-3 pressed-spheres pressed-dilute pressed-along-the-flow sheared-1-mu-0 sheared-1-mu-0.4
   sheared-1-mu-10 pressed-1.5-mu-0 pressed-1.5-mu-10 energy-of-hertz energy-of-hooke energy-with-curvature
   restart-before-the-first-step asked-within-a-step overlap-of-nothing lists reopening-spheres reopening-stale-springs
   reopening-spheroids step-mode-is-the-trapezium superquadric)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} gran/insitu CASES
-  two-spheres-default-synchronized two-superquadric-synchronized two-spheres-synchronized two-long-1.5-synchronized
-  two-flat-synchronized hooke-synchronized no-history-synchronized damped-synchronized superquadric-synchronized
-  lanes-synchronized-spheres lanes-synchronized-round lanes-synchronized-spheroids undisturbed-synchronized-spheres
-  undisturbed-synchronized-superquadrics restart-synchronized-superquadrics)
+  two-spheres-default-synchronized two-superquadric-synchronized two-flat-synchronized hooke-synchronized
+  no-history-synchronized damped-synchronized superquadric-synchronized lanes-synchronized-spheres
+  lanes-synchronized-round lanes-synchronized-spheroids undisturbed-synchronized-spheres
+  restart-synchronized-superquadrics)
+add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} gran/insitu LONG_RANKS 1 CASES
+  two-spheres-synchronized two-long-1.5-synchronized undisturbed-synchronized-superquadrics)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} gran/insitu RANKS 1 LONG_RANKS 2 4 CASES
   sheared-synchronized pressed-spheres-synchronized types-synchronized mixture-synchronized
   undisturbed-synchronized-spheroids restart-synchronized-spheres)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} gran/insitu RANKS 2 LONG_RANKS 4 CASES
-  same-synchronized-spheres same-synchronized-spheroids)
+  same-synchronized-spheres)
+add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} gran/insitu LONG_RANKS 2 4 CASES
+  same-synchronized-spheroids)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} gran/insitu setup/memory CASES
   restart-synchronized-spheroids)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS 1 LONG_RANKS 2
@@ -371,15 +406,19 @@ add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS 1 LONG_RANKS 2 4 CASES pressed-1.5)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} RANKS 2 LONG_RANKS 4 CASES same-spheroids)
 add_cases(energy/ledger-closes cases/ledger.py LABEL case STYLES ${ledger} LONG_RANKS 2 4 CASES same-spheres)
-add_cases(energy/ledger-walls cases/ledger_walls.py LABEL case STYLES ${ledger} wall/gran CASES
-  bounce-plane bounce-plane-spheres bounce-long bounce-hooke bounce-no-history bounce-damped bounce-rolling shear moving
-  pulls frozen restarted-neutral bounce-synchronized-spheres bounce-synchronized-long bounce-synchronized-superquadric
-  bounce-synchronized-no-history plate-synchronized restarted-synchronized-neutral)
+add_cases(energy/ledger-walls cases/ledger_walls.py LABEL case STYLES ${ledger} wall/gran LONG_RANKS 1 CASES
+  bounce-plane bounce-plane-spheres bounce-no-history restarted-neutral bounce-synchronized-long
+  bounce-synchronized-no-history)
+add_cases(energy/ledger-walls cases/ledger_walls.py LABEL case STYLES ${ledger} wall/gran CASES bounce-long bounce-hooke
+  bounce-damped bounce-rolling shear moving pulls frozen bounce-synchronized-spheres bounce-synchronized-superquadric
+  plate-synchronized restarted-synchronized-neutral)
 add_cases(energy/ledger-walls cases/ledger_walls.py LABEL case STYLES ${ledger} wall/gran RANKS 1 LONG_RANKS 2 4 CASES
   seen-from-outside bounce-mesh plate conveyor drum hopper-spheres drops-out between-runs in-a-box-that-shears
   other-laws drained drum-synchronized drum-synchronized-walls drum-synchronized-grains hopper-synchronized)
 add_cases(energy/ledger-walls cases/ledger_walls.py LABEL case STYLES ${ledger} wall/gran RANKS 1 LONG_RANKS 2 4 CASES
-  hopper-spheroids torn-apart rained restarted in-a-box-that-stretches restarted-synchronized)
+  hopper-spheroids torn-apart rained restarted in-a-box-that-stretches)
+add_cases(energy/ledger-walls cases/ledger_walls.py LABEL case STYLES ${ledger} wall/gran LONG_RANKS 1 2 4 CASES
+  restarted-synchronized)
 set(ledger_flows ${ledger} wall/gran wall/contact)
 add_cases(energy/ledger-flows cases/ledger_flows.py LABEL case STYLES ${ledger_flows} RANKS 1 LONG_RANKS 2 4 CASES
   small-silo small-drum)
@@ -390,10 +429,11 @@ add_cases(setup/memory-split cases/restarts.py LABEL case STYLES setup/memory gr
   split-spheroids)
 add_cases(setup/memory-split cases/restarts.py LABEL case STYLES setup/memory gran/insitu RANKS 1 LONG_RANKS 2 CASES
   split-through-a-flip measures-go-on)
-add_cases(setup/memory-split cases/restarts.py LABEL case STYLES setup/memory gran/insitu CASES
-  split-spheres split-superquadrics split-of-spheres-through-a-flip split-with-rolling split-without-history
-  split-with-gravity split-by-the-host split-after-no-step noticed-freezing noticed-velocities noticed-spins
-  noticed-places noticed-box noticed-deletion noticed-time-step)
+add_cases(setup/memory-split cases/restarts.py LABEL case STYLES setup/memory gran/insitu CASES split-spheres
+  split-of-spheres-through-a-flip split-with-rolling split-without-history split-with-gravity split-by-the-host
+  noticed-freezing noticed-velocities noticed-spins noticed-places noticed-box noticed-deletion noticed-time-step)
+add_cases(setup/memory-split cases/restarts.py LABEL case STYLES setup/memory gran/insitu LONG_RANKS 1 CASES
+  split-superquadrics split-after-no-step)
 set(resumed read_restart run/guard setup/memory)
 add_cases(read_restart-goes-on cases/restarts.py LABEL case STYLES ${resumed} RANKS 1 LONG_RANKS 2
   CASES exact-spheroids)
@@ -405,17 +445,19 @@ add_cases(read_restart-goes-on cases/restarts.py LABEL case STYLES ${resumed} CA
   exact-superquadrics exact-by-the-host)
 add_cases(read_restart-goes-on cases/restarts.py LABEL long STYLES ${resumed} RANKS 1 2 CASES
   killed-spheres killed-spheroids)
-add_cases(read_restart-recipe cases/recipes.py LABEL case STYLES ${resumed} CASES
-  page-on-running example example-with-mpirun written-out prolonged-as-shown stopped-in-order first-rows
+add_cases(read_restart-recipe cases/recipes.py LABEL case STYLES ${resumed} LONG_RANKS 1 CASES page-on-running
+  example-with-mpirun written-out prolonged-as-shown)
+add_cases(read_restart-recipe cases/recipes.py LABEL case STYLES ${resumed} CASES example stopped-in-order first-rows
   complete-wherever-shown)
 add_cases(read_restart+energy/ledger-recipe cases/recipes.py LABEL case STYLES ${resumed} energy/ledger
   CASES with-ledger)
 add_cases(build-job-scripts cases/recipes.py LABEL case STYLES build CASES job-scripts-are-named)
-add_cases(read_restart-damage cases/damage.py LABEL case STYLES read_restart RANKS 1 LONG_RANKS 2 CASES
-  restart-cut restart-flipped other-settings)
+add_cases(read_restart-damage cases/damage.py LABEL case STYLES read_restart LONG_RANKS 1 2 CASES restart-cut)
+add_cases(read_restart-damage cases/damage.py LABEL case STYLES read_restart RANKS 1 LONG_RANKS 2 CASES restart-flipped
+  other-settings)
 add_cases(read_restart-damage cases/damage.py LABEL case STYLES read_restart RANKS 1 LONG_RANKS 2
   CASES newest-whole-one)
-add_cases(read_restart-damage cases/damage.py LABEL case STYLES read_restart CASES plain-gran-and-back)
+add_cases(read_restart-damage cases/damage.py LABEL case STYLES read_restart LONG_RANKS 1 CASES plain-gran-and-back)
 add_cases(read_restart-damage cases/damage.py LABEL long STYLES read_restart CASES
   restart-cut-often restart-flipped-often)
 add_cases(run/guard-stopped cases/restarts.py LABEL case STYLES run/guard RANKS 1 LONG_RANKS 2 4 CASES sigterm)
@@ -428,9 +470,9 @@ add_cases(run/guard-damage cases/damage.py LABEL case STYLES run/guard RANKS 1 L
   velocity-nan lost-from-a-periodic-box)
 add_cases(run/guard-damage cases/damage.py LABEL case STYLES run/guard RANKS 1 LONG_RANKS 2 CASES
   force-inf too-long-a-step)
-add_cases(run/guard-damage cases/damage.py LABEL case STYLES run/guard CASES
-  may-leave-an-open-box lost-beside-an-open-face disk-full-snapshots disk-full-dump disk-full-table disk-full-log
-  disk-full-restart)
+add_cases(run/guard-damage cases/damage.py LABEL case STYLES run/guard CASES may-leave-an-open-box
+  lost-beside-an-open-face disk-full-snapshots disk-full-dump disk-full-table disk-full-restart)
+add_cases(run/guard-damage cases/damage.py LABEL case STYLES run/guard LONG_RANKS 1 CASES disk-full-log)
 
 # All styles at once: ranks, ways to ask, changes between runs, decompositions, orders of grains, builds, lifetimes
 add_cases(every-style-same cases/same_everywhere.py LABEL case STYLES ALL RANKS 2 LONG_RANKS 4 CASES
@@ -441,8 +483,9 @@ add_cases(every-style-same cases/same_everywhere.py LABEL case STYLES ALL LONG_R
   oblate-grains subgroup restart-on-other-ranks)
 add_cases(every-style-same cases/same_everywhere.py LABEL case STYLES ALL CASES empty-group-of-spheres)
 add_cases(every-style-same cases/same_everywhere.py LABEL case STYLES ALL RANKS 1 2 CASES restart-continues)
+add_cases(every-style-same cases/same_everywhere.py LABEL case STYLES ALL LONG_RANKS 1 2 CASES does-not-disturb-spheres)
 add_cases(every-style-same cases/same_everywhere.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 CASES
-  does-not-disturb-spheres does-not-disturb-spheroids restart-refused restart-of-spheres-continues)
+  does-not-disturb-spheroids restart-refused restart-of-spheres-continues)
 add_cases(every-style-asked cases/asking.py LABEL case STYLES ALL CASES
   as-pair-gran-local-spheres as-pair-gran-local-spheroids as-pair-gran-local-oblate dumped means variables
   orthogonal-box as-pair-gran-local-ellipsoids as-pair-gran-local-oblate-ellipsoids)
@@ -455,18 +498,19 @@ add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL RANKS 1 2 C
 add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 CASES
   box-turned-orthogonal grains-deleted clear-starts-afresh-with-ellipsoids pair-style-twice
   time-step-changed-in-mid-run box-scaled groups-changed-without-set-up)
-add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 4 CASES
-  grains-inserted clear-starts-afresh steps-renumbered)
+add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 4 CASES grains-inserted
+  steps-renumbered)
+add_cases(every-style-changes cases/changes.py LABEL case STYLES ALL LONG_RANKS 1 2 4 CASES clear-starts-afresh)
 add_cases(every-style-rank-sweep cases/rank_sweep.py LABEL case STYLES ALL RANKS 8 CASES spheroids-through-a-flip)
 add_cases(every-style-rank-sweep cases/rank_sweep.py LABEL case STYLES ALL LONG_RANKS 8 CASES
   spheres superquadrics-through-a-flip)
 add_cases(every-style-rank-sweep cases/rank_sweep.py LABEL long STYLES ALL RANKS 8 CASES every-decomposition)
-add_cases(every-style-decomposition cases/decomposition.py LABEL case STYLES ALL RANKS 2 CASES
+add_cases(every-style-decomposition cases/decomposition.py LABEL case STYLES ALL LONG_RANKS 2 CASES
   on-corners-of-a-tilted-box)
 add_cases(every-style-decomposition cases/decomposition.py LABEL case STYLES ALL RANKS 4 CASES
   just-below-the-least-height)
 add_cases(every-style-decomposition cases/decomposition.py LABEL case STYLES ALL LONG_RANKS 4 CASES empty-ranks)
-add_cases(every-style-decomposition cases/decomposition.py LABEL case STYLES ALL RANKS 3 CASES
+add_cases(every-style-decomposition cases/decomposition.py LABEL case STYLES ALL LONG_RANKS 3 CASES
   just-above-the-least-height just-above-the-least-height-of-ellipsoids)
 add_cases(every-style-decomposition cases/decomposition.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 3 CASES
   arrive-on-the-upper-face shrinks-by-press-strain shrinks-by-fix-deform shrinks-by-change-box sheared-too-narrow
@@ -507,35 +551,38 @@ add_cases(study-config cases/study_config.py LABEL case STYLES study CASES
   negative-friction half-a-grain not-finite twice steady-beyond-strain exception-steady measure exception-shape
   exceptions-no-list exception-where exception-use exception-value output ranks
   groups paper-size groups-no-list group-words group-no-points group-keyword group-value group-twice)
-add_cases(study-fits cases/study_fits.py LABEL case STYLES study CASES
-  friction-law fraction-law power-law without-errors decay refused curves-that-do-not-bend crossing level-set
-  laws-of-grid laws-of-shape seeds-and-sizes agreement published-of-grid)
+add_cases(study-fits cases/study_fits.py LABEL case STYLES study CASES friction-law fraction-law power-law
+  without-errors decay refused crossing level-set laws-of-grid laws-of-shape seeds-and-sizes agreement
+  published-of-grid)
+add_cases(study-fits cases/study_fits.py LABEL case STYLES study LONG_RANKS 1 CASES curves-that-do-not-bend)
 add_cases(study-runs cases/study_runs.py LABEL case STYLES study RANKS 1 LONG_RANKS 2 CASES
   killed-run-continues longer-strain-continues)
-add_cases(study-runs cases/study_runs.py LABEL case STYLES study CASES
-  one-at-a-time stopped-run-has-not-ended out-of-time hours-refused first-restart-cut no-restart-whole
-  other-variables-refused
-  part-must-be-named reason-is-given means-of-files table-holds-everything)
-add_cases(study-slices cases/study_slices.py LABEL case STYLES study CASES
-  parts-within-time first-that-fits stopped-slice-goes-on killed-slice-goes-on killed-slice-leaves-none
-  one-slice-at-a-time nothing-fits failures-are-told options-refused)
-add_cases(study-partial cases/study_partial.py LABEL case STYLES study CASES
-  status-of-known-files status-of-nothing partial-is-marked table-refusals data-set data-set-refused metadata
-  earlier-runs earlier-refused every-column-has-a-source)
-add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study CASES basic-measures bad-configuration)
+add_cases(study-runs cases/study_runs.py LABEL case STYLES study LONG_RANKS 1 CASES one-at-a-time
+  stopped-run-has-not-ended out-of-time hours-refused first-restart-cut no-restart-whole part-must-be-named)
+add_cases(study-runs cases/study_runs.py LABEL case STYLES study CASES other-variables-refused reason-is-given
+  means-of-files table-holds-everything)
+add_cases(study-slices cases/study_slices.py LABEL case STYLES study CASES parts-within-time first-that-fits
+  stopped-slice-goes-on one-slice-at-a-time nothing-fits failures-are-told options-refused)
+add_cases(study-slices cases/study_slices.py LABEL case STYLES study LONG_RANKS 1 CASES killed-slice-goes-on
+  killed-slice-leaves-none)
+add_cases(study-partial cases/study_partial.py LABEL case STYLES study CASES status-of-known-files status-of-nothing
+  partial-is-marked table-refusals data-set-refused metadata earlier-runs earlier-refused every-column-has-a-source)
+add_cases(study-partial cases/study_partial.py LABEL case STYLES study LONG_RANKS 1 CASES data-set)
+add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study CASES basic-measures)
+add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study LONG_RANKS 1 CASES bad-configuration)
 add_cases(study-workflow cases/study_workflow.py LABEL case STYLES study LONG_RANKS 1 CASES
   failing-runs-do-not-stop-others study-goes-on)
-add_cases(tools cases/tools_command.py LABEL case STYLES tools CASES
-  help-of-all unknown-refused missing-input-refused runs-refused python-without-numpy missing-packages-named
-  packages-are-installed-by-scripts syntax-of-python-3-9 examples-of-page progress-is-said run-is-followed)
+add_cases(tools cases/tools_command.py LABEL case STYLES tools CASES help-of-all unknown-refused missing-input-refused
+  runs-refused python-without-numpy missing-packages-named packages-are-installed-by-scripts syntax-of-python-3-9
+  progress-is-said run-is-followed)
+add_cases(tools cases/tools_command.py LABEL case STYLES tools LONG_RANKS 1 CASES examples-of-page)
 add_cases(tools-plot cases/tools_plot.py LABEL case STYLES tools CASES
   known-error constants steady-parts files-of-the-program picture not-finite command-line)
 add_cases(tools-rows cases/tools_rows.py LABEL case STYLES tools CASES
   tables files-of-the-program incomplete command-line)
-add_cases(tools-fields cases/field_pictures.py LABEL case STYLES tools CASES
-  cells-in-order profiles empty-cells error-bands several-files maps tilted-maps slices arrows rings animation
-  groups-and-columns
-  not-finite bad-files command-line)
+add_cases(tools-fields cases/field_pictures.py LABEL case STYLES tools CASES cells-in-order profiles empty-cells
+  error-bands several-files maps tilted-maps slices arrows rings groups-and-columns not-finite bad-files command-line)
+add_cases(tools-fields cases/field_pictures.py LABEL case STYLES tools LONG_RANKS 1 CASES animation)
 add_cases(study-slurm cases/study_slurm.py LABEL long STYLES study CASES slurm-grid)
 
 # What ends between runs: the last step of a run is known after it
@@ -559,9 +606,10 @@ add_cases(gran/insitu-first-evaluation cases/first_evaluation.py LABEL case
 add_cases(gran/insitu-first-evaluation cases/first_evaluation.py LABEL case
   STYLES gran/insitu run/guard contact/local contact/grain dissipation stress/contact RANKS 1 LONG_RANKS 2 CASES
   as-the-host packings beside-a-mesh-moved-before beside-a-mesh-moved-after when-a-motion-ends)
-add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case
-  STYLES contact/local dissipation gran/insitu CASES
-  sjkr sjkr2 sjkr-reduces-friction sjkr-no-history sjkr-limit-force neutral neutral-slippery neutral-two-types)
+add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation gran/insitu
+  LONG_RANKS 1 CASES sjkr sjkr2 sjkr-no-history sjkr-limit-force neutral-slippery neutral-two-types)
+add_cases(contact/local+dissipation-law cases/sphere_law.py LABEL case STYLES contact/local dissipation gran/insitu
+  CASES sjkr-reduces-friction neutral)
 add_cases(contact/local+contact/grain+contact/surface-friction-limit cases/friction_limit.py LABEL case
   STYLES contact/local contact/grain contact/surface dissipation CASES
   spheroids-cohesion-reduces balls-that-slide liquid-bridge-washino liquid-bridge-easo)
@@ -577,17 +625,17 @@ add_cases(surface/ellipsoid-history-columns cases/history_columns.py LABEL case
   flat spheres under-gran counted behind-the-surface without-a-trace without-a-trace-under-gran
   without-a-trace-cohesive)
 add_cases(surface/ellipsoid-history-columns cases/history_columns.py LABEL case STYLES surface/ellipsoid pair/gran/local
-  RANKS 1 2 CASES spheroids)
+  RANKS 1 LONG_RANKS 2 CASES spheroids)
 
 # Faces that move alone
-add_cases(displacement/shear-faces cases/moving_faces.py LABEL case STYLES displacement/shear change_box RANKS 1 2
-  CASES shrink-wrapped changed-periodic changed-tilt)
+add_cases(displacement/shear-faces cases/moving_faces.py LABEL case STYLES displacement/shear change_box RANKS 1
+  LONG_RANKS 2 CASES shrink-wrapped changed-periodic changed-tilt)
 add_cases(displacement/shear-faces cases/moving_faces.py LABEL case STYLES displacement/shear change_box CASES
   shrink-wrapped-grains-at-rest shrink-wrapped-all-around shrink-wrapped-with-minimum shrink-wrapped-above
   in-a-shear-flow changed changed-and-back changed-with-remap changed-periodic-with-remap changed-tilt-with-remap
   changed-boundary)
-add_cases(fluctuation+layering-faces cases/moving_faces.py LABEL case STYLES fluctuation layering RANKS 1 2 CASES
-  top-layer)
+add_cases(fluctuation+layering-faces cases/moving_faces.py LABEL case STYLES fluctuation layering RANKS 1 LONG_RANKS 2
+  CASES top-layer)
 add_cases(gran/insitu-faces cases/moving_faces.py LABEL case STYLES gran/insitu run/guard setup/memory CASES
   neutral-with-minimum neutral-changed-beyond-grains neutral-notices-periodic)
 add_cases(gran/insitu-faces cases/moving_faces.py LABEL case STYLES gran/insitu setup/memory RANKS 1 LONG_RANKS 2 CASES
@@ -605,7 +653,7 @@ add_cases(superquadric-data-file cases/data_files.py LABEL case STYLES superquad
   columns-of-file by-hand-11-columns by-hand-14-columns by-hand-15-columns by-hand-with-comments spin-of-file
   spin-of-other-moments spheres)
 add_cases(superquadric-data-file cases/inserted.py LABEL case STYLES superquadric CASES inserted)
-add_cases(build-mends cases/inserted.py LABEL case STYLES build RANKS 1 2 CASES screen-none)
+add_cases(build-mends cases/inserted.py LABEL case STYLES build RANKS 1 LONG_RANKS 2 CASES screen-none)
 
 # The tests themselves
 add_cases(suite-starts cases/starts.py LABEL case STYLES suite CASES
@@ -614,25 +662,28 @@ add_cases(suite-starts cases/starts.py LABEL case STYLES suite CASES
 add_cases(suite-starts cases/starts.py LABEL long STYLES suite CASES side-by-side)
 add_cases(suite-order cases/suite.py LABEL case STYLES suite CASES
   every-style-has-tests names-begin-with-a-style unknown-word-refused short-words what-works-where)
-add_cases(study-runs cases/study_runs.py LABEL case STYLES study RANKS 1 LONG_RANKS 2 4 CASES
-  longer-strain-continues-basic)
+add_cases(study-runs cases/study_runs.py LABEL case STYLES study LONG_RANKS 1 2 4 CASES longer-strain-continues-basic)
 add_cases(build-bare-debian cases/bare_debian.py LABEL long STYLES build CASES
   demos-are-equal tests-on-bookworm tests-on-trixie package-of-bookworm package-of-trixie clang-of-trixie)
-add_cases(build-containers cases/containers.py LABEL case STYLES build CASES same-in-both build-gets-its-files)
+add_cases(build-containers cases/containers.py LABEL case STYLES build CASES same-in-both)
+add_cases(build-containers cases/containers.py LABEL case STYLES build LONG_RANKS 1 CASES build-gets-its-files)
 add_cases(build-job-scripts cases/job_scripts.py LABEL long STYLES build CASES slurm pbs sge)
 
 # What grains do at walls
-add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall/gran RANKS 1 2 LONG_RANKS 4 CASES
-  balance mesh-stress drum)
+add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall/gran RANKS 1 2 LONG_RANKS 4 CASES drum)
+add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall/gran RANKS 1 LONG_RANKS 2 4 CASES
+  balance mesh-stress)
 add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall/gran RANKS 1 LONG_RANKS 2
   CASES impacts)
 add_cases(wall/contact cases/wall_contact.py LABEL case STYLES wall/contact wall/gran CASES
   couple weight rows-by-name power-of-a-plane losses areas bounded impacts-resumed)
-add_cases(wall/triangle cases/wall_triangle.py LABEL case STYLES wall/triangle wall/contact RANKS 1 2 LONG_RANKS 4
-  CASES rows wear)
+add_cases(wall/triangle cases/wall_triangle.py LABEL case STYLES wall/triangle wall/contact RANKS 1 2 LONG_RANKS 4 CASES
+  rows)
+add_cases(wall/triangle cases/wall_triangle.py LABEL case STYLES wall/triangle wall/contact RANKS 1 LONG_RANKS 2 4 CASES
+  wear)
 
 # A box that fix press/strain would make too small
-add_cases(press/strain-small-box cases/small_box.py LABEL case STYLES press/strain gran/insitu RANKS 1 2 LONG_RANKS 4
+add_cases(press/strain-small-box cases/small_box.py LABEL case STYLES press/strain gran/insitu RANKS 1 LONG_RANKS 2 4
   CASES refused warned)
 add_cases(press/strain-small-box cases/small_box.py LABEL case STYLES press/strain gran/insitu CASES
   discs only-what-is-certain large-enough forecast-comes-true)
@@ -646,29 +697,34 @@ add_cases(packing cases/packing_clumps.py LABEL case STYLES packing RANKS 1 LONG
 add_cases(packing cases/packing_measures.py LABEL case STYLES packing RANKS 1 LONG_RANKS 2 4 CASES
   prolate blocky discs of-a-group in-regions empty-group inertial-number)
 add_cases(contact/force cases/contact_force.py LABEL case STYLES contact/force contact/local RANKS 1 2 LONG_RANKS 4
-  CASES spheres prolate chains equal-forces at-walls clumps)
+  CASES prolate)
+add_cases(contact/force cases/contact_force.py LABEL case STYLES contact/force contact/local RANKS 1 LONG_RANKS 2 4
+  CASES spheres chains equal-forces at-walls clumps)
 add_cases(contact/force cases/contact_force.py LABEL case STYLES contact/force contact/local RANKS 1 LONG_RANKS 2 4
   CASES trajectory-untouched oblate superquadric cohesive of-types discs in-a-region of-a-group empty-group)
 
 # Fields on grids
-add_cases(field/write cases/field_files.py LABEL case STYLES field/write RANKS 1 2 LONG_RANKS 4 CASES
-  averages untouched between-runs refused)
+add_cases(field/write cases/field_files.py LABEL case STYLES field/write RANKS 1 2 LONG_RANKS 4 CASES averages)
+add_cases(field/write cases/field_files.py LABEL case STYLES field/write RANKS 1 LONG_RANKS 2 4 CASES untouched
+  between-runs refused)
 add_cases(field cases/field.py LABEL case STYLES field RANKS 1 LONG_RANKS 2 4 CASES
   sheared-spheres sheared-ellipsoids flipping-box laboratory walls)
-add_cases(field cases/field.py LABEL case STYLES field RANKS 1 LONG_RANKS 2 4 CASES
-  gaussian lucy rings-in-a-drum empty-cells trajectory-untouched)
-add_cases(field cases/field.py LABEL case STYLES field RANKS 1 LONG_RANKS 2 4 CASES
-  which-walls types group rings-in-a-periodic-box two-dimensions order-of-columns by-region clumps-refused on-faces
-  other-region mixture-warned-of)
-add_cases(field+stress/contact+packing-sums cases/field.py LABEL case
-  STYLES field stress/contact fabric dissipation packing nematic RANKS 1 2 LONG_RANKS 4 CASES
-  sums sums-ellipsoids sums-between-walls)
+add_cases(field cases/field.py LABEL case STYLES field LONG_RANKS 1 2 4 CASES gaussian)
+add_cases(field cases/field.py LABEL case STYLES field RANKS 1 LONG_RANKS 2 4 CASES lucy rings-in-a-drum empty-cells
+  trajectory-untouched)
+add_cases(field cases/field.py LABEL case STYLES field RANKS 1 LONG_RANKS 2 4 CASES which-walls types group
+  order-of-columns by-region clumps-refused on-faces other-region mixture-warned-of)
+add_cases(field cases/field.py LABEL case STYLES field LONG_RANKS 1 2 4 CASES rings-in-a-periodic-box two-dimensions)
+add_cases(field+stress/contact+packing-sums cases/field.py LABEL case STYLES field stress/contact fabric dissipation
+  packing nematic RANKS 1 2 LONG_RANKS 4 CASES sums-ellipsoids)
+add_cases(field+stress/contact+packing-sums cases/field.py LABEL case STYLES field stress/contact fabric dissipation
+  packing nematic RANKS 1 LONG_RANKS 2 4 CASES sums sums-between-walls)
 add_cases(field cases/field.py LABEL case STYLES field CASES
   oracle-clipped-as-sampled oracle-by-hand oracle-weights-of-kernels oracle-sums oracle-sums-ellipsoids
   oracle-sums-between-walls)
-add_cases(field cases/field_balances.py LABEL case STYLES field RANKS 1 2 LONG_RANKS 4 CASES
-  cold-affine cold-rotation cold-rotation-in-rings cold-sheared-box mass weight silo
-  under-a-plate)
+add_cases(field cases/field_balances.py LABEL case STYLES field RANKS 1 2 LONG_RANKS 4 CASES cold-sheared-box)
+add_cases(field cases/field_balances.py LABEL case STYLES field RANKS 1 LONG_RANKS 2 4 CASES cold-affine cold-rotation
+  cold-rotation-in-rings mass weight silo under-a-plate)
 add_cases(field cases/field_balances.py LABEL case STYLES field RANKS 1 LONG_RANKS 2 4 CASES
   cold-layers momentum momentum-sheared momentum-gaussian)
 
@@ -726,10 +782,14 @@ add_cases(tools-render-scene cases/tools_render_scene.py LABEL case STYLES tools
   walls wall-edges primitives cuts wall-parts wrapped boxes-and-arrows chains chains-across-faces see-through needs)
 add_cases(tools-render-scene cases/tools_render_scene.py LABEL case STYLES tools contact/local
   RANKS 1 LONG_RANKS 2 CASES chains-of-a-run)
-add_cases(tools-render-film cases/tools_render_film.py LABEL case STYLES tools CASES
-  gif progress one-view-at-a-time same-look one-step walls-that-move missing-programs refusals scene-file)
+add_cases(tools-render-film cases/tools_render_film.py LABEL case STYLES tools LONG_RANKS 1 CASES gif progress
+  walls-that-move)
+add_cases(tools-render-film cases/tools_render_film.py LABEL case STYLES tools CASES one-view-at-a-time same-look
+  one-step missing-programs refusals scene-file)
 add_cases(tools-render-film cases/tools_render_film.py LABEL case STYLES tools LONG_RANKS 1 CASES mp4)
-add_cases(tools-render-page cases/tools_render_page.py LABEL case STYLES tools contact/local CASES commands gallery)
+add_cases(tools-render-page cases/tools_render_page.py LABEL case STYLES tools contact/local LONG_RANKS 1 CASES
+  commands)
+add_cases(tools-render-page cases/tools_render_page.py LABEL case STYLES tools contact/local CASES gallery)
 
 # Format of the files, and what the tools that look for faults say of them
 add_cases(documentation cases/documentation.py LABEL case STYLES documentation CASES
@@ -743,19 +803,19 @@ add_cases(suite-style cases/style.py LABEL case STYLES suite style CASES clang-f
 add_cases(suite-style cases/style.py LABEL long STYLES suite style CASES clang-tidy)
 
 # Two dimensions: discs, whatever the box's depth is
-add_cases(every-style-two-dimensions cases/two_dimensions.py LABEL case STYLES ALL RANKS 1 2 LONG_RANKS 4
-  CASES any-depth)
-add_cases(every-style-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES ALL RANKS 2 LONG_RANKS 4
-  CASES decompositions)
+add_cases(every-style-two-dimensions cases/two_dimensions.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 4 CASES
+  any-depth)
+add_cases(every-style-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES ALL LONG_RANKS 2 4 CASES
+  decompositions)
 add_cases(stress/contact-two-dimensions cases/two_dimensions.py LABEL case STYLES stress/contact
   RANKS 1 LONG_RANKS 2 4 CASES stress lattice)
-add_cases(fluctuation+layering+contact/direction-two-dimensions cases/two_dimensions.py LABEL case
-  STYLES fluctuation layering contact/direction RANKS 1 2 LONG_RANKS 4 CASES motion)
-add_cases(dissipation+nematic+contact/grain-two-dimensions cases/two_dimensions.py LABEL case
-  STYLES dissipation nematic contact/grain contact/local RANKS 1 2 LONG_RANKS 4 CASES losses)
+add_cases(fluctuation+layering+contact/direction-two-dimensions cases/two_dimensions.py LABEL case STYLES fluctuation
+  layering contact/direction RANKS 1 LONG_RANKS 2 4 CASES motion)
+add_cases(dissipation+nematic+contact/grain-two-dimensions cases/two_dimensions.py LABEL case STYLES dissipation nematic
+  contact/grain contact/local RANKS 1 LONG_RANKS 2 4 CASES losses)
 add_cases(fabric-two-dimensions cases/two_dimensions.py LABEL case STYLES fabric RANKS 1 LONG_RANKS 2 4 CASES fabric)
-add_cases(velocity/correlation-two-dimensions cases/two_dimensions.py LABEL case STYLES velocity/correlation
-  RANKS 1 2 LONG_RANKS 4 CASES correlation)
+add_cases(velocity/correlation-two-dimensions cases/two_dimensions.py LABEL case STYLES velocity/correlation RANKS 1
+  LONG_RANKS 2 4 CASES correlation)
 add_cases(energy/ledger-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES energy/ledger
   RANKS 1 LONG_RANKS 2 4 CASES ledger)
 add_cases(press/strain-two-dimensions cases/two_dimensions_runs.py LABEL case STYLES press/strain
@@ -770,28 +830,31 @@ add_cases(gran/insitu-two-dimensions cases/two_dimensions_runs.py LABEL case STY
   RANKS 1 LONG_RANKS 2 4 CASES in-parts)
 # What is measured: the shared keywords
 set(scoped stress/contact dissipation fabric contact/grain)
-add_cases(stress/contact+dissipation+fabric-scope cases/scopes.py LABEL case STYLES ${scoped} RANKS 1 4
-  CASES rows-by-types chosen-types)
+add_cases(stress/contact+dissipation+fabric-scope cases/scopes.py LABEL case STYLES ${scoped} RANKS 1 LONG_RANKS 4 CASES
+  rows-by-types)
+add_cases(stress/contact+dissipation+fabric-scope cases/scopes.py LABEL case STYLES ${scoped} RANKS 1 4 CASES
+  chosen-types)
 add_cases(stress/contact-scope cases/scopes.py LABEL case STYLES stress/contact RANKS 1 LONG_RANKS 4 CASES
   planes-and-pressures volumes whole-box-warned-of)
 add_cases(nematic-scope cases/scopes.py LABEL case STYLES nematic RANKS 1 LONG_RANKS 4 CASES
   mixtures-of-shapes angles-in-planes)
-add_cases(stress/contact+fabric+dissipation-region cases/regions.py LABEL case
-  STYLES stress/contact fabric dissipation RANKS 1 4 LONG_RANKS 2 CASES
-  partition-of-a-sheared-box partition-between-walls)
-add_cases(stress/contact+nematic+contact/grain-region cases/regions.py LABEL case
-  STYLES stress/contact nematic contact/grain dissipation RANKS 1 4 LONG_RANKS 2 CASES places)
+add_cases(stress/contact+fabric+dissipation-region cases/regions.py LABEL case STYLES stress/contact fabric dissipation
+  RANKS 1 4 LONG_RANKS 2 CASES partition-of-a-sheared-box)
+add_cases(stress/contact+fabric+dissipation-region cases/regions.py LABEL case STYLES stress/contact fabric dissipation
+  RANKS 1 LONG_RANKS 2 4 CASES partition-between-walls)
+add_cases(stress/contact+nematic+contact/grain-region cases/regions.py LABEL case STYLES stress/contact nematic
+  contact/grain dissipation RANKS 1 LONG_RANKS 2 4 CASES places)
 add_cases(stress/contact-region cases/regions.py LABEL case STYLES stress/contact RANKS 1 LONG_RANKS 2 4 CASES
   volumes-add-up nothing-there)
-add_cases(contact/direction+contact/surface+contact/local-region cases/regions.py LABEL case
-  STYLES contact/direction contact/surface contact/local RANKS 1 2 LONG_RANKS 4 CASES bins-and-rows)
+add_cases(contact/direction+contact/surface+contact/local-region cases/regions.py LABEL case STYLES contact/direction
+  contact/surface contact/local RANKS 1 LONG_RANKS 2 4 CASES bins-and-rows)
 add_cases(velocity/correlation-region cases/flows.py LABEL case STYLES velocity/correlation RANKS 1 LONG_RANKS 2
   CASES correlation-in-a-region)
 add_cases(stress/contact+fabric+fluctuation-region cases/regions.py LABEL case
   STYLES stress/contact fabric fluctuation RANKS 1 LONG_RANKS 2 4 CASES without-set-up)
 add_cases(stress/contact+fabric-region cases/regions.py LABEL case STYLES stress/contact fabric dissipation
   RANKS 1 LONG_RANKS 2 CASES refused)
-add_cases(stress/contact-region cases/region_shapes.py LABEL case STYLES stress/contact RANKS 1 4 LONG_RANKS 2 CASES
+add_cases(stress/contact-region cases/region_shapes.py LABEL case STYLES stress/contact RANKS 1 LONG_RANKS 2 4 CASES
   shapes)
 add_cases(stress/contact-region cases/region_shapes.py LABEL case STYLES stress/contact RANKS 1 LONG_RANKS 2 4 CASES
   closed-forms faces-that-follow two-dimensions between-runs)
@@ -800,23 +863,24 @@ add_cases(stress/contact+fabric+contact/grain-region cases/region_shapes.py LABE
 
 # Clumps
 set(of_clumps stress/contact fluctuation displacement/shear velocity/correlation velocity/memory layering contact/grain)
-add_cases(stress/contact+fluctuation+displacement/shear-clumps cases/clumps.py LABEL case STYLES ${of_clumps}
-  RANKS 1 2 LONG_RANKS 4 CASES as-grains between-walls)
-add_cases(stress/contact+fluctuation+displacement/shear-clumps cases/clumps.py LABEL case STYLES ${of_clumps}
-  RANKS 2 LONG_RANKS 1 4 CASES crosses-faces trajectory-untouched)
+add_cases(stress/contact+fluctuation+displacement/shear-clumps cases/clumps.py LABEL case STYLES ${of_clumps} RANKS 1
+  LONG_RANKS 2 4 CASES as-grains between-walls)
+add_cases(stress/contact+fluctuation+displacement/shear-clumps cases/clumps.py LABEL case STYLES ${of_clumps} LONG_RANKS
+  2 1 4 CASES crosses-faces trajectory-untouched)
 add_cases(dissipation+fabric+contact/direction-clumps cases/clumps.py LABEL case
   STYLES dissipation fabric contact/direction contact/local RANKS 1 2 LONG_RANKS 4 CASES losses)
 add_cases(nematic+energy/ledger+press/strain-clumps cases/clumps.py LABEL case
   STYLES nematic energy/ledger press/strain gran/insitu RANKS 1 LONG_RANKS 2 CASES refused)
-add_cases(fluctuation+layering+displacement/shear-clumps cases/clumps.py LABEL case
-  STYLES fluctuation layering displacement/shear velocity/memory velocity/correlation RANKS 2 LONG_RANKS 1
-  CASES refused-of-a-part refused-bodies)
+add_cases(fluctuation+layering+displacement/shear-clumps cases/clumps.py LABEL case STYLES fluctuation layering
+  displacement/shear velocity/memory velocity/correlation LONG_RANKS 2 1 CASES refused-of-a-part refused-bodies)
 
 # Flows that are not the box's, groups whose grains come and go
 add_cases(fluctuation-flows cases/flows.py LABEL case STYLES fluctuation RANKS 1 LONG_RANKS 2 4 CASES mean-flows)
 add_cases(fluctuation-flows cases/flows.py LABEL case STYLES fluctuation RANKS 1 LONG_RANKS 2 CASES solid-rotation)
-add_cases(displacement/shear-flows cases/flows.py LABEL case STYLES displacement/shear RANKS 1 2 LONG_RANKS 4
-  CASES displacements-against-flows solid-turns sheared-flight)
+add_cases(displacement/shear-flows cases/flows.py LABEL case STYLES displacement/shear RANKS 1 2 LONG_RANKS 4 CASES
+  displacements-against-flows)
+add_cases(displacement/shear-flows cases/flows.py LABEL case STYLES displacement/shear RANKS 1 LONG_RANKS 2 4 CASES
+  solid-turns sheared-flight)
 add_cases(velocity/memory+displacement/shear-flows cases/flows.py LABEL case
   STYLES velocity/memory displacement/shear RANKS 1 2 LONG_RANKS 4 CASES grains-that-come-and-go)
 add_cases(velocity/memory+displacement/shear-flows cases/flows.py LABEL case
@@ -825,7 +889,8 @@ add_cases(velocity/memory+displacement/shear-time cases/passed_time.py LABEL cas
   STYLES velocity/memory displacement/shear RANKS 1 LONG_RANKS 2 4 CASES goes-on)
 
 # Other units
-add_cases(every-style-units cases/units.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 CASES spheres spheroids walls)
+add_cases(every-style-units cases/units.py LABEL case STYLES ALL LONG_RANKS 1 2 CASES spheres)
+add_cases(every-style-units cases/units.py LABEL case STYLES ALL RANKS 1 LONG_RANKS 2 CASES spheroids walls)
 
 # Problems of the field whose solution is known: errors and orders of convergence (doc/verification.md)
 function(add_verified script styles)
@@ -836,7 +901,7 @@ function(add_verified script styles)
   add_cases(${prefix} cases/${script}.py LABEL case STYLES ${styles} LONG_RANKS 2 CASES ${ARG_ON_RANKS})
   add_cases(${prefix} cases/${script}.py LABEL case STYLES ${styles} LONG_RANKS 1 CASES ${sweeps})
   string(REPLACE verification_ "" part ${script})
-  add_cases(${prefix}-${part} cases/${script}.py LABEL case STYLES ${styles} CASES as-pair-style-gran)
+  add_cases(${prefix}-${part} cases/${script}.py LABEL case STYLES ${styles} LONG_RANKS 1 CASES as-pair-style-gran)
 endfunction()
 add_verified(verification_normal "gran/insitu;wall/gran" PROBLEMS
   free-fall bounces-hooke bounces-hertz bounces-hertz-elastic restitution-hooke restitution-hooke-limited
@@ -855,13 +920,19 @@ add_verified(verification_spheroids "gran/insitu;surface/ellipsoid;nve/spheroid;
   precession-spheroid precession-superquadric rest-ellipsoid rest-superquadric ON_RANKS leaning-prolate)
 
 add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu surface/ellipsoid wall/gran CASES
-  neck neck-equal neck-ellipsoids neck-superquadrics neck-one-by-one points points-ellipsoid sieve)
+  neck neck-equal neck-ellipsoids points-ellipsoid sieve)
+add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu surface/ellipsoid wall/gran
+  LONG_RANKS 1 CASES neck-superquadrics neck-one-by-one points)
 add_cases(gran/insitu-time-level cases/time_level.py LABEL long STYLES gran/insitu CASES neck-tiny neck-hundred)
-add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu surface/ellipsoid CASES
-  order-normal order-normal-damped order-tangential order-rolling order-all order-all-damped order-ellipsoids
-  order-spheroids order-cylinder order-cylinder-ellipsoid lanes-spheres lanes-spheroids lanes-balls lanes-viscous)
-add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu surface/ellipsoid RANKS 2
-  LONG_RANKS 4 CASES ranks-spheres ranks-spheroids)
+add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu surface/ellipsoid CASES order-normal
+  order-normal-damped order-tangential order-rolling order-all order-all-damped order-ellipsoids order-cylinder
+  order-cylinder-ellipsoid lanes-spheres lanes-spheroids lanes-balls lanes-viscous)
+add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu surface/ellipsoid LONG_RANKS 1 CASES
+  order-spheroids)
+add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu surface/ellipsoid RANKS 2 LONG_RANKS
+  4 CASES ranks-spheroids)
+add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu surface/ellipsoid LONG_RANKS 2 4
+  CASES ranks-spheres)
 add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu wall/gran setup/memory read_restart
   RANKS 1 LONG_RANKS 2 4 CASES restart-spheres restart-spheroids)
 add_cases(gran/insitu-time-level cases/time_level.py LABEL case STYLES gran/insitu wall/gran setup/memory CASES

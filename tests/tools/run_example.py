@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Runs an example as expected.json says and checks the values it names. The schema is in tests/README.md."""
+"""Runs an example as expected.json says and checks the values it names. The schema is in tests/README.md.
+
+    run_example.py FOLDER [RANKS]   (default: on each number of ranks of expected.json)
+"""
 import json
 from pathlib import Path
 import shutil
@@ -65,10 +68,10 @@ def arguments(variables):
         yield from ("-var", name, *map(str, value if isinstance(value, list) else [value]))
 
 
-def main(folder):
+def main(folder, *ranks):
     expected = json.loads((folder / "expected.json").read_text())
     good = True
-    for ranks in expected["ranks"]:
+    for ranks in map(int, ranks or expected["ranks"]):
         with tempfile.TemporaryDirectory(prefix="grainscope-") as scratch:
             copy = Path(scratch) / folder.name
             shutil.copytree(folder, copy)
@@ -81,7 +84,7 @@ def main(folder):
 
 if __name__ == "__main__":
     try:
-        sys.exit(0 if main(Path(sys.argv[1]).resolve()) else 1)
+        sys.exit(0 if main(Path(sys.argv[1]).resolve(), *sys.argv[2:]) else 1)
     except Skipped as reason:
         print(f"SKIPPED {reason}")
         sys.exit(SKIPPED)
