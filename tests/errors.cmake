@@ -32,7 +32,8 @@ endforeach()
 add_cases(every-style-surroundings errors/surroundings.py LABEL error STYLES ALL CASES
   no-pair-style pair-style-gran memory-before-box atom-style atom-style-changed-later group-deleted compute-deleted
   variable-becomes-nan variable-becomes-infinite box-changed asked-between-runs asked-on-a-step-of-no-one)
-add_cases(every-style-surroundings errors/surroundings.py LABEL error STYLES ALL RANKS 2 CASES variable-becomes-nan)
+add_cases(every-style-surroundings errors/surroundings.py LABEL error STYLES ALL LONG_RANKS 2 CASES
+  variable-becomes-nan)
 add_cases(gran/insitu-surroundings errors/surroundings.py LABEL error STYLES gran/insitu RANKS 1 LONG_RANKS 2 4 CASES
   words-before-hybrid)
 set(of_strain displacement/shear velocity/memory press/strain)
@@ -135,9 +136,9 @@ if(NOT FFTW_FOUND)
   add_cases(velocity/correlation-refused errors/measures.py LABEL error STYLES velocity/correlation RANKS 1 LONG_RANKS 2
   CASES mesh-without-fftw)
 endif()
-add_cases(build-fork errors/hosts.py LABEL error STYLES build CASES what-is-missing-is-named)
-add_cases(build-fork errors/hosts.py LABEL error STYLES build LONG_RANKS 1 CASES all-of-it-at-once what-was-not-foreseen
-  a-header-that-is-not-there checked-again-when-a-header-changes)
+add_cases(build-fork errors/hosts.py LABEL error STYLES build CASES all-of-it-at-once)
+add_cases(build-fork errors/hosts.py LABEL error STYLES build LONG_RANKS 1 CASES what-is-missing-is-named
+  what-was-not-foreseen a-header-that-is-not-there checked-again-when-a-header-changes)
 add_cases(build-installed cases/installed.py LABEL error STYLES build CASES links-of-source links-of-installed
   broken-links-are-found program-is-found run-of-installed study-of-installed knows-no-place)
 add_cases(build-installed cases/installed.py LABEL error STYLES build LONG_RANKS 1 CASES without-the-link)

@@ -11,7 +11,7 @@ import yaml
 
 from case import main, require, require_close
 from command import asked, require_refused
-from grainscope.shear.measures import MEASURED
+from grainscope.shear.quantities import MEASURED
 from grainscope.study import export, status
 from grainscope.study.compare import NOT_RUN
 from grainscope.study.cost_model import steps_per_strain

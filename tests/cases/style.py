@@ -83,7 +83,7 @@ def black(ranks):
         return
     code, words, complaint = called("black", "--quiet", "--diff", "-", text="x = [1,\n  2]\n")
     require("+x = [1, 2]" in words, f"black does not work: {words}{complaint}")
-    code, shown, complaint = called("black", "--check", "--diff", "--quiet", *python_files())
+    code, shown, complaint = called("black", "--fast", "--check", "--diff", "--quiet", *python_files())
     bad = re.findall(r"^--- (\S+)\t", shown, re.M)
     require(code == 0, f"to be mended by: black {' '.join(bad)}\n{first_lines(shown + complaint)}")
 

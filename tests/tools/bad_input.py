@@ -25,8 +25,8 @@ class Kind:
     never: tuple = ()
 
     def some_bad(self, turn):
-        """All of `bad` and two of `never`, by turns."""
-        return *self.bad, *(self.never[(2 * turn + k) % len(self.never)] for k in range(2) if self.never)
+        """All of `bad` and one of `never`, by turns."""
+        return self.bad + ((self.never[turn % len(self.never)],) if self.never else ())
 
 
 def choice(*words):

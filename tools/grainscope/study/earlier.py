@@ -7,7 +7,7 @@ from pathlib import Path
 
 from grainscope.errors import InputError
 from grainscope.program import TOP
-from grainscope.shear.measures import CURVES, MEASURED
+from grainscope.shear.quantities import CURVES, MEASURED
 
 SAME = ("alpha", "mu", "I", "N", "seed", "e", "strain", "steady")
 

@@ -9,8 +9,9 @@ import numpy as np
 
 from grainscope.errors import InputError, warn
 from grainscope.progress import progress
-from grainscope.shear.measures import ALWAYS, CURVES, MEASURED, SERIES, SteadyRun, steady_run
+from grainscope.shear.measures import SteadyRun, steady_run
 from grainscope.shear.output import read_run
+from grainscope.shear.quantities import ALWAYS, CURVES, MEASURED, SERIES
 from grainscope.study.earlier import Earlier
 from grainscope.study.sources import OF_COLUMN, OF_CURVE, STUDY
 from grainscope.tables import read_rows
